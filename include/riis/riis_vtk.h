@@ -124,6 +124,11 @@ RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_ma
  *   values        (n_components, n_nodes) */
 RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const char *name, int64_t n_nodes,
                                                    int64_t n_components, const double *values);
+/* Names the unit of a point array, as VTK's key UNITS_LABEL in .vtu and .pvtu, and as the attribute Unit in XDMF.
+ *   name  the name of an array
+ *   unit  1 to 64 characters of ASCII that can be printed, such as "g/(cm3 s)"
+ * Errors: RIIS_INVALID_ARGUMENT for a name that the mesh lacks. */
+RIIS_API riis_status riis_vtk_mesh_set_unit(riis_vtk_mesh *mesh, const char *name, const char *unit);
 /* Tells whether the mesh has a point array of that name: *has is then 1, otherwise 0. */
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
 /* Gives the median length of the edges of volume cells, as in riis_vtk_mesh_create_adjacency, and of faces

@@ -11,6 +11,7 @@
 #include "errors.hpp"
 #include "module.hpp"
 #include "program/base/area_samples.hpp"
+#include "program/base/quantities.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/base/units.hpp"
@@ -238,6 +239,20 @@ nb::list warps_of(PlacedFile &self) {
 
 // ---- Units and sizes ----
 
+// Returns R as the program reads it: from a text in SI units if it has a unit, and whether it has one.
+nb::tuple read_resistance(const std::string &text) {
+  program::Amount amount;
+  call_program("resistance", [&] { amount = program::parse_amount(text, "resistance", program::a_resistance); });
+  return nb::make_tuple(amount.number, amount.has_unit);
+}
+
+// Returns R in the units of the mesh for 1 kg/(m s), and the names of the units of R and K.
+nb::tuple resistance_units(const std::string &unit) {
+  const program::Unit of = *program::unit_of(unit);
+  return nb::make_tuple(program::factor_from_si(program::a_resistance, of),
+                        program::unit_text(program::a_resistance, of), program::unit_text(program::a_K, of));
+}
+
 nb::dict units() {
   nb::dict made;
   for (const std::string &name : program::unit_names()) {
@@ -281,6 +296,12 @@ nb::tuple area_samples(Surface &surface, std::int32_t n_leaflets) {
 void add_patient(nb::module_ &module) {
   module.def("units", &units, nb::sig("def units() -> dict[str, tuple[float, str]]"),
              "Returns the units by name, with their lengths in a centimetre and the word for several.");
+  module.def("read_resistance", &read_resistance, nb::arg("text"),
+             nb::sig("def read_resistance(text: str) -> tuple[float, bool]"),
+             "Reads R, such as 1e5 g/(cm s). Returns it in kg/(m s) if it has a unit, and whether it has one.");
+  module.def("resistance_units", &resistance_units, nb::arg("unit"),
+             nb::sig("def resistance_units(unit: str) -> tuple[float, str, str]"),
+             "Returns R in the units of a mesh for 1 kg/(m s), and the names of the units of R and K.");
   module.attr("LARGEST_HALF_THICKNESS") = program::largest_half_thickness;  // as a multiple of the largest side of
                                                                             // the valve
   module.attr("USUAL_HALF_THICKNESS") = program::usual_half_thickness;

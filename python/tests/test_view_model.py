@@ -792,6 +792,51 @@ def test_a_case_that_moves(tmp_path, small):
             assert numpy.array_equal(made["riis_distance"][shown.marked], shown.distance)
 
 
+@pytest.mark.parametrize("unit", ["m", "cm", "mm"])
+@pytest.mark.parametrize("scale", [1.0, 0.97])
+def test_r_is_in_kilograms_metres_and_seconds(tmp_path, small, unit, scale):
+    """The command, the case, the script and the dictionary give one K, also where a scale hides the unit from the program."""
+    pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
+    program = program_riis()
+    metres = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}[unit]
+    points = 0.01 / metres * small[0]
+    write_mesh(tmp_path / "tube.vtk", points, small[1])
+    model = view.Model(points, small[1], unit=unit, path=tmp_path / "tube.vtk")
+    i = model.add("coapting")
+    model.set(i, "half_thickness", 0.002 / metres)
+    model.place(i, scale=scale * 0.01 / metres)
+    model.set(i, "resistance", "1e5 g/(cm s)")
+    marks = riis.mark(model.surface(i), riis.Mesh(points))
+    expected = numpy.zeros(len(points))  # kg/(m3 s)
+    distance = marks.distance * metres
+    expected[marks.ids] = 1e4 / 0.002 * (1 + numpy.cos(numpy.pi * distance / 0.002)) / (2 * 0.002)
+    kilograms = 1.0 if unit == "m" else 1e-3
+    lines = {}
+    exec(model.python(), lines)
+    (tmp_path / "case.json").write_text(model.case())
+    made = [lines["K"]]
+    for words in [shlex.split(model.command(program=program, output=str(tmp_path / "command.vtu"))),
+                  [program, "mark", "--case", tmp_path / "case.json", "--output", tmp_path / "case.vtu"]]:
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        made.append(pyvista.read(words[-1].removeprefix("--output=") if isinstance(words[-1], str) else words[-1])
+                    .point_data["riis_K"])
+    for K in made:
+        assert numpy.allclose(K * kilograms / metres**3, expected, rtol=0, atol=1e-9 * expected.max())
+    assert "    resistance 10000.0;  // [kg/(m s)]" in model.openfoam()
+    assert {"m": "kg/(m3 s)", "cm": "g/(cm3 s)", "mm": "g/(mm3 s)"}[unit] in model.python()
+
+
+def test_r_of_a_mesh_without_a_unit(small):
+    model = view.Model(*small)
+    i = model.add("coapting")
+    assert "--resistance=10000.0" in model.command() and "add_resistance(K, R=10000.0)" in model.python()
+    with pytest.raises(riis.InvalidArgumentError, match="resistance: is '1 Pa s', which has a unit; the unit of the mesh"):
+        model.set(i, "resistance", "1 Pa s")
+    with pytest.raises(riis.InvalidArgumentError, match="resistance: 'Pa' is not a unit of a resistance"):
+        model.set(i, "resistance", "1 Pa")
+
+
 def test_openfoam_s_dictionary(small):
     """The dictionary has the numbers of the model in metres, and the law of its cycle."""
     model = view.Model(10.0 * small[0], small[1], unit="mm")

@@ -811,6 +811,7 @@ TEST(test_signatures) {
   SIGNATURE(riis_vtk_mesh_set_marks, int32_t, (riis_vtk_mesh *, const riis_marks *, double, const char *));
   SIGNATURE(riis_vtk_mesh_set_fields, int32_t, (riis_vtk_mesh *, const riis_marks *, int32_t, const char *));
   SIGNATURE(riis_vtk_mesh_set_point_array, int32_t, (riis_vtk_mesh *, const char *, int64_t, int64_t, const double *));
+  SIGNATURE(riis_vtk_mesh_set_unit, int32_t, (riis_vtk_mesh *, const char *, const char *));
   SIGNATURE(riis_vtk_mesh_has_point_array, int32_t, (const riis_vtk_mesh *, const char *, int32_t *));
   SIGNATURE(riis_vtk_mesh_copy_cells, int32_t,
             (const riis_vtk_mesh *, int64_t, int64_t *, uint8_t *, int64_t, int64_t *));

@@ -225,20 +225,20 @@ TEST(test_foam) {
                     scratch_path("centers.vtu"));
   assert_true(shim_read_array(scratch_path("centers.vtu"), 'p', "riis_K", type, &n_components, &n, expected));
   assert_true(n == n_foam_cells);
-  RUN_FINE("mark", scratch_path("box"), "--cells", "--half-thickness", "0.3", "--resistance", "2", "--output",
-           scratch_path("box/0"));
+  RUN_FINE("mark", scratch_path("box"), "--cells", "--half-thickness", "0.3", "--resistance", "2", "--density", "1.06",
+           "--output", scratch_path("box/0"));
   read_field("box/0/K", "volScalarField", n_foam_cells, K);
   int n_marked = 0;
   for (int i = 0; i < n_foam_cells; ++i) {
-    assert_true(fabs(K[i] - expected[i]) <= 1e-11 * (1 + expected[i]));
+    assert_true(fabs(K[i] - expected[i] / 1.06) <= 1e-11 * (1 + expected[i]));
     n_marked += K[i] > 0;
   }
   assert_true(n_marked > 20);
   assert_true(scratch_exists("box/0/marked") && scratch_exists("box/0/distance"));
   /* A series has a folder for each time, and the velocity of the valve. */
   scratch_write_text("beat.csv", "0,0\n0.5,1\n1,0\n");
-  RUN_FINE("mark", scratch_path("box"), "--cells", "--half-thickness", "0.3", "--resistance", "2", "--cycle",
-           scratch_path("beat.csv"), "--times", "0.1:0.3:0.1", "--quiet", "--output", scratch_path("box"));
+  RUN_FINE("mark", scratch_path("box"), "--cells", "--half-thickness", "0.3", "--resistance", "2", "--density", "1060",
+           "--cycle", scratch_path("beat.csv"), "--times", "0.1:0.3:0.1", "--quiet", "--output", scratch_path("box"));
   const char *times[] = {"0.1", "0.2"};
   for (int i = 0; i < 2; ++i) {
     char name[64];
@@ -258,6 +258,13 @@ TEST(test_foam) {
                      "# vtk DataFile Version 2.0\nskin\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n"
                      "0 0 0 1 0 0 0 1 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n");
   const char *box = scratch_path("box"), *time = scratch_path("box/7");
+  RUN_REFUSED(2,
+              "box/7: OpenFOAM's K is divided by the density: write --density RHO, and R in kg/(m s) as --resistance",
+              "mark", box, "--cells", "--resistance", "2", "--output", time);
+  RUN_REFUSED(2, "--k-unit has no effect on the fields of OpenFOAM, whose K has the unit 1/s", "mark", box, "--cells",
+              "--resistance", "2", "--density", "1060", "--k-unit", "1/s", "--output", time);
+  RUN_REFUSED(2, "--density has no effect: only K in the fields of a case of OpenFOAM is divided by it", "mark", box,
+              "--cells", "--resistance", "2", "--density", "1060", "--output", scratch_path("out.vtu"));
   RUN_REFUSED(2, "box/7 takes fields of cells: write --cells", "mark", box, "--output", time);
   RUN_REFUSED(2, "--cells: --picture shows marks of nodes", "mark", box, "--cells", "--picture", "a.png");
   RUN_REFUSED(2, "--cells: --steps times marks of nodes", "mark", box, "--cells", "--steps", "3");

@@ -122,6 +122,10 @@ TEST(test_flow) {
   RUN_REFUSED(2, "--resistance requires --drop", "check", "leaks", scratch_path("box.vtu"), "--resistance", "2");
   RUN_REFUSED(2, "--resistance: 0 is not above 0", "check", "leaks", scratch_path("box.vtu"), "--resistance", "0",
               "--drop", "2");
+  RUN_REFUSED(2, "--drop: '75 mmHg' has a unit, but the unit of the mesh is not known: write --unit m, cm or mm",
+              "check", "leaks", scratch_path("box.vtu"), "--resistance", "1", "--drop", "75 mmHg");
+  RUN_REFUSED(2, "--drop: 'kg/(m s)' is not a unit of a pressure, such as Pa", "check", "leaks",
+              scratch_path("box.vtu"), "--unit", "cm", "--resistance", "1", "--drop", "75 kg/(m s)");
   RUN_REFUSED(2, "--drop: 'x'", "check", "leaks", scratch_path("box.vtu"), "--resistance", "1", "--drop", "x");
 }
 

@@ -16,20 +16,22 @@
 
 /* ---- The surface by the library's C interface ---- */
 
-/* A placement of the surface in two forms: as options of riis_surface_create, and as arguments of riis. */
+/* A placement of the surface, twice: as arguments of riis, and as options of riis_surface_create that place it in cm. The export
+ * is in g and cm, and R of the command line, 12500, is in kg/(m s) if the mesh's unit is known. */
 typedef struct {
   const char *words[6];
-  double scale, half_thickness, turn[4], shift[3];
+  double scale, half_thickness, turn[4], shift[3], R;
 } place;
 
 static const place places[] = {
-    {{NULL}, 1, 0.1, {0, 0, 1, 0}, {0, 0, 0}},
+    {{NULL}, 1, 0.1, {0, 0, 1, 0}, {0, 0, 0}, 12500},
     {{"--unit", "m", "--rotate", "1,2,-1,70", "--translate", "0.02,-0.03,0.01"},
-     0.01,
-     0.001,
+     1,
+     0.1,
      {1, 2, -1, 70},
-     {0.02, -0.03, 0.01}},
-    {{"--unit", "mm", "--rotate", "0,1,0,180", "--half-thickness", "1.2"}, 10, 1.2, {0, 1, 0, 180}, {0, 0, 0}}};
+     {2, -3, 1},
+     125000},
+    {{"--unit", "mm", "--rotate", "0,1,0,180", "--half-thickness", "1.2"}, 1, 0.12, {0, 1, 0, 180}, {0, 0, 0}, 125000}};
 enum { n_places = sizeof places / sizeof places[0] };
 
 static riis_surface *surface_at(const place *where, riis_valve *valve) {
@@ -86,8 +88,8 @@ static double ramp(double s) { return s * s * s * (10 + s * (-15 + 6 * s)); }
 
 static uris_valve exported;
 
-static void check_positions(const char *kind, const place *where, riis_valve *valve) {
-  enum { n_open = 6, n_close = 4 }; /* one frame each 0.01 s, which is 2.5 steps, and a last frame at the end */
+static void check_positions(const place *where, riis_valve *valve) {
+  enum { n_open = 6, n_close = 4 }; /* a frame each 0.01 s, which is 2.5 steps, and a last frame at the end */
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
   riis_surface *surface = surface_at(where, valve);
   for (int k = 0; k < n_open + n_close; ++k) {
@@ -101,15 +103,11 @@ static void check_positions(const char *kind, const place *where, riis_valve *va
       check_frame(face, k < n_open ? uris_frame(face, face->open, k) : uris_frame(face, face->close, k - n_open),
                   surface, f, 0, where->scale);
     }
-    if (exported.has_scaffold)
-      check_frame(&exported.face[exported.n_faces], exported.face[exported.n_faces].xyz, surface, exported.n_leaflets,
-                  3, where->scale);
   }
   riis_surface_destroy(&surface);
-  assert_string_equal(exported.name, kind);
-  CHECK_SAME(exported.thickness, where->half_thickness);
-  CHECK_SAME(exported.closed_thickness, where->half_thickness);
-  CHECK_SAME(exported.resistance, 12500);
+  CHECK_NEAR(exported.thickness, where->half_thickness, 1e-15);
+  CHECK_NEAR(exported.closed_thickness, where->half_thickness, 1e-15);
+  CHECK_SAME(exported.resistance, where->R);
 }
 
 /* Rodrigues' formula. */
@@ -144,7 +142,7 @@ static const struct {
              {"trileaflet", {"right", "left", "non_coronary"}, "leaflet_height=1.15", 3},
              {"coapting", {"right", "left", "non_coronary"}, "effective_height=0.95", 3},
              {"mitral", {"anterior", "posterior"}, "anterior_length=2.2", 2},
-             {"bileaflet", {"positive", "negative"}, "ring_height=0.6", 2}};
+             {"bileaflet", {"positive", "negative", "housing"}, "ring_height=0.6", 3}};
 enum { n_kinds = sizeof kinds / sizeof kinds[0] };
 
 TEST(test_positions) {
@@ -164,8 +162,10 @@ TEST(test_positions) {
       assert_int_equal(exported.n_leaflets, kinds[i].n_leaflets);
       assert_int_equal(exported.n_faces, kinds[i].n_leaflets + 1);
       for (int f = 0; f < exported.n_leaflets; ++f) assert_string_equal(exported.face[f].name, kinds[i].face[f]);
-      assert_int_equal(exported.has_scaffold, strcmp(kinds[i].kind, "bileaflet") == 0);
-      check_positions(kinds[i].kind, &places[k], valve);
+      assert_false(exported.has_scaffold);
+      check_positions(&places[k], valve);
+      /* The name is that of the folder. */
+      assert_non_null(strstr(exported.name, folder));
       check_normal(kinds[i].kind, &places[k]);
       uris_free(&exported);
     }
@@ -173,7 +173,29 @@ TEST(test_positions) {
   }
 }
 
-/* From the .vtu file, VTK reads the nodes of the first frame in their order. */
+/* The ring as a scaffold has its own box. Its triangles are those of the face. */
+TEST(test_ring) {
+  EXPORT("ring_face", RAMPS, "--valve", "bileaflet", "--set", "ring_height=0.6");
+  assert_string_equal(exported.face[2].name, "housing");
+  const int n = exported.face[2].n_triangles;
+  /* Normals point away from the axis. */
+  uris_state ring = uris_state_of(&exported, 3, 1, 0);
+  for (int i = ring.n - n; i < ring.n; ++i)
+    assert_true(ring.middle[3 * i] * ring.normal[3 * i] + ring.middle[3 * i + 1] * ring.normal[3 * i + 1] > 0);
+  uris_state_free(&ring);
+  assert_null(strstr(program_out, "scaffold"));
+  uris_free(&exported);
+  EXPORT("ring_scaffold", RAMPS, "--valve", "bileaflet", "--set", "ring_height=0.6", "--ring", "scaffold");
+  assert_true(exported.has_scaffold && exported.n_leaflets == 2 && exported.face[3].n_triangles == n + 3);
+  assert_non_null(strstr(program_out, "the scaffold's K is added to that of the leaflets where their bands overlap"));
+  uris_free(&exported);
+  EXPORT("ring_none", RAMPS, "--valve", "bileaflet", "--set", "ring_height=0.6", "--ring", "none");
+  assert_true(!exported.has_scaffold && exported.n_leaflets == 2);
+  assert_false(scratch_exists("ring_none/housing.vtu"));
+  uris_free(&exported);
+}
+
+/* From the .vtu, VTK reads the nodes of the first frame in their order. */
 TEST(test_vtk) {
   EXPORT("by_vtk", RAMPS, "--valve", "mitral");
   const uris_face *face = &exported.face[1];
@@ -474,6 +496,7 @@ TEST(test_box) {
       {"--valve", "trileaflet", "--half-thickness", "0.25"},
       {"--valve", "mitral"},
       {"--valve", "bileaflet", "--largest-edge", "0.3"},
+      {"--valve", "bileaflet", "--params", "flat.json", "--half-thickness", "0.25", "--ring", "scaffold"},
       {"--valve", "bileaflet", "--params", "flat.json", "--half-thickness", "0.25", "--largest-edge", "0.2"},
       {"--valve", "patch.json", "--largest-edge", "0.2"}};
   static const char *const turns[] = {"0,0,1,0", "1,2,-1,70"};

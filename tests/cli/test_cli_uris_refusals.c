@@ -48,6 +48,19 @@ TEST(test_missing_options) {
   REFUSED(2, "--period requires --cycle", EXPORT, "--time-step", "0.001", RAMPS, "--period", "1");
 }
 
+/* svMultiPhysics needs grams and centimetres. */
+TEST(test_units) {
+  REFUSED(
+      2,
+      "--scale: 10 makes lengths in millimetres, and svMultiPhysics needs grams and centimetres: write --unit mm in "
+      "place of --scale, and riis export converts",
+      EXPORT, "--time-step", "0.001", RAMPS, "--scale", "10");
+  REFUSED(2, "--scale: 0.01 makes lengths in metres", EXPORT, "--time-step", "0.001", RAMPS, "--scale", "0.01");
+  REFUSED(2, "--resistance: -1 is below 0", "export", FOLDER, "--resistance", "-1", "--time-step", "0.001", RAMPS);
+  REFUSED(2, "--resistance: 'kg/m3' is not a unit of a resistance, such as kg/(m s)", "export", FOLDER, "--resistance",
+          "1 kg/m3", "--time-step", "0.001", RAMPS);
+}
+
 TEST(test_useless_options) {
   scratch_write_text("c.csv", "0,0\n1,1\n2,0\n");
   const char *cycle = scratch_path("c.csv");
@@ -161,6 +174,55 @@ TEST(test_nothing_half_written) {
   expect_nothing_left();
 }
 
+/* ---- Names and the first state ---- */
+
+/* Two valves of one kind have two names, because their folders differ. */
+TEST(test_names) {
+  char name[2][64];
+  const char *const folders[] = {"left-heart", "right-heart"};
+  for (int i = 0; i < 2; ++i) {
+    RUN_FINE("export", scratch_path(folders[i]), "--resistance", "1", "--time-step", "0.01", RAMPS, "--valve",
+             "mitral");
+    uris_valve valve = uris_read(program_out);
+    snprintf(name[i], sizeof name[i], "%s", valve.name);
+    assert_true(strspn(name[i], "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.") == strlen(name[i]));
+    uris_free(&valve);
+  }
+  assert_string_not_equal(name[0], name[1]);
+  uris_valve valve = EXPORTED("--time-step", "0.01", RAMPS, "--valve", "mitral", "--name", "MV-1");
+  assert_string_equal(valve.name, "MV-1");
+  uris_free(&valve);
+  REFUSED(2, "--name: 'a b' must be 1 to 64 letters, digits, _, . and single -", EXPORT, "--time-step", "0.01", RAMPS,
+          "--name", "a b");
+  REFUSED(2, "--name: 'a--b' must be", EXPORT, "--time-step", "0.01", RAMPS, "--name", "a--b");
+  REFUSED(2, "--ring has no effect: only a bileaflet valve has a ring", EXPORT, "--time-step", "0.01", RAMPS, "--ring",
+          "none");
+  REFUSED(2, "--starts: half not in {closed,open}", EXPORT, "--time-step", "0.01", RAMPS, "--starts", "half");
+}
+
+static void expect_start(const char *value) {
+  char text[64];
+  snprintf(text, sizeof text, "<Valve_starts_as_closed> %s </Valve_starts_as_closed>", value);
+  if (!strstr(program_out, text)) fail_msg("no '%s' in:\n%s", text, program_out);
+  remove_folder();
+}
+
+TEST(test_first_state) {
+  RUN_FINE(EXPORT, "--time-step", "0.01", RAMPS);
+  expect_start("true");
+  RUN_FINE(EXPORT, "--time-step", "0.01", RAMPS, "--starts", "open");
+  expect_start("false");
+  scratch_write_text("open.csv", "0,1\n0.3,0\n0.6,0\n0.9,1\n");
+  RUN_FINE(EXPORT, "--time-step", "0.1", "--cycle", scratch_path("open.csv"), "--period", "1");
+  assert_non_null(strstr(program_out, "at time 0 of the cycle the valve is open, or nearer to that state"));
+  expect_start("false");
+  RUN_FINE(EXPORT, "--time-step", "0.1", "--cycle", scratch_path("open.csv"), "--period", "1", "--starts", "closed");
+  expect_start("true");
+  scratch_write_text("shut.csv", "0,0\n0.3,1\n0.6,1\n0.9,0\n");
+  RUN_FINE(EXPORT, "--time-step", "0.1", "--cycle", scratch_path("shut.csv"));
+  expect_start("true");
+}
+
 /* ---- Cycles, and valves of patches ---- */
 
 static void expect_openings(const char *text) {
@@ -207,7 +269,7 @@ TEST(test_patches) {
   assert_int_equal(program_exit_code, 0);
   assert_non_null(strstr(program_err, "left out, because the area is 0 in some frames"));
   uris_valve valve = take_export();
-  assert_string_equal(valve.name, "shrinks");
+  assert_non_null(strstr(program_out, "<!-- riis, shrinks valve\n"));
   assert_string_equal(valve.face[0].name, "leaflet_0");
   assert_true(valve.normal[2] == 1 && valve.normal[0] == 0);
   uris_free(&valve);

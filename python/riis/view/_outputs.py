@@ -20,6 +20,7 @@ import numpy
 
 from riis._errors import Error, InvalidArgumentError
 from riis._place import UNITS
+from riis._riis import resistance_units
 from riis.laws import OpeningTable, OpeningTimes
 from riis.view._valves import (
     KINDS, SURFACE, TRIANGULATIONS, Cycle, SurfaceSource, Value, ValveState, above_zero, at_least_zero, check_valve_name,
@@ -32,6 +33,11 @@ _FORMAT, _VERSION = "riis view", 1
 def has_unit(states: Iterable[ValveState], unit: str | None) -> bool:
     """Returns whether the unit gives the scale of all valves. If so, files may state the unit."""
     return unit is not None and all(state.scale == UNITS[unit] for state in states)
+
+
+def _resistance(state: ValveState, unit: str | None) -> float:
+    """Returns R in the units of the mesh. The state has it in kg/(m s) if the mesh has a unit."""
+    return state.resistance if unit is None else state.resistance * resistance_units(unit)[0]
 
 
 def _check_paths(states: Iterable[ValveState]) -> None:
@@ -111,7 +117,7 @@ def case_of(states: tuple[ValveState, ...], unit: str | None, path: str | None, 
         valve["rotate"] = list(state.rotation)
         valve["translate"] = list(state.origin)
         valve["half_thickness"] = state.half_thickness
-        valve["resistance"] = state.resistance
+        valve["resistance"] = state.resistance if with_unit else _resistance(state, unit)
         root["valves"].append(valve)
     return json.dumps(root, indent=2) + "\n"
 
@@ -150,14 +156,22 @@ def command_of(
             words.append(f"--triangulation={state.triangulation}")
     words.append(f"--unit={unit}" if with_unit else f"--scale={state.scale!r}")
     words += [f"--rotate={_numbers(state.rotation)}", f"--translate={_numbers(state.origin)}"]
-    words += [f"--half-thickness={state.half_thickness!r}", f"--resistance={state.resistance!r}", f"--output={output}"]
+    resistance = state.resistance if with_unit else _resistance(state, unit)  # without --unit it is in the mesh's units
+    words += [f"--half-thickness={state.half_thickness!r}", f"--resistance={resistance!r}", f"--output={output}"]
     return shlex.join(words)
 
 
 # ---- Python ----
 
 
-def python_of(states: tuple[ValveState, ...], path: str | None) -> str:
+def _units_of_K(unit: str | None) -> str:
+    if unit is None:
+        return "  # in the units of the mesh, as R is"
+    _, of_R, of_K = resistance_units(unit)
+    return f"  # in {of_K}, with R in {of_R}"
+
+
+def python_of(states: tuple[ValveState, ...], unit: str | None, path: str | None) -> str:
     _check_paths(states)
     uses_files = path is not None or any(state.surface is not None for state in states)
     lines = ["import numpy"] + (["import pyvista"] if uses_files else []) + ["import riis", ""]
@@ -165,7 +179,7 @@ def python_of(states: tuple[ValveState, ...], path: str | None) -> str:
         lines.append("# points: (n, 3) float64, the nodes of the mesh")
     else:
         lines.append(f"points = numpy.array(pyvista.read({os.path.abspath(path)!r}).points, numpy.float64)")
-    lines += ["mesh = riis.Mesh(points)", "K = numpy.zeros(len(mesh))", "marks = {}"]
+    lines += ["mesh = riis.Mesh(points)", "K = numpy.zeros(len(mesh))" + _units_of_K(unit), "marks = {}"]
     for state in states:
         lines.append("")
         options = ", ".join(f"{key}={value!r}" for key, value in state.options.items())
@@ -180,7 +194,7 @@ def python_of(states: tuple[ValveState, ...], path: str | None) -> str:
         else:
             lines += _python_of_surface(state, options)
         lines.append(f"marks[{state.name!r}] = riis.mark(surface, mesh)")
-        lines.append(f"marks[{state.name!r}].add_resistance(K, R={state.resistance!r})")
+        lines.append(f"marks[{state.name!r}].add_resistance(K, R={_resistance(state, unit)!r})")
     return "\n".join(lines) + "\n"
 
 

@@ -93,7 +93,7 @@ class ValveState:
     kind: str  #: one of KINDS, or "surface"
     opening: float
     half_thickness: float  #: mesh units
-    resistance: float
+    resistance: float  #: kg/(m s) if the mesh has a unit; otherwise mesh units
     scale: float
     rotation: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 0.0)  #: an axis, and degrees
     origin: Vector = (0.0, 0.0, 0.0)  #: the place of the valve's own origin, mesh units

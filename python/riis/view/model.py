@@ -29,7 +29,7 @@ import numpy
 from numpy.typing import NDArray
 
 from riis._place import UNITS, PlaceResult, place
-from riis._riis import Marks, Surface, mark
+from riis._riis import Marks, Surface, mark, read_resistance
 from riis.view import _outputs
 from riis.view._annulus import annulus_of, placed_by
 from riis.view._cells import Region, WholeMesh
@@ -226,8 +226,10 @@ class Model(Valves):
     def set(self, i: int, name: str, value: Any) -> None:
         """Sets a parameter, or "opening", "half_thickness", "resistance", "scale", "triangulation" or "name", of a valve.
 
-        Lengths of parameters are in centimetres, the half thickness is in mesh units. A surgeon's name, such as "annulus", sets
-        the parameter that it stands for. Refuses a value that is out of range, and sizes that do not fit together.
+        Lengths of parameters are in centimetres, the half thickness is in mesh units. The resistance is in kg/(m s) if the mesh
+        has a unit, and a text such as "1e5 g/(cm s)" then has its own. Otherwise it is in mesh units. A surgeon's name, such as
+        "annulus", sets the parameter that it stands for. Refuses a value that is out of range, and sizes that do not fit
+        together.
         """
         state = self._at(i).state
         key = ("set", i, name)
@@ -236,7 +238,7 @@ class Model(Valves):
         elif name in ("half_thickness", "scale"):
             self._replace(i, key, **{name: above_zero(value, name)})
         elif name == "resistance":
-            self._replace(i, key, resistance=at_least_zero(value, name))
+            self._replace(i, key, resistance=at_least_zero(self._resistance(value), name))
         elif name == "triangulation":
             if value not in TRIANGULATIONS:
                 raise refuse(f"triangulation: is {value!r}; it must be {' or '.join(TRIANGULATIONS)}")
@@ -248,6 +250,15 @@ class Model(Valves):
             self._replace(i, key, name=value)
         else:
             self._set_parameter(i, name, value, key)
+
+    def _resistance(self, value: Any) -> Any:
+        """Returns R as the program reads it from a text. Other values stay."""
+        if not isinstance(value, str):
+            return value
+        made, has_unit = read_resistance(value)
+        if has_unit and self._unit is None:
+            raise refuse(f"resistance: is {value!r}, which has a unit; the unit of the mesh is None")
+        return made
 
     def _set_parameter(self, i: int, name: str, value: Any, key: tuple[Any, ...]) -> None:
         state = self._at(i).state
@@ -587,10 +598,10 @@ class Model(Valves):
 
     def python(self) -> str:
         """Returns a script that gives the present marks: marks[NAME] for each valve, and K. Without a path it needs points."""
-        return _outputs.python_of(self.valves, self._path)
+        return _outputs.python_of(self.valves, self._unit, self._path)
 
     def openfoam(self, density: float = 1060.0) -> str:
-        """Returns fvOptions of OpenFOAM, in metres. A mesh without a unit counts as being in metres."""
+        """Returns fvOptions of OpenFOAM, in metres and kilograms. A mesh without a unit is taken as it is, and so is its R."""
         return _outputs.openfoam_of(self.valves, self._unit, density)
 
     def save(self, path: str | os.PathLike[str], page: Mapping[str, Any] | None = None) -> None:

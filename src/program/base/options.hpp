@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "program/base/quantities.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/units.hpp"
 
@@ -84,7 +85,12 @@ struct MarkOptions : ValveOptions {
   bool at_cells = false;   // whether the centres of cells are marked
   riis_mark_options mark_options = defaults<riis_mark_options>();
   double far_distance = RIIS_FAR_DISTANCE;
-  std::optional<double> resistance;           // R, for an array of K
+  // R for an array of K, and for OpenFOAM the density by which it is divided. The drop is for the ideal leak.
+  std::optional<Amount> given_resistance, given_drop, density;
+  std::optional<std::string> chosen_K_unit;
+  std::optional<double> resistance;           // R in the units of the mesh
+  double K_factor = 1;                        // K in the file over K in the units of the mesh
+  std::string K_unit, K_u_surface_unit;       // in the file; "" if the unit of the mesh is not known
   std::string output, surface_output, stats;  // "" if not wanted
   std::string surface_output_option = "--surface-output";
   std::vector<Picture> pictures;
@@ -95,7 +101,6 @@ struct MarkOptions : ValveOptions {
   bool check_crossing = false;
   std::optional<LeakCheck> check_leaks;
   bool first_passage = false;  // looks for the opening at which the points are first joined
-  std::optional<double> drop;  // pressure drop, for the ideal leak
   bool measures = false;       // measures what the valve means for the flow, also without --stats
   SeriesOptions series;
 };
@@ -123,17 +128,27 @@ struct TimeSpan {
   double start, stop;
 };
 
+// How riis export gives the ring of a bileaflet valve to the solver: as a face beside the leaflets, as the solver's scaffold,
+// whose K is added to that of the leaflets, or not at all.
+enum UrisRing : std::int32_t { ring_face, ring_scaffold, no_ring };
+
 // The options of riis export.
 struct ExportOptions : ValveOptions {
   std::string folder;
   std::string mesh;  // the mesh of the solver's run, for a forecast; "": none
-  double time_step = 0, resistance = 0;
-  double density = 0, viscosity = 0;  // of the fluid, for the forecast; 0: those of blood, in the unit of the mesh
+  double time_step = 0;
+  // The density and the viscosity are for the forecast. Their defaults are those of blood.
+  std::optional<Amount> given_resistance, given_density, given_viscosity;
+  double resistance = 0, density = 0, viscosity = 0;  // in the solver's units, g, cm and s
+  double to_solver = 1;  // the factor from the mesh's unit of length to the solver's, which is cm
   std::optional<double> opening_duration, closing_duration;  // used without a cycle
   std::string cycle;                                         // a file
   std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
   std::optional<TimeSpan> opening_span, closing_span;  // spans of the cycle's time
   double largest_edge = 0;                             // 0: the library's own triangles
+  std::string name;                                    // of the valve in the solver; "": from the folder
+  std::string starts;                                  // "closed" or "open"; "": as the cycle is at time 0
+  std::int32_t ring = ring_face;                       // a UrisRing
 };
 
 // Whether riis place writes a warp to the landmarks, which may be smoothed by their noise.
@@ -160,6 +175,9 @@ const std::vector<std::string> &triangulation_names();
 
 // Derives the scale from the units. Also derives the half thickness, unless the user gave one.
 void apply_units(ValveOptions &options);
+
+// Derives R, and the unit of K in the output, from the unit of the mesh. Refuses what does not fit it.
+void apply_amounts(MarkOptions &options);
 
 // Returns whether the user gave the valve's opening by --opening or --set.
 bool sets_opening(const ValveOptions &options);

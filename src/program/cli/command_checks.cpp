@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "program/base/text.hpp"
+#include "program/input/mesh_reading.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/input/valve_source.hpp"
 
@@ -128,6 +130,32 @@ void check_folder_name(const std::string &folder) {
     refuse_usage("FOLDER: '" + folder + "' has a blank, and svMultiPhysics cannot read such a path");
 }
 
+// A kind of valve has its sizes in centimetres, so its scale tells the unit of the mesh.
+void check_solver_scale(const ExportOptions &options) {
+  if (options.unit || !options.has_scale || is_valve_file(options.valve)) return;
+  const auto unit = unit_reached(Unit::centimetre, options.surface_options.scale);
+  if (!unit || *unit == Unit::centimetre) return;
+  refuse_usage("--scale: " + shortest(options.surface_options.scale) + " makes lengths in " + words_of(*unit) +
+               ", and svMultiPhysics needs grams and centimetres: write --unit " + name_of(*unit) +
+               " in place of --scale, and riis export converts");
+}
+
+// svMultiPhysics gets grams, centimetres and seconds. Without --unit, plain numbers are in its units.
+void finish_solver_units(ExportOptions &options) {
+  check_solver_scale(options);
+  const auto in_solver_units = [&](const std::optional<Amount> &given, const Quantity &quantity, double usual) {
+    if (!given) return usual * factor_from_si(quantity, Unit::centimetre);
+    if (given->number < 0) refuse_usage(given->subject + ": " + given->text + " is below 0");
+    const bool is_si = given->has_unit || options.unit;
+    return in_mesh_units(*given, quantity, is_si ? std::optional(Unit::centimetre) : std::nullopt);
+  };
+  if (options.unit) options.to_solver = factor_between(*options.unit, Unit::centimetre);
+  constexpr double blood_density = 1060, blood_viscosity = 0.004;
+  options.resistance = in_solver_units(options.given_resistance, a_resistance, 0);
+  options.density = in_solver_units(options.given_density, a_density, blood_density);
+  options.viscosity = in_solver_units(options.given_viscosity, a_viscosity, blood_viscosity);
+}
+
 }  // namespace
 
 MarkOptions finish_mark(const Command &command, MarkOptions options) {
@@ -145,6 +173,7 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
   if (options.n_steps > 0 && (has_case || !options.series.times.empty()))
     refuse_usage("--steps has no effect with --times and --case: it moves one valve by itself, step by step");
   if (has_case) return options;
+  apply_amounts(options);
   if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
   if (options.quiet && !has_output(options)) refuse_usage("nothing to do: --quiet is given and no output is named");
   return options;
@@ -164,6 +193,7 @@ MarkOptions finish_crossings(const Command &command, MarkOptions options) {
 MarkOptions finish_leaks(const Command &command, MarkOptions options) {
   if (options.mesh.empty() && options.series.case_file.empty()) refuse_usage("MESH is required");
   finish_surface_in_place(command, options);
+  if (options.series.case_file.empty()) apply_amounts(options);
   return options;
 }
 
@@ -183,14 +213,16 @@ StatesOptions finish_states(const Command &command, StatesOptions options) {
 
 ExportOptions finish_export(const Command &command, ExportOptions options) {
   check_folder_name(options.folder);
+  // Two dashes would end a comment in the XML.
+  if (command.has("--name") && (!is_prefix(options.name) || options.name.find("--") != std::string::npos))
+    refuse_usage("--name: '" + options.name.substr(0, 64) + "' must be 1 to 64 letters, digits, _, . and single -");
+  if (command.has("--ring") && options.valve != "bileaflet")
+    refuse_usage("--ring has no effect: only a bileaflet valve has a ring");
   check_set_opening(options, "has no effect: the valve opens and closes in an export");
   finish_valve(command, options);
   if (options.cycle.empty() && (!options.opening_duration || !options.closing_duration))
     refuse_usage("riis export needs --opening-seconds and --closing-seconds, or --cycle");
-  // Blood has 1060 kg/m3 and 0.004 Pa s. The solver's units are those of the mesh, with grams beside cm and mm.
-  const Unit unit = options.unit.value_or(Unit::centimetre);
-  if (options.density == 0) options.density = unit == Unit::metre ? 1060 : unit == Unit::centimetre ? 1.06 : 1.06e-3;
-  if (options.viscosity == 0) options.viscosity = unit == Unit::centimetre ? 0.04 : 0.004;
+  finish_solver_units(options);
   return options;
 }
 
@@ -219,6 +251,38 @@ const std::vector<std::string> &triangulation_names() {
 void apply_units(ValveOptions &options) {
   options.surface_options.scale = factor_between(options.surface_unit.value_or(Unit::centimetre), *options.unit);
   if (!options.has_half_thickness) options.surface_options.half_thickness = paper_half_thickness(*options.unit);
+}
+
+void apply_amounts(MarkOptions &options) {
+  const bool has_fields = is_foam_case(options.output) || is_foam_time(options.output);
+  if (options.density && !has_fields)
+    refuse_usage("--density has no effect: only K in the fields of a case of OpenFOAM is divided by it");
+  if (!options.given_resistance) return;
+  const Amount &given = *options.given_resistance;
+  if (given.number < 0) throw Refusal{given.exit_code, given.subject + " is " + given.text + "; it must be at least 0"};
+  options.resistance = in_mesh_units(given, a_resistance, options.unit);
+  if (options.given_drop) static_cast<void>(in_mesh_units(*options.given_drop, a_pressure, options.unit));
+  if (options.unit) {
+    options.K_unit = unit_text(a_K, *options.unit);
+    options.K_u_surface_unit = unit_text(a_K_u_surface, *options.unit);
+  }
+  if (has_fields) {
+    if (!options.density)
+      refuse_usage("--output " + options.output +
+                   ": OpenFOAM's K is divided by the density: write --density RHO, and R in " + a_resistance.si +
+                   " as --resistance");
+    if (options.chosen_K_unit)
+      refuse_usage("--k-unit has no effect on the fields of OpenFOAM, whose K has the unit 1/s");
+    options.K_factor = 1 / in_mesh_units(*options.density, a_density, options.unit);
+    options.K_unit = "1/s";
+    options.K_u_surface_unit = options.unit ? std::string(name_of(*options.unit)) + "/s2" : "";
+  } else if (options.chosen_K_unit) {
+    const double si = parse_unit_of(*options.chosen_K_unit, "--k-unit", a_K);
+    if (!options.unit) refuse_usage("--k-unit needs the unit of the mesh: write --unit m, cm or mm");
+    options.K_factor = 1 / (si * factor_from_si(a_K, *options.unit));
+    options.K_unit = *options.chosen_K_unit;
+    options.K_u_surface_unit = options.K_unit + " " + name_of(*options.unit) + "/s";
+  }
 }
 
 bool sets_opening(const ValveOptions &options) { return options.opening || has_set_opening(options); }

@@ -18,6 +18,9 @@ constexpr std::int32_t most_states = 100001;
 // The position of each name is the value of LandmarkWarp that it stands for.
 const std::vector<std::string> warp_names = {"none", "exact", "smoothed"};
 
+// The position of each name is the value of UrisRing that it stands for.
+const std::vector<std::string> ring_names = {"face", "scaffold", "none"};
+
 // Refuses numbers that are not above 0. RIIS_AUTO is a negative number, and a user's number must not be mistaken for it.
 double parse_positive(const std::string &text, const std::string &subject) {
   const double number = parse_number(text, subject);
@@ -43,6 +46,19 @@ std::int32_t parse_count(const std::string &text, const std::string &subject) {
   if (n < 2 || n > most_states)
     refuse_usage(subject + ": " + text + " is not from 2 to " + std::to_string(most_states));
   return n;
+}
+
+Amount parse_resistance(const std::string &text, const std::string &subject) {
+  return parse_amount(text, subject, a_resistance);
+}
+
+Amount above_zero(const Amount &amount) {
+  if (!(amount.number > 0)) refuse_usage(amount.subject + ": " + amount.text + " is not above 0");
+  return amount;
+}
+
+Amount parse_density(const std::string &text, const std::string &subject) {
+  return above_zero(parse_amount(text, subject, a_density));
 }
 
 std::optional<Unit> parse_unit(const std::string &text, const std::string &) { return unit_of(text); }
@@ -213,8 +229,17 @@ void declare_search(Command &command, MarkOptions &options) {
 void declare_marking(Command &command, MarkOptions &options) {
   command.group("Marking");
   declare_half_thickness(command, options);
-  command.parsed("--resistance", "R", "Write riis_K, R/eps times the delta function at each node", options.resistance,
-                 parse_number);
+  CLI::Option *const resistance =
+      command.parsed("--resistance", "R", "Write riis_K, R/eps times the delta function at each node; R in kg/(m s)",
+                     options.given_resistance, parse_resistance);
+  command
+      .parsed("--k-unit", "UNIT", "Unit of riis_K (default of kg, m, s; g, cm, s; or g, mm, s)", options.chosen_K_unit,
+              [](const std::string &text, const std::string &) { return text; })
+      ->needs(resistance);
+  command
+      .parsed("--density", "RHO", "Density in kg/m3, by which OpenFOAM's fields of K are divided", options.density,
+              parse_density)
+      ->needs(resistance);
   command.parsed("--far-distance", "X", "riis_distance of nodes beyond the limit (default 1e30)", options.far_distance,
                  parse_number);
   command
@@ -386,10 +411,12 @@ void declare_leaks(Command command, MarkOptions &options) {
   command
       .flag("--first-passage", "Also tell at which opening unmarked nodes first join the points", options.first_passage)
       ->needs(command.option("--between"));
-  CLI::Option *const resistance = command.parsed("--resistance", "R", "Resistance of the valve, for the ideal leak",
-                                                 options.resistance, parse_positive);
-  CLI::Option *const drop = command.parsed("--drop", "DP", "Pressure drop over the closed valve, for the ideal leak",
-                                           options.drop, parse_number);
+  CLI::Option *const resistance = command.parsed(
+      "--resistance", "R", "Resistance of the valve in kg/(m s), for the ideal leak", options.given_resistance,
+      [](const std::string &text, const std::string &name) { return above_zero(parse_resistance(text, name)); });
+  CLI::Option *const drop = command.parsed(
+      "--drop", "DP", "Pressure drop over the closed valve in Pa, for the ideal leak", options.given_drop,
+      [](const std::string &text, const std::string &name) { return parse_amount(text, name, a_pressure); });
   drop->needs(resistance);
   resistance->needs(drop);
   declare_surface_in_place(command, options);
@@ -458,8 +485,8 @@ void declare_export(Command command, ExportOptions &options) {
               parse_positive_finite)
       ->required();
   command
-      .parsed("--resistance", "R", "Resistance of the valve, for the block of the solver's input", options.resistance,
-              parse_number)
+      .parsed("--resistance", "R", "Resistance of the valve in kg/(m s), for the block of the solver's input",
+              options.given_resistance, parse_resistance)
       ->required();
   command.parsed("--opening-seconds", "T", "Open from 0 to 1 in this time, by a smooth ramp", options.opening_duration,
                  parse_positive_finite);
@@ -477,10 +504,20 @@ void declare_export(Command command, ExportOptions &options) {
     command.option(name)->excludes(command.option("--cycle"));
   command.parsed("--largest-edge", "L", "Cut triangles until no edge is longer in any frame", options.largest_edge,
                  parse_positive_finite);
-  command.parsed("--density", "RHO", "Density of the fluid, for MESH (default that of blood: 1.06 with cm)",
-                 options.density, parse_positive);
-  command.parsed("--viscosity", "MU", "Viscosity of the fluid, for MESH (default that of blood: 0.04 with cm)",
-                 options.viscosity, parse_positive);
+  command.text("--name", "NAME", "Name of the valve in the solver and in its files (default from FOLDER)",
+               options.name);
+  command
+      .text("--starts", "closed|open",
+            "State at the solver's first step (default closed, or that of --cycle at time 0)", options.starts)
+      ->check(CLI::IsMember(std::vector<std::string>{"closed", "open"}));
+  command.choice("--ring", "Ring of a bileaflet valve: face (default), scaffold, whose K is added, or none", ring_names,
+                 options.ring);
+  command.parsed("--density", "RHO", "Density of the fluid in kg/m3, for MESH (default that of blood, 1060)",
+                 options.given_density, parse_density);
+  command.parsed("--viscosity", "MU", "Viscosity of the fluid in Pa s, for MESH (default that of blood, 0.004)",
+                 options.given_viscosity, [](const std::string &text, const std::string &name) {
+                   return above_zero(parse_amount(text, name, a_viscosity));
+                 });
   for (const char *name : {"--density", "--viscosity"}) command.option(name)->needs(command.option("MESH"));
   declare_loudness(command, options);
   declare_valve(command, options);

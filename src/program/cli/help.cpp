@@ -46,8 +46,10 @@ riis help leaks explains what counts.)"},
   riis check crossings --valve prosthesis.json
   riis check leaks mesh.vtu --between 0,0,2 0,0,-2)"},
     {"export", R"(Examples:
-  riis export mitral_valve --valve mitral --time-step 0.001 --opening-seconds 0.05 --closing-seconds 0.04 --resistance 1e4
-  riis export valve mesh.vtu --valve trileaflet --time-step 0.002 --opening-seconds 0.04 --closing-seconds 0.04 --resistance 1e4
+  riis export mitral_valve --valve mitral --time-step 0.001 --opening-seconds 0.05 --closing-seconds 0.04 \
+    --unit cm --resistance 1e4
+  riis export valve mesh.vtu --unit mm --valve trileaflet --time-step 0.002 --opening-seconds 0.04 --closing-seconds 0.04 \
+    --resistance 1e4
 riis help export explains the files.)"},
     {"params", R"(Examples:
   riis params > valve.json
@@ -105,6 +107,10 @@ Lengths are in the mesh's unit. --unit names that unit, and the program derives 
 kinds of valves are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the unit of that
 file. With --unit the default half thickness is the paper's, 0.1 cm. Without --unit the program knows no units, and --scale
 is the factor from the surface's unit to the mesh's.
+If --unit, a placed valve or a case names the unit of the mesh, --resistance is in kg/(m s), --density in kg/m3, --viscosity in
+Pa s and --drop in Pa. A number may also have a unit: --resistance '1e5 g/(cm s)'. riis_K is then in kg/(m3 s) for m, g/(cm3 s)
+for cm and g/(mm3 s) for mm, or in the unit of --k-unit. The file and the report name its unit. If the unit of the mesh is not
+known, plain numbers and K are in the units of the mesh. OpenFOAM's fields of K are divided by --density.
 )"},
     {"parameters", "names and files of parameters",
      R"(
@@ -211,7 +217,8 @@ A valve has "valve", a kind or a file of patches, or it has "surface", a file or
 surface is at rest unless the file is a .pvd or .dat. Such a file may have a "period", and a .dat a "time_step". A valve may
 have "parameters" and "open_parameters", each an object or a file, and "scale", "surface_unit", "rotate", "translate",
 "half_thickness", "resistance", "tolerance", "triangulation", "flip_normals", "leaflets", "skip_zero_area", "skirt" and
-"wall", as the options of these names. "opening" is a number or one of
+"wall", as the options of these names. A resistance is a number or a text such as '1e5 g/(cm s)' (riis help units). "opening" is a
+number or one of
   {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
   {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
   {"opening_start": 0.4, "opening_duration": 0.05, "closing_start": 0.7, "closing_duration": 0.05, "closed": 0, "open": 1,
@@ -294,13 +301,16 @@ plays a frame in each of its time steps, so --time-step must be the solver's ste
 least opening to the next key of its largest opening. It closes from the last key of its largest opening to the next key of
 its least opening. --opening-span and --closing-span set other times. The solver measures distances to the middles of
 triangles. With a --largest-edge of 0.15 half thicknesses its sum of K is within 1 % of the exact sum. Triangles without area
-in some frame are left out, and a line on stderr says so.
+in some frame are left out, and a line on stderr says so. The files are in cm and R is in g/(cm s): lengths of --unit m or mm
+are converted. Without --unit, lengths and R are taken as they are. The valve's name in the solver is that of the folder, or
+--name. The solver starts with the closed valve, or with that of --cycle at time 0, unless --starts says otherwise. The ring of a
+bileaflet valve is a face. With --ring scaffold the solver adds its K to that of the leaflets.
 
 riis export FOLDER MESH also computes what the solver will do in MESH, by the solver's own rules: its box, its distances, their
 interpolation to Gauss points, and the bands in which it takes pressures. The comment of the block has the expected drop of the
 closed valve over (R/eps) u, and the nodes before and behind the valve. If the drop is below 0.95, a line on stderr names the
 half thickness that the mesh needs. FOLDER/forecast.csv has the numbers of each frame. A valve that the solver could never open
-or never close is refused. The drop depends a little on --density and --viscosity, in the solver's units. python3 computes it by
+or never close is refused. The drop depends a little on --density and --viscosity. python3 computes it by
 NumPy and SciPy, or the Python that RIIS_PYTHON names. Without them only the drop is missing, and a line on stderr says so.
 )"},
     {"meshing", "the edge lengths of riis size-field",

@@ -39,6 +39,7 @@ class CaseReader {
     const Json &valves = values.needed("valves");
     if (!valves.is_array() || valves.empty()) values.refuse("valves", "it must be an array of one valve or more");
     for (std::size_t i = 0; i < valves.size(); ++i) read_valve(valves[i], i, valves.size());
+    apply_resistances(values);
     read_surfaces(all_);
     return std::move(all_);
   }
@@ -57,10 +58,43 @@ class CaseReader {
     }
     const auto limit = values.above_zero("distance_limit");
     if (limit && options.mark_options.distance_limit == RIIS_AUTO) options.mark_options.distance_limit = *limit;
-    const auto resistance = values.at_least_zero("resistance");
-    if (!options.resistance) options.resistance = resistance;
+    const auto resistance = resistance_of(values);
+    if (!options.given_resistance) options.given_resistance = resistance;
     if (values.has("check_leaks") && !options.check_leaks) options.check_leaks = leak_check_of(values);
     if (values.has("times") && options.series.times.empty()) options.series.times = times_of(values);
+  }
+
+  // Reads R, a number or a text with a unit.
+  static std::optional<Amount> resistance_of(const CaseValues &values) {
+    const char *const key = "resistance";
+    if (!values.has(key)) return std::nullopt;
+    const std::string subject = values.subject() + ": " + key;
+    if (!values.needed(key).is_string())
+      return Amount{*values.at_least_zero(key), false, values.needed(key).dump(), subject, exit_bad_data};
+    try {
+      Amount amount = parse_amount(values.text(key), subject, a_resistance);
+      if (amount.number < 0) values.refuse(key, values.needed(key).dump() + " is below 0");
+      amount.exit_code = exit_bad_data;
+      return amount;
+    } catch (Refusal &refusal) {
+      refusal.exit_code = exit_bad_data;
+      throw;
+    }
+  }
+
+  // Gives R of each valve in the units of the mesh. K is a sum over the valves, so they must agree about the mesh's unit. Without
+  // "unit", a placed valve has the unit of its file.
+  void apply_resistances(const CaseValues &values) {
+    const ValveSource *first = nullptr;
+    for (ValveSource &valve : all_.valves) {
+      if (!valve.options.given_resistance) continue;
+      if (!first) first = &valve;
+      if (valve.options.unit != first->options.unit)
+        values.refuse("unit", "it is missing, and R of " + first->options.prefix + " and R of " + valve.options.prefix +
+                                  " have different units");
+      apply_amounts(valve.options);
+    }
+    if (!first && all_.options.density) apply_amounts(all_.options);
   }
 
   LeakCheck leak_check_of(const CaseValues &values) const {
@@ -123,7 +157,7 @@ class CaseReader {
     if (is_valve_file(options.valve)) options.valve = file_of(values, "valve");
     use_placed_valve(options);
     read_placement(values, options);
-    if (const auto own = values.at_least_zero("resistance")) options.resistance = own;
+    if (const auto own = resistance_of(values)) options.given_resistance = own;
     options.skirt = values.above_zero("skirt");
     options.wall = file_of(values, "wall");
     if (!options.wall.empty() && !options.skirt) values.refuse("wall", "it needs \"skirt\", the longest skirt");

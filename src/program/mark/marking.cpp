@@ -50,8 +50,25 @@ void report_leak(const MovingValve &valve, FlowReport &flow) {
   how.R = *R;
   double leak = 0;
   check(riis_surface_get_leak(valve.surface(), &how, 1, &leak), "--resistance");
-  flow.leak_per_drop = leak;
-  flow.drop = valve.options().drop;
+  // The leak is per unit of the pressure as the user gives it, which is Pa if the unit of the mesh is known.
+  const std::optional<Unit> &unit = valve.options().unit;
+  flow.leak_per_drop = unit ? leak * factor_from_si(a_pressure, *unit) : leak;
+  const std::optional<Amount> &drop = valve.options().given_drop;
+  if (drop) flow.drop = drop->number;
+  if (!unit) return;
+  flow.leak_unit = unit_text(a_flow, *unit);
+  flow.drop_unit = a_pressure.si;
+}
+
+ResistanceReport report_of_resistance(const MarkOptions &own, const MarkOptions &of_case) {
+  ResistanceReport report{own.given_resistance->number};
+  if (own.unit) report.R_unit = a_resistance.si;
+  if (of_case.output.empty()) return report;
+  // OpenFOAM's field has no "riis_" before its name.
+  report.K_name = own.density && of_case.prefix == "riis" ? "K" : of_case.prefix + "_K";
+  report.K_unit = own.K_unit;
+  if (own.density) report.density = own.density->number;
+  return report;
 }
 
 // Moves each valve to the first of the times whose opening is the first in an order.
@@ -129,6 +146,7 @@ ValveReport Marking::report_of(std::size_t i) {
   report.surface = info_of(valve.surface());
   if (valve.opening() && !own.wall.empty()) report.gap = gap_to_wall(own, valve.surface());
   report.crossings = valve.crossings;
+  if (own.given_resistance) report.resistance = report_of_resistance(own, options());
   report_.seconds.surface += report.surface.seconds_triangles;
   report_.seconds.scene += report.surface.seconds_scene;
   return report;

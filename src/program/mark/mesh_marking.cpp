@@ -73,8 +73,10 @@ ResistanceSum::ResistanceSum(int64_t n_nodes, WithVelocity with_velocity)
 void ResistanceSum::add(const MarkOptions &options, const riis_marks *result) {
   if (!options.resistance) return;
   has_any_ = true;
+  K_unit_ = options.K_unit;
+  K_u_surface_unit_ = options.K_u_surface_unit;
   auto how = defaults<riis_resistance>();
-  how.R = *options.resistance;
+  how.R = *options.resistance * options.K_factor;
   auto to = defaults<riis_resistance_arrays>();
   to.n_nodes = n_nodes_;
   to.K = K_.data();
@@ -85,10 +87,13 @@ void ResistanceSum::add(const MarkOptions &options, const riis_marks *result) {
 
 void ResistanceSum::set_arrays(const std::string &prefix, riis_vtk_mesh *file) const {
   if (!has_any_) return;
-  const std::string K = prefix + "_K", K_u_surface = prefix + "_K_u_surface";
-  check(riis_vtk_mesh_set_point_array(file, K.c_str(), n_nodes_, 1, K_.data()));
-  if (!K_u_surface_.empty())
-    check(riis_vtk_mesh_set_point_array(file, K_u_surface.c_str(), n_nodes_, 3, K_u_surface_.data()));
+  const auto set = [&](const std::string &name, std::int64_t n_components, const std::vector<double> &values,
+                       const std::string &unit) {
+    check(riis_vtk_mesh_set_point_array(file, name.c_str(), n_nodes_, n_components, values.data()));
+    if (!unit.empty()) check(riis_vtk_mesh_set_unit(file, name.c_str(), unit.c_str()));
+  };
+  set(prefix + "_K", 1, K_, K_unit_);
+  if (!K_u_surface_.empty()) set(prefix + "_K_u_surface", 3, K_u_surface_, K_u_surface_unit_);
 }
 
 // ---- Steps ----

@@ -41,6 +41,7 @@ class ResistanceSum {
  private:
   int64_t n_nodes_;
   std::vector<double> K_, K_u_surface_;
+  std::string K_unit_, K_u_surface_unit_;  // "" if not known
   bool has_any_ = false;
 };
 

@@ -147,6 +147,8 @@ nlohmann::ordered_json json_of_passage(const PassageReport &passage) {
           {"closing_half_thickness", if_known(passage.closing_half_thickness > 0, passage.closing_half_thickness)}};
 }
 
+std::string after_blank(const std::string &unit) { return unit.empty() ? "" : " " + unit; }
+
 // Adds the lines about the flow to the table. A measure that is not set has no line.
 void add_flow(const ValveReport &valve, std::ostringstream &out) {
   const FlowReport &flow = valve.flow;
@@ -174,8 +176,23 @@ void add_flow(const ValveReport &valve, std::ostringstream &out) {
     out << "\n";
   }
   if (flow.leak_per_drop && flow.drop)
-    out << line("leak", valve.name) << *flow.leak_per_drop * *flow.drop << " at the drop " << *flow.drop
-        << ", through an ideal closed valve\n";
+    out << line("leak", valve.name) << *flow.leak_per_drop * *flow.drop << after_blank(flow.leak_unit)
+        << " at the drop " << *flow.drop << after_blank(flow.drop_unit) << ", through an ideal closed valve\n";
+}
+
+// Adds the line with the units of R and K.
+void add_resistance(const ValveReport &valve, std::ostringstream &out) {
+  if (!valve.resistance) return;
+  const ResistanceReport &of = *valve.resistance;
+  out << line("R", valve.name) << of.R << after_blank(of.R_unit);
+  if (of.R_unit.empty()) {
+    out << (of.K_name.empty() ? "" : " and " + of.K_name)
+        << " in the units of the mesh, whose unit of length is not known";
+  } else if (!of.K_name.empty()) {
+    out << "; " << of.K_name << " is in " << of.K_unit;
+  }
+  if (of.density) out << ", for the density " << *of.density << (of.R_unit.empty() ? "" : " kg/m3");
+  out << "\n";
 }
 
 nlohmann::ordered_json json_of_first(const riis_first_passage &first) {
@@ -204,7 +221,19 @@ void add_flow(const FlowReport &flow, nlohmann::ordered_json &json) {
   if (flow.n_open_regions) json["n_open_regions"] = *flow.n_open_regions;
   if (flow.first) json["first_passage"] = json_of_first(*flow.first);
   if (flow.leak_per_drop) json["leak_per_drop"] = *flow.leak_per_drop;
-  if (flow.leak_per_drop && flow.drop) json["leak"] = *flow.leak_per_drop * *flow.drop;
+  if (flow.leak_per_drop && flow.drop) {
+    json["leak"] = *flow.leak_per_drop * *flow.drop;
+    json["leak_unit"] = if_known(!flow.leak_unit.empty(), flow.leak_unit);
+    json["drop_unit"] = if_known(!flow.drop_unit.empty(), flow.drop_unit);
+  }
+}
+
+void add_resistance(const ResistanceReport &of, nlohmann::ordered_json &json) {
+  json["resistance"] = of.R;
+  json["resistance_unit"] = if_known(!of.R_unit.empty(), of.R_unit);
+  if (of.K_name.empty()) return;
+  json["K_unit"] = if_known(!of.K_unit.empty(), of.K_unit);
+  if (of.density) json["density"] = *of.density;
 }
 
 using Stages = std::vector<std::pair<const char *, double>>;
@@ -319,6 +348,7 @@ nlohmann::ordered_json json_of_valve(const Report &report, const ValveReport &va
                    {"most", valve.gap->most},     {"widest_point", valve.gap->widest_point},
                    {"n_ends", valve.gap->n_ends}, {"n_without_wall", valve.gap->n_without_wall}};
   if (is_only && report.passage) json["passage"] = json_of_passage(*report.passage);
+  if (valve.resistance) add_resistance(*valve.resistance, json);
   add_flow(valve.flow, json);
   if (is_only && report.step) {
     json["step"] = {{"n_steps", report.step->n_steps},
@@ -374,6 +404,7 @@ std::string table_of(const Report &report) {
         add_times(valve, out);
       else
         add_marks(valve, out);
+      add_resistance(valve, out);
       add_search(valve, out);
     }
     for (const ValveReport &valve : report.valves) {

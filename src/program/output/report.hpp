@@ -51,6 +51,14 @@ struct LeakReport {
   bool has_all_edges() const { return n_volume_cells > 0 && n_cells_left_out == 0; }
 };
 
+// R with its unit, and the unit of K in the output. Units are "" if that of the mesh is not known.
+struct ResistanceReport {
+  double R = 0;
+  std::string R_unit{}, K_unit{};
+  std::string K_name{};             // the array of K, or "" if none is written
+  std::optional<double> density{};  // by which K is divided, in kg/m3 or in the units of the mesh
+};
+
 // Measures of the valve and the mesh that matter for a flow.
 struct FlowReport {
   std::optional<riis_orifice> orifice;        // set if the surface has an outline
@@ -59,6 +67,7 @@ struct FlowReport {
   std::optional<int64_t> n_open_regions;      // set if the mesh's edges are known
   std::optional<riis_first_passage> first;    // set if the first passage was looked for
   std::optional<double> leak_per_drop, drop;  // set if the user gave a resistance
+  std::string leak_unit{}, drop_unit{};       // "" if not known
 };
 
 // The shares of the area that is farther than the half thickness outside the mesh.
@@ -100,9 +109,10 @@ struct ValveReport {
   riis_mark_stats marks{};
   LeakReport leaks;
   FlowReport flow;
-  std::optional<OutsideReport> outside;     // set if the mesh has volume cells
-  std::optional<CrossingReport> crossings;  // set if crossings were looked for
-  std::vector<TimeReport> times;            // the steps of a series that are complete
+  std::optional<OutsideReport> outside;        // set if the mesh has volume cells
+  std::optional<ResistanceReport> resistance;  // set if the user gave a resistance
+  std::optional<CrossingReport> crossings;     // set if crossings were looked for
+  std::vector<TimeReport> times;               // the steps of a series that are complete
 };
 
 struct Report {

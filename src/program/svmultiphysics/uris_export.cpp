@@ -217,13 +217,36 @@ void write_export(const ExportOptions &options, const UrisMotion &motion, UrisLe
   folder.take_place();
 }
 
-// Returns the name of the valve in the solver's input. The solver also uses it in names of files.
+// Returns a text whose characters may stand in a name. A dash is also replaced, because two dashes in a row would end the comment
+// in the XML.
+std::string as_name(std::string text) {
+  for (char &c : text) c = c != '-' && is_prefix(std::string(1, c)) ? c : '_';
+  return text;
+}
+
+// Returns the name of the valve in the solver's input. The solver also uses it in names of arrays and files, so two valves of one
+// run need two names. Their folders differ, so the name is that of the folder with its path.
 std::string block_name(const ExportOptions &options) {
-  if (!is_valve_file(options.valve)) return options.valve;
-  std::string name = std::filesystem::path(options.valve).stem().string();
-  // A dash is also replaced, because two dashes in a row would end the comment in the XML.
-  for (char &c : name) c = c != '-' && is_prefix(std::string(1, c)) ? c : '_';
-  return name;
+  if (!options.name.empty()) return options.name;
+  constexpr std::size_t longest = 64;
+  fs::path path = fs::path(without_last_slashes(options.folder)).lexically_normal();
+  if (path == "." || path == "..") path = fs::absolute(path).lexically_normal();
+  std::string name = as_name(path.string());
+  name.erase(0, name.find_first_not_of("_."));
+  return name.size() <= longest ? name : name.substr(name.size() - longest);
+}
+
+std::string title_of(const ExportOptions &options) {
+  return is_valve_file(options.valve) ? as_name(fs::path(options.valve).stem().string()) : options.valve;
+}
+
+// Returns the line about the units of the block. Two dashes would end the comment in the XML.
+std::string text_of_units(const ExportOptions &options) {
+  if (!options.unit) return "units are taken as g, cm and s, because none was given";
+  const std::string units = "units are g, cm and s: R is in g/(cm s)";
+  if (options.to_solver == 1) return units;
+  return units + "\n     lengths were converted from " + name_of(*options.unit) + ": in its Add_mesh, the mesh in " +
+         name_of(*options.unit) + " needs Mesh_scale_factor " + shortest(options.to_solver);
 }
 
 std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, const UrisLeaflets &leaflets,
@@ -238,16 +261,25 @@ std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, c
   };
   const std::string half_thickness = shortest(leaflets.half_thickness());
   const double edges = leaflets.longest_edge() / leaflets.half_thickness();
-  std::string text =
-      "<!-- riis, " + block_name(options) + " valve\n     opening: " + frames(motion.opening) +
-      "\n     closing: " + frames(motion.closing) + "\n     a frame is a time step: Time_step_size must be " +
-      shortest(options.time_step) + "\n     " + counted(leaflets.n_triangles(), "triangle") + ", the longest edge " +
-      shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
-      "\n     face box widens the box of nodes in which svMultiPhysics looks; Mesh_scale_factor must stay 1";
+  std::string text = "<!-- riis, " + title_of(options) + " valve\n     opening: " + frames(motion.opening) +
+                     "\n     closing: " + frames(motion.closing) +
+                     "\n     a frame is a time step: Time_step_size must be " + shortest(options.time_step) +
+                     "\n     " + counted(leaflets.n_triangles(), "triangle") + ", the longest edge " +
+                     shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
+                     "\n     face box widens the box of nodes in which svMultiPhysics looks; Mesh_scale_factor of this "
+                     "block must stay 1" +
+                     "\n     " + text_of_units(options);
   if (edges > fine_edges) {
     text += "\n     svMultiPhysics measures to middles of triangles; to be within 1 %, export with largest-edge " +
-            shown(fine_edges * leaflets.half_thickness());
+            shown(fine_edges * leaflets.half_thickness() / options.to_solver) +
+            (options.to_solver == 1 ? "" : std::string(" in ") + name_of(*options.unit));
   }
+  if (!options.cycle.empty() && options.starts.empty())
+    text += std::string("\n     at time 0 of the cycle the valve is ") + (motion.starts_closed ? "closed" : "open") +
+            ", or nearer to that state";
+  for (const UrisLeaflet &leaflet : leaflets.leaflets())
+    if (leaflet.is_scaffold)
+      text += "\n     the scaffold's K is added to that of the leaflets where their bands overlap";
   for (const std::string &line : forecast.lines) text += "\n     " + line;
   text += " -->\n";
   text += "<Add_URIS_mesh name=\"" + block_name(options) + "\">\n";
@@ -267,7 +299,7 @@ std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, c
   text += "  " + element("Thickness", half_thickness);
   text += "  " + element("Closed_thickness", half_thickness);
   text += "  " + element("Resistance", shortest(options.resistance));
-  text += "  " + element("Valve_starts_as_closed", "true");
+  text += "  " + element("Valve_starts_as_closed", motion.starts_closed ? "true" : "false");
   text += "  " + element("Invert_normal", "false");
   text += "  " + element("Include_URIS_velocity", "true");
   text += "  " + element("Positive_flow_normal_file_path", folder + "normal.dat");

@@ -16,6 +16,7 @@ void export_uris(const ExportOptions &options);
 // close. Each time step plays one frame.
 struct UrisMotion {
   std::vector<double> opening, closing;
+  bool starts_closed = true;
 };
 
 // Frames are one time step apart. The last frame is at the end of the span, so the last step may be shorter.

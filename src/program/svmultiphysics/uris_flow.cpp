@@ -103,7 +103,7 @@ ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances,
   const std::vector<double> numbers = {fluid.resistance, fluid.density, fluid.viscosity, fluid.time_step,
                                        half_thickness};
   arrays.add(numbers, {5});
-  arrays.add("f8", mesh.xyz, sizeof(double), {mesh.n_nodes, 3});
+  arrays.add("f8", mesh.xyz(), sizeof(double), {mesh.n_nodes, 3});
   arrays.add(mesh.nodes, {mesh.n_elements(), n_nodes});
   add_element(*mesh.element, arrays);
   arrays.add(is_inside);

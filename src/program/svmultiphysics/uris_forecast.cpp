@@ -27,9 +27,10 @@ class Forecaster {
       : options_(options),
         leaflets_(leaflets),
         file_(read_mesh_file(options.mesh, options.cells_where)),
-        mesh_(solver_mesh_of(file_.get(), options.mesh)),
+        mesh_(solver_mesh_of(file_.get(), options.mesh, options.to_solver)),
         half_thickness_(leaflets.half_thickness()) {
     check(riis_vtk_mesh_get_median_edge(file_.get(), &median_edge_));
+    median_edge_ *= options.to_solver;
     const std::string regions = options.cells_where.empty() ? text_of_regions(options.mesh, file_.get()) : "";
     if (!regions.empty()) warn(regions);
   }
@@ -72,7 +73,7 @@ class Forecaster {
     return solver_distances(mesh_, leaflets_, vertices_, is_closing, half_thickness_);
   }
   std::vector<double> near_nodes(double limit) const {
-    return exact_distances(mesh_.n_nodes, mesh_.xyz, leaflets_.surface(), limit, options_.n_threads);
+    return exact_distances(mesh_.n_nodes, mesh_.xyz(), leaflets_.surface(), limit, options_.n_threads);
   }
   SolverBand band_before(const SolverDistances &distances, bool is_closing) const {
     const double far = is_closing ? band_end * half_thickness_ : std::numeric_limits<double>::infinity();
@@ -94,7 +95,7 @@ class Forecaster {
   void check_closed(double opening) {
     const SolverDistances distances = distances_at(opening, true);
     const SolverBand before = band_before(distances, true), behind = band_behind(distances);
-    const std::string from_to = " from " + shown(half_thickness_) + " to " + shown(band_end * half_thickness_);
+    const std::string from_to = " from " + in_mesh(half_thickness_) + " to " + in_mesh(band_end * half_thickness_);
     for (const auto &[band, side] : {std::pair(&before, "before"), {&behind, "behind"}})
       if (band->n_nodes == 0)
         refuse_motion("open", std::string("no node is ") + side + " the closed leaflets at a distance" + from_to +
@@ -114,7 +115,7 @@ class Forecaster {
     const SolverBand before = band_before(distances_at(opening, false), false);
     if (before.n_nodes == 0)
       refuse_motion("close", "no node of the solver's box is before the open leaflets at a distance of " +
-                                 shown(half_thickness_) + " or more, where the solver takes the mean flow");
+                                 in_mesh(half_thickness_) + " or more, where the solver takes the mean flow");
     say("it closes once the mean flow before the open leaflets reverses");
     say("  before: " + text_of(before));
   }
@@ -155,15 +156,18 @@ class Forecaster {
       warn("the drop across the closed valve was not found, because the equations were not solved");
       return;
     }
+    if (!is_sensible(expected.drop)) {
+      say("expected drop: not found, because the solver's equations give none between 0 and 1/" + shown(enough) +
+          " of (R/eps) u");
+      warn("the drop across the closed valve was not found, because the solver's equations give none between 0 and 1/" +
+           shown(enough) + " of (R/eps) u; its stabilisation needs a density of about 1 g/cm3");
+      return;
+    }
     say("expected drop of the closed valve: " + printed("%.4f", expected.drop) + " of (R/eps) u, with eps = " +
         shown(half_thickness_) + ", " + shown(half_thickness_ / median_edge_) + " edges");
     say("  u is the flow over the area of the leaflets in the mesh, " + printed("%.5g", expected.area) +
         "; the solver's sum of delta is " + shown(solver_area(mesh_, distances, half_thickness_) / expected.area) +
         " of the exact sum");
-    if (expected.drop > 1 / enough) {
-      warn("svMultiPhysics will drop " + shown(expected.drop) +
-           " of (R/eps) u across the closed valve: its stabilisation needs a density of about 1, as in grams and cm");
-    }
     if (expected.drop >= enough) return;
     std::string needed;
     try {
@@ -177,23 +181,36 @@ class Forecaster {
 
   // Finds the half thickness by steps of a quarter, and then by halving the last step twice.
   std::string thickness_for(const SolverDistances &wide, const std::vector<double> &near) {
+    bool are_found = true;
     const auto is_enough = [&](double factor) {
-      return expected_at(factor * half_thickness_, wide, wide, near).drop >= enough;
+      const Expected expected = expected_at(factor * half_thickness_, wide, wide, near);
+      const bool is_found = expected.is_solved && is_sensible(expected.drop);
+      are_found = are_found && is_found;
+      return is_found && expected.drop >= enough;
     };
     double below = 1, above = 1;
     do {
       below = above;
       above += 0.25;
       if (above > most_thickness)
-        return "even a half thickness of " + shown(most_thickness * half_thickness_) + " does not drop " +
-               shown(enough) + "; the mesh needs shorter edges, or the export finer triangles";
+        return are_found ? "even a half thickness of " + in_mesh(most_thickness * half_thickness_) + " does not drop " +
+                               shown(enough) + "; the mesh needs shorter edges, or the export finer triangles"
+                         : "the half thickness that drops " + shown(enough) + " was not found";
     } while (!is_enough(above));
     for (int i = 0; i < 2; ++i) {
       const double middle = (below + above) / 2;
       (is_enough(middle) ? above : below) = middle;
     }
-    return "a drop of " + shown(enough) + " needs a half thickness of " + shown(above * half_thickness_) + ", " +
+    return "a drop of " + shown(enough) + " needs a half thickness of " + in_mesh(above * half_thickness_) + ", " +
            shown(above * half_thickness_ / median_edge_) + " edges";
+  }
+
+  // The stabilisation can make the drop exceed (R / eps) u a little. A drop far above it, or below 0, is no forecast.
+  static bool is_sensible(double drop) { return drop > 0 && drop <= 1 / enough; }
+
+  // Returns a length as the user gives it, in the unit of the mesh.
+  std::string in_mesh(double length) const {
+    return shown(length / options_.to_solver) + (options_.unit ? std::string(" ") + name_of(*options_.unit) : "");
   }
 
   // Warns of resistance far from the valve, where interpolated distances are negative.

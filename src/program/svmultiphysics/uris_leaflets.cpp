@@ -46,6 +46,9 @@ UrisLeaflets::UrisLeaflets(const ExportOptions &options, const UrisMotion &motio
   check(riis_valve_set_scalar(valve_, "opening", motion.opening[0]), subject_);
   riis_surface_options how = options.surface_options;
   how.triangulation = RIIS_TRIANGULATION_FIXED;
+  how.scale *= options.to_solver;
+  if (how.half_thickness > 0) how.half_thickness *= options.to_solver;
+  for (double &x : how.translation) x *= options.to_solver;
   surface_ = create_for<Surface>(subject_, riis_surface_create, valve_, &how);
   const riis_surface_info info = info_of(surface_);
   half_thickness_ = info.half_thickness;
@@ -53,10 +56,12 @@ UrisLeaflets::UrisLeaflets(const ExportOptions &options, const UrisMotion &motio
   for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(info.lower[k]), std::abs(info.upper[k])});
   grid_ = uris_grid(largest);
   if (options.valve == "bileaflet") housing_ = RIIS_LEAFLET_HOUSING;
+  ring_ = options.ring;
   std::vector<FinerTriangles::Triangle> lasting = lasting_triangles(motion);
   net_ = FinerTriangles(info.n_vertices, std::move(lasting));
-  refine(motion, options.largest_edge);
+  refine(motion, options.largest_edge, options.to_solver);
   find_forward(motion.opening[0]);
+  if (ring_ == ring_face) turn_ring(motion.opening[0]);
   part(options);
   add_boxes(motion);
 }
@@ -102,13 +107,14 @@ std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const Uris
   });
   std::vector<FinerTriangles::Triangle> lasting;
   for (const Seen &of : seen) {
+    if (ring_ == no_ring && of.triangle.leaflet == housing_) continue;
     if (of.n_frames == n_frames) lasting.push_back(of.triangle);
     n_left_out_ += of.n_frames > 0 && of.n_frames < n_frames;
   }
   return lasting;
 }
 
-void UrisLeaflets::refine(const UrisMotion &motion, double largest_edge) {
+void UrisLeaflets::refine(const UrisMotion &motion, double largest_edge, double to_solver) {
   do {
     if (n_triangles() > most_triangles) {
       refuse_usage("--largest-edge: " + shortest(largest_edge) + " makes more than " + std::to_string(most_triangles) +
@@ -116,7 +122,7 @@ void UrisLeaflets::refine(const UrisMotion &motion, double largest_edge) {
     }
     for_all_frames(motion, [&](double opening) { net_.measure(vertices_at(opening)); });
     longest_edge_ = net_.longest_edge();
-  } while (largest_edge > 0 && net_.halve_longer(largest_edge));
+  } while (largest_edge > 0 && net_.halve_longer(largest_edge * to_solver));
 }
 
 void UrisLeaflets::find_forward(double opening) {
@@ -137,7 +143,8 @@ void UrisLeaflets::part(const ExportOptions &options) {
   std::map<std::int32_t, std::vector<Corners>> by_leaflet;
   for (const auto &[corners, leaflet] : net_.triangles()) by_leaflet[leaflet].push_back(corners);
   for (auto &[id, triangles] : by_leaflet) {
-    UrisLeaflet leaflet{name_of_leaflet(options.valve, id), {}, std::move(triangles), id == housing_};
+    UrisLeaflet leaflet{
+        name_of_leaflet(options.valve, id), {}, std::move(triangles), id == housing_ && ring_ == ring_scaffold};
     for (const Corners &corners : leaflet.triangles)
       leaflet.nodes.insert(leaflet.nodes.end(), corners.begin(), corners.end());
     std::sort(leaflet.nodes.begin(), leaflet.nodes.end());
@@ -149,10 +156,39 @@ void UrisLeaflets::part(const ExportOptions &options) {
   }
 }
 
+// Turns the triangles of the ring so that their normals point away from the flow. The solver then counts the nodes inside the
+// ring as before the valve, as far as they are upstream.
+void UrisLeaflets::turn_ring(double opening) {
+  const std::vector<double> xyz = vertices_at(opening);
+  const auto middle_of = [&](const Corners &corners) {
+    Point middle{};
+    for (const std::int64_t vertex : corners)
+      for (std::size_t k = 0; k < 3; ++k) middle[k] += vertex_of(xyz, vertex)[k] / 3;
+    return middle;
+  };
+  Point centre{};
+  double n = 0;
+  for (const auto &[corners, leaflet] : net_.triangles()) {
+    if (leaflet != housing_) continue;
+    const Point middle = middle_of(corners);
+    for (std::size_t k = 0; k < 3; ++k) centre[k] = (centre[k] * n + middle[k]) / (n + 1);
+    ++n;
+  }
+  for (std::size_t i = 0; i < net_.triangles().size(); ++i) {
+    const auto &[corners, leaflet] = net_.triangles()[i];
+    if (leaflet != housing_) continue;
+    const Point off = difference(middle_of(corners), centre),
+                area = twice_area(vertex_of(xyz, corners[0]), vertex_of(xyz, corners[1]), vertex_of(xyz, corners[2]));
+    if (off[0] * area[0] + off[1] * area[1] + off[2] * area[2] < 0) net_.turn(i);
+  }
+}
+
 // Adds the triangles that widen the boxes. A housing gets its own, because the solver uses a separate box for it.
 void UrisLeaflets::add_boxes(const UrisMotion &motion) {
   std::vector<Corners> moving, resting;
-  for (const auto &[corners, leaflet] : net_.triangles()) (leaflet == housing_ ? resting : moving).push_back(corners);
+  const bool has_scaffold = ring_ == ring_scaffold;
+  for (const auto &[corners, leaflet] : net_.triangles())
+    (has_scaffold && leaflet == housing_ ? resting : moving).push_back(corners);
   const std::vector<double> first = vertices_at(motion.opening.front()), last = vertices_at(motion.opening.back());
   const auto add = [&](const std::vector<Corners> &triangles, UrisLeaflet &face) {
     boxes_.emplace_back(triangles, first, last, half_thickness_, grid_);

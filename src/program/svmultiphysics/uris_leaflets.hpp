@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/array_view.hpp"
@@ -42,6 +43,8 @@ class FinerTriangles {
   FinerTriangles(std::int64_t n_given, std::vector<Triangle> triangles);
 
   const std::vector<Triangle> &triangles() const { return triangles_; }
+  // Turns a triangle over.
+  void turn(std::size_t triangle) { std::swap(triangles_[triangle].corners[0], triangles_[triangle].corners[1]); }
   // Returns the length of the longest edge, from the measurements since the last cut.
   double longest_edge() const;
 
@@ -105,9 +108,10 @@ struct UrisLeaflet {
   std::string name;                 // usable as a file's name
   std::vector<std::int64_t> nodes;  // for each node, its vertex; ascending
   std::vector<Corners> triangles;   // corners as numbers of the leaflet's own nodes, from 0
-  bool is_scaffold;                 // true for a housing, which does not move and has no flow through it
+  bool is_scaffold;                 // true for a housing that the solver gets as its scaffold
 };
 
+// Lengths are in the solver's unit, cm, unless the unit of the mesh is not known.
 class UrisLeaflets {
  public:
   // Evaluates all frames, and cuts the triangles as the options require.
@@ -131,8 +135,9 @@ class UrisLeaflets {
  private:
   void open_to(double opening);
   std::vector<FinerTriangles::Triangle> lasting_triangles(const UrisMotion &motion);
-  void refine(const UrisMotion &motion, double largest_edge);
+  void refine(const UrisMotion &motion, double largest_edge, double to_solver);
   void find_forward(double opening);
+  void turn_ring(double opening);
   void part(const ExportOptions &options);
   void add_boxes(const UrisMotion &motion);
 
@@ -145,6 +150,7 @@ class UrisLeaflets {
   std::array<double, 3> forward_{};
   double half_thickness_ = 0, longest_edge_ = 0, grid_ = 0;
   std::int64_t housing_ = -1, n_left_out_ = 0;
+  std::int32_t ring_ = ring_face;  // a UrisRing
 };
 
 }  // namespace riis::program

@@ -111,6 +111,10 @@ UrisMotion uris_motion_of(const ExportOptions &options) {
   const LawWithSpans motion = options.cycle.empty() ? law_of_seconds(options) : law_of_cycle(options);
   UrisMotion frames{frames_of(motion.law, motion.opening, options.time_step, "opening"),
                     frames_of(motion.law, motion.closing, options.time_step, "closing")};
+  // A cycle tells the state at the beginning of the run.
+  const double middle = (frames.opening.back() + frames.closing.back()) / 2;
+  frames.starts_closed =
+      options.starts.empty() ? options.cycle.empty() || motion.law.at(0) <= middle : options.starts == "closed";
   check_way(frames.opening, true, motion.opening);
   check_way(frames.closing, false, motion.closing);
   warn_of_jump("opening", frames.opening.back(), "closing", frames.closing.front());

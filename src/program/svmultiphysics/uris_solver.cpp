@@ -155,10 +155,13 @@ std::vector<double> node_volumes(const SolverMesh &mesh) {
 
 }  // namespace
 
-SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path) {
+SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path, double to_solver) {
   SolverMesh mesh;
   std::int64_t n_cells = 0;
-  check(riis_vtk_mesh_get_nodes(file, &mesh.n_nodes, &n_cells, &mesh.xyz));
+  const double *xyz = nullptr;
+  check(riis_vtk_mesh_get_nodes(file, &mesh.n_nodes, &n_cells, &xyz));
+  mesh.points.assign(xyz, xyz + 3 * mesh.n_nodes);
+  for (double &x : mesh.points) x *= to_solver;
   std::vector<std::int64_t> offsets, nodes;
   std::vector<std::uint8_t> types;
   resize(offsets, n_cells + 1);
@@ -193,7 +196,7 @@ double determinant_at(const SolverMesh &mesh, std::int64_t e, const ShapeFunctio
   for (std::size_t a = 0; a < mesh.element->n_nodes; ++a)
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < 3; ++k)
-        to[i][k] += mesh.xyz[3 * nodes[a] + static_cast<std::int64_t>(i)] * functions.slopes[a][k];
+        to[i][k] += mesh.xyz()[3 * nodes[a] + static_cast<std::int64_t>(i)] * functions.slopes[a][k];
   return determinant(to);
 }
 
@@ -226,7 +229,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
   distances.to_scaffold.assign(static_cast<std::size_t>(mesh.n_nodes), far);
   const PointTree scaffold_middles(scaffold.middles);
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i)
-    if (scaffold.box.contains(mesh.xyz + 3 * i))
+    if (scaffold.box.contains(mesh.xyz() + 3 * i))
       scaffold_middles.nearest(mesh.point(i), view(distances.to_scaffold)[i]);
   return distances;
 }
@@ -343,7 +346,7 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
       for (std::int64_t k = 0; k < 3; ++k) {
         double x = 0;
         for (std::size_t a = 0; a < element.n_nodes; ++a)
-          x += functions[g].values[a] * mesh.xyz[3 * mesh.nodes_of(e)[a] + k];
+          x += functions[g].values[a] * mesh.xyz()[3 * mesh.nodes_of(e)[a] + k];
         xyz.push_back(x);
       }
     }

@@ -50,21 +50,22 @@ const char *solver_element_names();
 struct SolverMesh {
   const SolverElement *element = nullptr;
   std::int64_t n_nodes = 0;
-  const double *xyz = nullptr;      // (3, n_nodes), borrowed
+  std::vector<double> points;       // (3, n_nodes)
   std::vector<std::int64_t> nodes;  // (element->n_nodes, n_elements), in the solver's order
   std::vector<double> node_volume;  // (n_nodes): the integral of the node's shape function
 
   std::int64_t n_elements() const {
     return static_cast<std::int64_t>(nodes.size()) / static_cast<std::int64_t>(element->n_nodes);
   }
-  Point point(std::int64_t node) const { return {xyz[3 * node], xyz[3 * node + 1], xyz[3 * node + 2]}; }
+  const double *xyz() const { return points.data(); }
+  Point point(std::int64_t node) const { return {xyz()[3 * node], xyz()[3 * node + 1], xyz()[3 * node + 2]}; }
   const std::int64_t *nodes_of(std::int64_t e) const {
     return nodes.data() + e * static_cast<std::int64_t>(element->n_nodes);
   }
 };
 
-// Refuses meshes that the solver refuses. `path` names the mesh in refusals.
-SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path);
+// Refuses meshes that the solver refuses. `path` names the mesh in refusals. Lengths are multiplied by `to_solver`.
+SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path, double to_solver);
 
 // Returns the determinant of the map from the reference element at one point.
 double determinant_at(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &functions);

@@ -10,6 +10,8 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkStringArray.h>
@@ -218,6 +220,17 @@ void set_point_array(riis_vtk_mesh *mesh, const std::string &name, std::int64_t 
   mesh->node_data()->AddArray(array);
 }
 
+// Names the unit of a point array. VTK's writers keep the keys of an array.
+void set_unit(riis_vtk_mesh *mesh, const std::string &name, const std::string &unit) {
+  constexpr std::size_t longest = 64;
+  const auto is_printed = [](char c) { return c >= ' ' && c <= '~'; };
+  if (unit.empty() || unit.size() > longest || !std::all_of(unit.begin(), unit.end(), is_printed))
+    refuse_argument("unit is \"", unit.substr(0, longest), "\"; it must be 1 to ", longest, " printed characters");
+  vtkAbstractArray *const array = mesh->node_data()->GetAbstractArray(name.c_str());
+  if (!array) refuse_argument("name is \"", name.substr(0, longest), "\", which is no point array of the mesh");
+  array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
+}
+
 // Sets an array for each of the fields, such as PREFIX_normal.
 void set_fields(riis_vtk_mesh *mesh, const riis_marks *marks, std::int32_t fields, const std::string &prefix) {
   check_name("prefix", prefix);
@@ -355,6 +368,13 @@ RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const ch
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
     set_point_array(mesh, require(name, "name"), n_nodes, n_components, require(values, "values"));
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_set_unit(riis_vtk_mesh *mesh, const char *name, const char *unit) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    set_unit(mesh, require(name, "name"), require(unit, "unit"));
   });
 }
 

@@ -13,6 +13,8 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkPointData.h>
 #include <vtkTypeInt64Array.h>
 
@@ -471,7 +473,13 @@ class XdmfWriter {
     text_ += "</Topology>\n";
   }
 
-  // Writes the numbers of nodes or cells. Names and other texts have no place in XDMF.
+  // Returns the attribute with the array's unit. It is an attribute, because readers expect one element, the numbers.
+  static std::string unit_of(vtkDataArray *array) {
+    if (!array->HasInformation() || !array->GetInformation()->Has(vtkDataArray::UNITS_LABEL())) return "";
+    return joined(" Unit=\"", in_xml(array->GetInformation()->Get(vtkDataArray::UNITS_LABEL())), "\"");
+  }
+
+  // Writes the numbers of nodes or cells. Names and other text have no place in XDMF.
   void write_arrays(vtkDataSetAttributes *from, const char *center) {
     for (int i = 0; i < from->GetNumberOfArrays(); ++i) {
       vtkDataArray *const array = from->GetArray(i);
@@ -482,7 +490,7 @@ class XdmfWriter {
                       n_columns == 1   ? "Scalar"
                       : n_columns == 3 ? "Vector"
                                        : "Matrix",
-                      "\" Center=\"", center, "\">\n");
+                      "\" Center=\"", center, "\"", unit_of(array), ">\n");
       std::string dataset = std::string(center) + "_" + name;
       std::replace(dataset.begin(), dataset.end(), '/', '_');
       // Otherwise the names a/b and a_b would become one name.
