@@ -232,11 +232,12 @@ Triangles in .stl files must have the same order in all files.
     {"warnings", "what they mean, and which comes first",
      R"(
 A line on stderr names a suspicious result and the options to write instead. It is printed if no node, all nodes or hardly
-any nodes are marked. It is also printed if the half thickness does not fit the surface or the edges of the mesh. --quiet
-does not silence it, because wrong marks look like right ones. --allow-none is for valves that are sometimes near no node.
+any nodes are marked. It is also printed if the half thickness does not fit the surface or the edges of the mesh, or if the
+valve does not fit its vessel. --quiet does not silence it, because wrong marks look like right ones. --allow-none is for
+valves that are sometimes near no node.
 One fault may cause the others. The order is units, half thickness, places, leaks. Only the first warning in this order has
 advice. Correct that fault and run the program again. A unit that you name by --unit or --scale counts as known, if the sizes
-allow it. With --strict the status is 4 after a warning of any kind. Coordinates have enough digits for an edge of the mesh
+allow it. If the sizes allow two units, the advice names both. The next run says how many nodes each unit marks. With --strict the status is 4 after a warning of any kind. Coordinates have enough digits for an edge of the mesh
 at that place. They have the unit of --unit.
 )"},
     {"leaks", "edges and passages through the band",
