@@ -328,8 +328,11 @@ def test_files_that_are_no_meshes(tmp_path):
             reading.read_mesh(str(tmp_path / name), {})
         assert str(tmp_path / name) in str(refused.value)
     (tmp_path / "mesh.stl").write_text("")
-    with pytest.raises(reading.Refusal, match="riis mark mesh.stl --output mesh.vtu"):
+    with pytest.raises(reading.Refusal, match="is a surface, and riis view shows a mesh of volume cells"):
         reading.read_mesh(str(tmp_path / "mesh.stl"), {})
+    (tmp_path / "my mesh.cgns").write_text("")
+    with pytest.raises(reading.Refusal, match="riis mark 'my mesh.cgns' --output mesh.vtu"):
+        reading.read_mesh(str(tmp_path / "my mesh.cgns"), {})
     with pytest.raises(reading.Refusal, match="a surface is a file .vtp, .stl or .pvd"):
         reading.read_surface(str(tmp_path / "text.vtu"))
     with pytest.raises(reading.Refusal, match="scale: 'wide' is not a number"):

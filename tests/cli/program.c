@@ -48,7 +48,8 @@ static void take_common_warnings(void) {
     char *const end = strchr(line, '\n'), *const next = end ? end + 1 : line + strlen(line);
     const size_t length = (size_t)(next - line);
     const char *const leaks = strstr(line, " leaks: "), *const cross = strstr(line, " go through each other");
-    const int is_leak = strncmp(line, "riis: the surface", 17) == 0 && leaks && leaks < next;
+    const int is_leak = (strncmp(line, "riis: the surface", 17) == 0 && leaks && leaks < next) ||
+                        strncmp(line, "riis: the valve is open", 23) == 0;
     if (is_leak || (cross && cross < next)) {
       strncat(is_leak ? program_leaks : program_crossings, line, length);
       memmove(line, next, strlen(next) + 1);

@@ -234,8 +234,9 @@ TEST(test_two_possible_units) {
   assert_true(n_marked[1] < 1000 && n_marked[2] >= 1000);
   assert_non_null(strstr(program_err, wanted));
   run_program("mark", scratch_path("basin.vtu"), NULL);
-  assert_non_null(strstr(program_err, "the mesh looks as if it were in millimetres or centimetres, the surface in "
-                                      "centimetres (sides 13 x 13 x 13 and 2.78 x 2.76 x 1."));
+  assert_non_null(strstr(program_err,
+                         "the mesh looks as if it were in millimetres or centimetres, the surface in "
+                         "centimetres (sides 13 x 13 x 13 and 2.78 x 2.76 x 1."));
   assert_non_null(strstr(program_err, "): write --unit mm or --unit cm\n"));
 }
 
@@ -249,8 +250,9 @@ TEST(test_placed_valve_in_other_unit) {
   expect_warning(3, "): write --unit m\n");
   run_program("check", "leaks", meshes[0], "--valve", scratch_path("placed.json"), "--between", "0,0,5", "0,0,-0.01",
               NULL);
-  assert_non_null(strstr(program_err, "FROM, 0 0 5, is outside the mesh, which goes from -0.017 -0.016 -0.013 to "
-                                      "0.015 0.016 0.004\n"));
+  assert_non_null(strstr(program_err,
+                         "FROM, 0 0 5, is outside the mesh, which goes from -0.017 -0.016 -0.013 to "
+                         "0.015 0.016 0.004\n"));
   RUN_FINE("mark", meshes[2], "--valve", scratch_path("placed.json"));
   RUN_FINE("mark", meshes[0], "--valve", scratch_path("placed.json"), "--unit", "m");
 }

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 from typing import Any
 
 import numpy
@@ -12,6 +13,7 @@ import numpy
 from riis import FAR_DISTANCE
 
 BY_VTK, BY_MESHIO = (".vtu", ".pvtu", ".vtk"), (".msh", ".xdmf", ".xmf")
+SURFACES = (".stl", ".vtp", ".obj", ".ply", ".off")
 
 
 class Refusal(Exception):
@@ -28,10 +30,15 @@ def read_mesh(path: str, progress: dict[str, float]) -> Any:
     ending = os.path.splitext(path)[1].lower()
     if not os.path.exists(path):
         raise Refusal(f"{path}: there is no such file")
+    if ending in SURFACES:
+        raise Refusal(
+            f"{path}: is a surface, and riis view shows a mesh of volume cells. gmsh or your mesher fills a closed surface with "
+            "cells; docs/patient.md has the commands"
+        )
     if os.path.isdir(path) or ending not in BY_VTK + BY_MESHIO:
         raise Refusal(
             f"{path}: riis view reads {', '.join(BY_VTK + BY_MESHIO)}. The program reads more formats, and writes what the view "
-            f"reads: riis mark {os.path.basename(path)} --output mesh.vtu"
+            f"reads: riis mark {shlex.quote(os.path.basename(path))} --output mesh.vtu"
         )
     if ending in BY_MESHIO:
         grid = _by_meshio(path)

@@ -102,8 +102,7 @@ double oddity_at(double factor, const Sizes &s) {
   return oddity;
 }
 
-// Returns the roots of the characteristic polynomial of a symmetric matrix with the elements xx, yy, zz, xy, xz, yz. The largest is
-// the first.
+// Returns the eigenvalues of a symmetric matrix with the elements xx, yy, zz, xy, xz, yz. The largest is the first.
 std::array<double, 3> eigenvalues_of(const std::array<double, 6> &m) {
   const double mean = (m[0] + m[1] + m[2]) / 3;
   const double x = m[0] - mean, y = m[1] - mean, z = m[2] - mean;

@@ -71,8 +71,8 @@ struct Moments {
   void add(const Moments &other);
 };
 
-// Returns the three sides of a mesh, the longest first. A side is at most the box's side, and at most the diameter of a disc whose
-// points would have the same moment. Without points, the sides are those of the box.
+// Returns the three sides of a mesh, the longest first. A side is at most the box's side, and at most the diameter of a disc
+// whose points would have the same moment. Without points, the sides are those of the box.
 std::array<double, 3> sides_of(const Box &box, const Moments &moments);
 
 // The sizes of a mesh and of a valve in it. The functions below tell whether they fit together, and which unit and which half

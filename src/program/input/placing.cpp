@@ -373,8 +373,15 @@ std::string place_report(const Placed &placed, Reader reader) {
   else if (placed.kind != "bileaflet" && at.worst > 3 * std::max(placed.noise, 1e-6 * at.scale))
     text += "The valve misses the landmarks. " + option_text(reader, "warp", "exact") + " takes it to them, " +
             option_text(reader, "warp", "smoothed") + " as near as their noise.\n";
-  text += undetermined.empty() ? "\nThe landmarks determine every size that they bear on.\n"
-                               : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") + ".\n";
+  text += undetermined.empty()
+              ? "\nThe landmarks determine every size that they bear on.\n"
+              : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") +
+                    ".\nTheir values in the table are guesses, drawn to the proportions of the kind. "
+                    "Each may move the valve by more than a\nfifteenth of its radius. Add landmarks" +
+                    (reader == Reader::program
+                         ? ", or give known sizes in cm, as by --set " + undetermined.front() + "=VALUE"
+                         : ", or give known sizes") +
+                    ".\n";
   return text;
 }
 

@@ -305,8 +305,7 @@ void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
     auto warning = warning_of(situation);
     compare_units(i, units_left_open(situation));
     if (!warning) continue;
-    if (warning->cause == Cause::units)
-      all_.options.has_doubted_unit = all_.valves[i].options.has_doubted_unit = true;
+    if (warning->cause == Cause::units) all_.options.has_doubted_unit = all_.valves[i].options.has_doubted_unit = true;
     const std::string part = all_.part_of(i);
     warning->text.insert(0, part.empty() ? "" : part + ": ");
     warnings.push_back(*warning);

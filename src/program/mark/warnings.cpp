@@ -229,6 +229,10 @@ std::optional<Warning> warning_of(const Situation &s) {
   return why;
 }
 
+std::optional<Warning> warning_of_thickness(const MarkOptions &options, const riis_surface_info &info) {
+  return warning_of_half_thickness(Situation(options, info, MeshCounts()));
+}
+
 std::vector<PossibleUnit> units_left_open(const Situation &s) {
   const double present = s.options.surface_options.scale;
   const double usual = s.options.placed_unit ? factor_between(Unit::centimetre, *s.options.placed_unit) : 1;

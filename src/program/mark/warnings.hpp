@@ -41,6 +41,9 @@ struct Warning {
 // Returns a warning, or nothing if the marks look right.
 std::optional<Warning> warning_of(const Situation &situation);
 
+// Returns a warning if the half thickness is too large for a surface. It needs no mesh.
+std::optional<Warning> warning_of_thickness(const MarkOptions &options, const riis_surface_info &info);
+
 // A unit that a mesh may have: the options that the user writes for it, the placement, and the half thickness.
 struct PossibleUnit {
   std::string write;

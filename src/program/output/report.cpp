@@ -2,6 +2,7 @@
 #include "program/output/report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <locale>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,20 @@
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {
+
+std::string bytes_text(double n) {
+  const char *const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
+  std::size_t unit = 0;
+  for (; n >= 1000 && unit < 5; ++unit) n /= 1000;
+  return printed(unit == 0 ? "%.0f " : "%.3g ", n) + units[unit];
+}
+
+bool has_slits(const riis_orifice &orifice) {
+  // The perimeter of a circle with a hundredth of the area.
+  const double pi = std::acos(-1);
+  return orifice.area > 0 && orifice.perimeter * orifice.perimeter < 4 * pi * 0.01 * orifice.area;
+}
+
 namespace {
 
 std::ostringstream table_stream() {
@@ -140,7 +155,7 @@ void add_flow(const ValveReport &valve, std::ostringstream &out) {
     if (flow.orifice_opening) state << (valve.name.empty() ? "" : ", ") << "opening " << *flow.orifice_opening;
     out << line("orifice", state.str()) << flow.orifice->area << " open, " << flow.orifice->effective_area
         << " effective: the band takes " << flow.orifice->rim_reach << " half thicknesses along a perimeter of "
-        << flow.orifice->perimeter
+        << flow.orifice->perimeter << (has_slits(*flow.orifice) ? slits_text : "")
         << (flow.orifice->outline == RIIS_OUTLINE_BOUNDARY ? "; the outline is the longest open boundary" : "") << "\n";
   }
   if (flow.first) {

@@ -60,6 +60,14 @@ struct FlowReport {
   std::optional<double> leak_per_drop, drop;  // set if the user gave a resistance
 };
 
+// Returns a text such as "12.3 MB".
+std::string bytes_text(double n);
+
+// Returns whether an orifice is open mostly by slits, which have an area but no perimeter, and the text about them.
+bool has_slits(const riis_orifice &orifice);
+inline constexpr const char *slits_text =
+    ", where slits narrower than a fifth of the half thickness do not count: they are in the open area only";
+
 struct CrossingReport {
   int n_openings = 0;             // number of openings checked, or 0 if only the given surface was checked
   std::optional<double> opening;  // the opening at which a crossing was found
