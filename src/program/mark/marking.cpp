@@ -12,6 +12,7 @@
 #include "program/base/progress.hpp"
 #include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
+#include "program/input/wall.hpp"
 #include "program/mark/mesh_marking.hpp"
 #include "program/mark/warnings.hpp"
 
