@@ -265,7 +265,9 @@ nb::tuple judge_sizes(nb::handle sides, const nb::tuple &surface, nb::handle edg
   program::Sizes sizes{
       {},  {}, number(edge, "edge"), number(half_thickness, "half_thickness"), flag(is_unit_known, "is_unit_known"),
       true};
-  three_numbers(sides, "sides", sizes.mesh_sides.data());
+  double of_mesh[3];
+  three_numbers(sides, "sides", of_mesh);
+  std::copy_n(of_mesh, 3, sizes.mesh_sides.begin());
   three_numbers(surface[0], "surface", sizes.surface.lower);
   three_numbers(surface[1], "surface", sizes.surface.upper);
   const program::UnitJudgement judgement = program::judge_units(sizes, program::unit_factors());
