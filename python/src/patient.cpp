@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program's rules for patients: files of landmarks and placed valves, units, and sizes that fit together. The program's own
 // sources read and judge them (src/program/CMakeLists.txt).
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>

@@ -146,6 +146,26 @@ TEST(test_volume_mesh_as_wall) {
   assert_non_null(strstr(program_err, "none.vtu"));
 }
 
+/* The open state has a smaller root, so the wall is farther from its attachment. */
+TEST(test_wall_at_all_openings) {
+  const tube wall = {0, 0, 1.8, 0, 1, -1};
+  char path[256], open_state[256];
+  snprintf(path, sizeof path, "%s", write_tube("wall.stl", &wall));
+  scratch_write_text("open.json", "{\"root_radius\": 1.15, \"commissure_radius\": 1.15}");
+  snprintf(open_state, sizeof open_state, "%s", scratch_path("open.json"));
+  for (int i = 0; i < 2; ++i) {
+    run_program("surface", "--valve", "coapting", "--params-open", open_state, "--opening", "0", "--skirt",
+                i ? "0.7" : "0.6", "--wall", path, "--output", scratch_path("skirt.vtp"), NULL);
+    if (i) expect_run_fine(__FILE__, __LINE__);
+    if (i) continue;
+    assert_int_equal(program_exit_code, 1);
+    assert_non_null(strstr(program_err,
+                           "wall.stl: at the opening 0.6 the wall is not within --skirt, 0.6: the widest "
+                           "gap is 0.61"));
+  }
+  RUN_FINE("surface", "--valve", "coapting", "--skirt", "0.6", "--wall", path, "--output", scratch_path("skirt.vtp"));
+}
+
 TEST(test_lengths_in_another_unit) {
   const tube wall = {0, 0, 1.6, 0, 1, -1};
   skirt_to(write_tube("wall.stl", &wall), "12", "0,0,0");
