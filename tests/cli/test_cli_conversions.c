@@ -41,7 +41,7 @@ TEST(test_texts) {
               "mark", scratch_path("grid.vtk"));
   /* The pointers of Git LFS have the names of the files that they stand for. */
   const char *const pointers[] = {"p.vtu", "p.vtk", "p.msh", "p.vtm", "p.xdmf", "p.exo"};
-  const char *const surfaces[] = {"p.stl", "p.vtp", "p.obj", "p.ply", "p.vtu", "p.pvd"};
+  const char *const surfaces[] = {"p.stl", "p.vtp", "p.obj", "p.ply", "p.vtu", "p.vtk"};
   for (int i = 0; i < 12; ++i) {
     const char *const name = i < 6 ? pointers[i] : surfaces[i - 6];
     scratch_write_text(name,
