@@ -77,8 +77,8 @@ constexpr double usual_edge = 3;
 // The least half thickness, as a share of the mesh's edge length. A thinner band falls between two layers of nodes and contains
 // few nodes.
 constexpr double smallest_half_thickness = 0.3;
-// A width that is wrong by more than this ratio is impossible.
-constexpr double most_wrong_width = 3;
+// A vessel that is too narrow or too wide by more than these ratios is impossible.
+constexpr double most_too_narrow = 1.5, most_too_wide = 3;
 // A unit is possible if it is at most this much odder than the likeliest one. Oddities are logarithms of ratios.
 constexpr double most_odd = 1;
 
@@ -139,7 +139,7 @@ UnitJudgement judge_units(const Sizes &s, const std::vector<double> &factors) {
   std::stable_sort(possible.begin(), possible.end(), is_odder);
   const double least = oddity_at(possible.front(), s);
   const auto is_impossible = [&](double factor) {
-    return narrowness_at(factor, s) + wideness_at(factor, s) > std::log(most_wrong_width) ||
+    return narrowness_at(factor, s) > std::log(most_too_narrow) || wideness_at(factor, s) > std::log(most_too_wide) ||
            oddity_at(factor, s) > least + most_odd;
   };
   possible.erase(std::remove_if(possible.begin(), possible.end(), is_impossible), possible.end());
