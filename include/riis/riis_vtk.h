@@ -252,6 +252,10 @@ typedef struct riis_vtk_surface riis_vtk_surface;
  * from the second corner to the fourth, with the same winding.
  * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the arrays that exist. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflets, riis_vtk_surface **surface);
+/* Makes a surface of the faces that only one volume cell of the mesh has. It is the wall around the blood. The faces
+ * point outwards. Faces of cells of higher order become straight.
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without volume cells. */
+RIIS_API riis_status riis_vtk_mesh_get_boundary(const riis_vtk_mesh *mesh, riis_vtk_surface **boundary);
 /* Makes every connected piece of the surface a leaflet, numbered from 0 in the order of the pieces' first
  * faces. Faces are connected if they share a vertex, or have vertices with exactly the same coordinates, as in
  * an .stl file. Arrays that the surface gave before become invalid. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program's rules for patients: files of landmarks and placed valves, units, and sizes that fit together. The program's own
 // sources read and judge them (src/program/CMakeLists.txt).
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -263,24 +264,34 @@ nb::dict units() {
   return made;
 }
 
-nb::tuple judge_sizes(const nb::tuple &mesh, const nb::tuple &surface, nb::handle origin, nb::handle edge,
-                      nb::handle half_thickness, nb::handle is_unit_known) {
-  // If a mesh is more than 12 valves wide, it is doubted, because the view does not query a unit.
-  program::Sizes sizes{{},
-                       {},
-                       number(edge, "edge"),
-                       number(half_thickness, "half_thickness"),
-                       {},
-                       flag(is_unit_known, "is_unit_known"),
-                       true,
-                       12};
-  three_numbers(mesh[0], "mesh", sizes.mesh.lower);
-  three_numbers(mesh[1], "mesh", sizes.mesh.upper);
+nb::tuple mesh_sides(nb::handle points_) {
+  const Array points = Array::of<double>(points_, "points");
+  points.expect({-1, 3});
+  program::Box box = program::empty_box();
+  program::Moments moments;
+  for (std::int64_t i = 0; i < points.size(0); ++i) {
+    box.grow(points.data<double>() + 3 * i);
+    moments.add(points.data<double>() + 3 * i);
+  }
+  const auto sides = program::sides_of(box, moments);
+  return nb::make_tuple(sides[0], sides[1], sides[2]);
+}
+
+nb::tuple judge_sizes(nb::handle sides, const nb::tuple &surface, nb::handle edge, nb::handle half_thickness,
+                      nb::handle is_unit_known) {
+  program::Sizes sizes{
+      {},  {}, number(edge, "edge"), number(half_thickness, "half_thickness"), flag(is_unit_known, "is_unit_known"),
+      true};
+  double of_mesh[3];
+  three_numbers(sides, "sides", of_mesh);
+  std::copy_n(of_mesh, 3, sizes.mesh_sides.begin());
   three_numbers(surface[0], "surface", sizes.surface.lower);
   three_numbers(surface[1], "surface", sizes.surface.upper);
-  three_numbers(origin, "origin", sizes.translation);
-  const auto factor = program::missing_factor(sizes);
-  return nb::make_tuple(program::sizes_fit_at(1, sizes), factor ? nb::cast(1 / *factor) : nb::none());
+  const program::UnitJudgement judgement = program::judge_units(sizes, program::unit_factors());
+  const bool is_possible = judgement.is_right || judgement.is_possible(1);
+  for (const double factor : judgement.factors)
+    if (factor != 1 && !judgement.is_right) return nb::make_tuple(is_possible, 1 / factor);
+  return nb::make_tuple(is_possible, nb::none());
 }
 
 nb::tuple area_samples(Surface &surface, std::int32_t n_leaflets) {
@@ -311,15 +322,17 @@ void add_patient(nb::module_ &module) {
       nb::sig("def area_samples(surface: Surface, n_leaflets: int) -> tuple[numpy.typing.NDArray[numpy.float64], "
               "numpy.typing.NDArray[numpy.float64]]"),
       "Returns points on the leaflets below n_leaflets, and the area for which each point stands.");
-  module.def("judge_sizes", &judge_sizes, nb::arg("mesh").none(), nb::arg("surface").none(), nb::arg("origin").none(),
-             nb::arg("edge").none(), nb::arg("half_thickness").none(), nb::arg("is_unit_known").none(),
-             nb::sig("def judge_sizes(mesh: tuple[typing.Any, typing.Any], surface: tuple[typing.Any, typing.Any], "
-                     "origin: typing.Any, edge: float, half_thickness: float, is_unit_known: bool) -> tuple[bool, "
-                     "float | None]"),
+  module.def("mesh_sides", &mesh_sides, nb::arg("points").none(),
+             nb::sig("def mesh_sides(points: typing.Any) -> tuple[float, float, float]"),
+             "Returns the sides of a mesh along its principal axes, the longest first.");
+  module.def("judge_sizes", &judge_sizes, nb::arg("sides").none(), nb::arg("surface").none(), nb::arg("edge").none(),
+             nb::arg("half_thickness").none(), nb::arg("is_unit_known").none(),
+             nb::sig("def judge_sizes(sides: tuple[float, float, float], surface: tuple[typing.Any, typing.Any], "
+                     "edge: float, half_thickness: float, is_unit_known: bool) -> tuple[bool, float | None]"),
              R"(Judges whether a mesh and a valve may have the same unit.
 
-mesh, surface   lower and upper corners
-origin          of the valve, in the mesh
+sides           of the mesh, the longest first
+surface         lower and upper corners
 edge            median edge of the mesh; 0 if unknown
 is_unit_known   whether the user named the unit
 

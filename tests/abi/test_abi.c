@@ -832,6 +832,7 @@ TEST(test_signatures) {
   SIGNATURE(riis_vtk_mesh_get_sharing, int32_t,
             (const riis_vtk_mesh *, int64_t, uint8_t *, int64_t *, riis_vtk_sharing *, int64_t));
   SIGNATURE(riis_vtk_surface_read, int32_t, (const char *, const char *, riis_vtk_surface **));
+  SIGNATURE(riis_vtk_mesh_get_boundary, int32_t, (const riis_vtk_mesh *, riis_vtk_surface **));
   SIGNATURE(riis_vtk_surface_number_pieces, int32_t, (riis_vtk_surface *));
   SIGNATURE(riis_vtk_surface_append, int32_t, (riis_vtk_surface *, const riis_vtk_surface *));
   SIGNATURE(riis_vtk_surface_destroy, void, (riis_vtk_surface **));

@@ -49,7 +49,8 @@ static void take_common_warnings(void) {
     const size_t length = (size_t)(next - line);
     const char *const leaks = strstr(line, " leaks: "), *const cross = strstr(line, " go through each other");
     const char *const outside = strstr(line, " stands through the wall");
-    const int is_leak = strncmp(line, "riis: the surface", 17) == 0 && leaks && leaks < next;
+    const int is_leak = (strncmp(line, "riis: the surface", 17) == 0 && leaks && leaks < next) ||
+                        strncmp(line, "riis: the valve is open", 23) == 0;
     const int is_outside = outside && outside < next;
     if (is_leak || is_outside || (cross && cross < next)) {
       strncat(is_leak ? program_leaks : is_outside ? program_outside : program_crossings, line, length);

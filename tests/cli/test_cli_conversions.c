@@ -26,6 +26,35 @@ TEST(test_texts) {
   }
   RUN_REFUSED(1, "; OpenFOAM converts it: fluentMeshToFoam heart.cas\n", "mark", "heart.cas");
   RUN_REFUSED(1, "; give the .xdmf file that names it\n", "mark", "heart.h5");
+  RUN_REFUSED(1, "; gmsh meshes it: gmsh -3 heart.step -format vtk -o heart.vtk\n", "mark", "heart.step");
+  RUN_REFUSED(1, "; gmsh meshes it: gmsh -2 v.IGES -format stl -o v.stl\n", "mark", mesh, "--surface", "v.IGES");
+  RUN_REFUSED(1, "; FEBio Studio converts it: File > Export FE Model..., heart.vtk\n", "mark", "heart.feb");
+  RUN_REFUSED(1, "open CASE.nek5000 in ParaView, then File > Save Data..., heart.vtu\n", "mark", "heart.re2");
+  scratch_write_text("heart.msh", "<?xml version=\"1.0\"?>\n<mesh type=\"TetGen\"/>\n");
+  RUN_REFUSED(1, "it is a description by SimVascular, whose mesh is beside it: ", "mark", scratch_path("heart.msh"));
+  scratch_write_text("grid.vtk",
+                     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\n"
+                     "SPACING 1 1 1\n");
+  RUN_REFUSED(1,
+              "grid.vtk: holds structured_points, not unstructured_grid; ParaView converts it: the filters Merge "
+              "Blocks and Append Datasets, then File > Save Data..., ",
+              "mark", scratch_path("grid.vtk"));
+  /* The pointers of Git LFS have the names of the files that they stand for. */
+  const char *const pointers[] = {"p.vtu", "p.vtk", "p.msh", "p.vtm", "p.xdmf", "p.exo"};
+  const char *const surfaces[] = {"p.stl", "p.vtp", "p.obj", "p.ply", "p.vtu", "p.vtk"};
+  for (int i = 0; i < 12; ++i) {
+    const char *const name = i < 6 ? pointers[i] : surfaces[i - 6];
+    scratch_write_text(name,
+                       "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a214614ab2935c943f9e0ff69d22e\nsize "
+                       "132735\n");
+    char path[256];
+    snprintf(path, sizeof path, "%s", scratch_path(name));
+    RUN_REFUSED(1, ": is a pointer of Git LFS, not the file itself: git lfs pull fetches the file\n",
+                i < 6 ? "mark" : "surface", i < 6 ? path : "--surface", i < 6 ? "--allow-none" : path,
+                i < 6 ? NULL : "--output", scratch_path("no.vtp"));
+  }
+  scratch_write_text("p.json", "version https://git-lfs.github.com/spec/v1\n");
+  RUN_REFUSED(1, "p.json: is a pointer of Git LFS", "place", scratch_path("p.json"), "--valve", "mitral");
   scratch_write_text("fluent.msh", "(0 \"Fluent\")\n");
   RUN_REFUSED(1, "does not begin with $MeshFormat; meshio converts it: meshio convert ", "mark",
               scratch_path("fluent.msh"));
@@ -59,10 +88,10 @@ TEST(test_texts) {
 
 #if defined(RIIS_GMSH) || defined(RIIS_MESHIO)
 /* Runs the command that the last refusal suggests, by its program's full path. Returns the file that the command makes. */
-static const char *convert(const char *tool, const char *path) {
+static const char *meshed_by(const char *tool, const char *path, const char *verb) {
   static char command[2048], made[256];
   char marker[64];
-  snprintf(marker, sizeof marker, " converts it: %s ", tool);
+  snprintf(marker, sizeof marker, "%s%s ", verb, tool);
   const char *arguments = strstr(program_err, marker);
   if (!arguments) fail_msg("no command in %s", program_err);
   arguments += strlen(marker);
@@ -72,6 +101,8 @@ static const char *convert(const char *tool, const char *path) {
   snprintf(made, sizeof made, "%.*s", (int)strcspn(arguments, "\n"), arguments);
   return strrchr(made, ' ') + 1;
 }
+
+static const char *convert(const char *tool, const char *path) { return meshed_by(tool, path, " converts it: "); }
 #endif
 
 #ifdef RIIS_GMSH
@@ -98,6 +129,22 @@ TEST(test_meshes_by_gmsh) {
     assert_int_equal(program_exit_code, 0);
     assert_true(json_number(program_out, "n_nodes") > 100 && json_number(program_out, "n_marked") > 5);
   }
+}
+
+/* gmsh writes a cube as CAD, and the advised commands fill it and cover it. */
+TEST(test_cad_by_gmsh) {
+  char path[256];
+  snprintf(path, sizeof path, "%s", scratch_path("cube.brep"));
+  make_by_gmsh(0, "brep", path);
+  RUN_REFUSED(1, "gmsh meshes it", "mark", path);
+  run_program("mark", meshed_by("gmsh", RIIS_GMSH, " meshes it: "), "--half-thickness", "0.6", "--stats", "-", NULL);
+  assert_int_equal(program_exit_code, 0);
+  assert_true(json_number(program_out, "n_nodes") > 8);
+  RUN_REFUSED(1, "gmsh meshes it", "surface", "--surface", path, "--output", scratch_path("skin.vtp"));
+  run_program("mark", scratch_path("in.vtu"), "--surface", meshed_by("gmsh", RIIS_GMSH, " meshes it: "),
+              "--half-thickness", "0.4", "--stats", "-", "--allow-none", NULL);
+  const double area = json_number(program_out, "area");
+  assert_true(area > 95.99 && area < 96.01);
 }
 
 TEST(test_surfaces_by_gmsh) {

@@ -137,10 +137,23 @@ TEST(test_closed_valve) {
   assert_null(strstr(program_out, "passage"));
 }
 
-/* An end of the path is nearer to the surface than all other points of the passage. */
+/* An open valve has a passage, which no half thickness should close. */
+TEST(test_passage_through_an_open_valve) {
+  RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--valve", "trileaflet", "--opening", "1");
+  assert_int_equal(
+      strncmp(program_leaks, "riis: the valve is open, at opening 1: unmarked nodes join 0.01 0 -1.2 and ", 75), 0);
+  assert_null(strstr(program_leaks, "--half-thickness"));
+}
+
+/* An end of the path is nearer to the surface than any other point of the passage. */
 TEST(test_end_is_the_narrowest_place) {
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", "0,0,-1.2", "0.5,0,-0.1");
-  assert_non_null(strstr(program_leaks, "the passage is nearest to the surface at its end at "));
+  assert_non_null(strstr(program_leaks,
+                         "the passage is wide everywhere: no place on it is nearer to the surface than "
+                         "its end at "));
+  assert_non_null(strstr(program_leaks,
+                         " from it. Either the points are beside the surface, or it does not stand in "
+                         "their way: give points on both sides of it, farther away\n"));
   assert_null(strstr(program_leaks, "--half-thickness"));
 }
 

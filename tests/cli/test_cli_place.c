@@ -152,6 +152,23 @@ TEST(closed_curve_is_an_annulus) {
   strcpy(by_name, program_out);
   RUN_FINE("place", scratch_path("curve.mrk.json"), "--valve", "mitral", "--output", "-");
   assert_string_equal(program_out, by_name);
+  /* Eight points do not determine all sizes. */
+  RUN_FINE("place", scratch_path("a.json"), "--valve", "mitral");
+  assert_non_null(strstr(program_out, "\nThe landmarks do not determine "));
+  assert_non_null(strstr(program_out, "Their values in the table are guesses, drawn to the proportions of the kind."));
+  assert_non_null(strstr(program_out, "Add landmarks, or give known sizes in cm, as by --set "));
+  /* In an open curve, labels that are no landmarks are points of the annulus, and others keep their meaning. */
+  m = snprintf(curve, sizeof curve,
+               "{\"markups\": [{\"type\": \"Curve\", \"coordinateSystem\": \"LPS\", \"controlPoints\": [");
+  for (int i = 0; i < 8; ++i)
+    m += snprintf(curve + m, sizeof curve - (size_t)m, "{\"label\": \"MV-%d\", \"position\": [%g, %g, %g]}, ", i,
+                  annulus[i][0], annulus[i][1], annulus[i][2]);
+  snprintf(curve + m, sizeof curve - (size_t)m,
+           "{\"label\": \"anterior_horn\", \"position\": [0, 17, 2]}, {\"label\": \"flow_from\", \"position\": "
+           "[0, 0, 9]}, {\"label\": \"flow_to\", \"position\": [0, 0, 0]}]}]}");
+  scratch_write_text("curve.mrk.json", curve);
+  RUN_FINE("place", scratch_path("curve.mrk.json"), "--valve", "mitral", "--output", "-");
+  assert_string_equal(program_out, by_name);
 }
 
 /* A name of one landmark may have a list of one point, and of no more. */

@@ -184,7 +184,15 @@ TEST(test_wrong_file_units) {
   expect_warning(3, "write --scale 0.5 in place of --scale 0.005\n");
 }
 
-/* The mesh's edges suggest millimetres. The mesh may also be large and coarse, in centimetres, so a unit from the user
+/* Checks that the first line has this text, and removes it. */
+static void expect_note_and_warning(const char *text) {
+  char *const end = strchr(program_err, '\n');
+  if (!end || !strstr(program_err, text) || strstr(program_err, text) > end)
+    fail_msg("wanted \"%s\"\nstderr: %s", text, program_err);
+  memmove(program_err, end + 1, strlen(end + 1) + 1);
+}
+
+/* The mesh's edges suggest millimetres. It may also be a large and coarse mesh in centimetres, so a unit that the user names
  * decides. */
 TEST(test_coarse_or_other_unit) {
   assert_int_equal(
@@ -195,14 +203,58 @@ TEST(test_coarse_or_other_unit) {
   expect_one_advice();
   RUN_FINE("mark", scratch_path("large.vtu"), "--unit", "mm");
   run_program("mark", scratch_path("large.vtu"), "--unit", "cm", NULL);
+  expect_note_and_warning("the unit is not sure: --unit cm marks 18 nodes, --unit mm marks ");
   expect_warning(program_exit_code, "the half thickness is 0.1, the median edge of the mesh 0.6");
   expect_warning(program_exit_code, ": write --half-thickness 0.6");
   expect_one_advice();
   run_program("mark", scratch_path("large.vtu"), "--scale", "1", NULL);
+  expect_note_and_warning("the unit is not sure: --unit cm marks 18 nodes, --unit mm marks ");
   expect_warning(program_exit_code, ": write --half-thickness 0.6");
   /* The file's unit is unknown, so the default half thickness says nothing about the unit. */
   run_program("mark", scratch_path("large.vtu"), "--surface", surfaces[2], NULL);
   expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
+}
+
+/* A basin of 13 cm with short edges may also be a vessel of 13 mm. The advice names both units, and the next run says how many
+ * nodes each unit marks. */
+TEST(test_two_possible_units) {
+  const double far = 6.5;
+  assert_int_equal(shim_write_box(scratch_path("basin.vtu"), SHIM_RAW, 40, (double[3]){-far, -far, -far},
+                                  (double[3]){far, far, far}, 0),
+                   1);
+  double n_marked[n_units] = {0, 0, 0};
+  for (int i = 1; i < n_units; ++i) {
+    run_program("mark", scratch_path("basin.vtu"), "--unit", units[i], "--stats", "-", NULL);
+    n_marked[i] = json_number(program_out, "n_marked");
+    assert_non_null(strstr(program_err, "the unit is not sure: "));
+  }
+  char wanted[96];
+  snprintf(wanted, sizeof wanted, "--unit mm marks %d,%03d nodes, --unit cm marks %d nodes\n", (int)n_marked[2] / 1000,
+           (int)n_marked[2] % 1000, (int)n_marked[1]);
+  assert_true(n_marked[1] < 1000 && n_marked[2] >= 1000);
+  assert_non_null(strstr(program_err, wanted));
+  run_program("mark", scratch_path("basin.vtu"), NULL);
+  assert_non_null(strstr(program_err,
+                         "the mesh looks as if it were in millimetres or centimetres, the surface in "
+                         "centimetres (sides 13 x 13 x 13 and 2.78 x 2.75 x 1.02)"));
+  assert_non_null(strstr(program_err, "): write --unit mm or --unit cm\n"));
+}
+
+/* A placed valve in millimetres, which the user did not type as --unit mm, and a mesh in metres. */
+TEST(test_placed_valve_in_other_unit) {
+  scratch_write_text("placed.json",
+                     "{\"valve\": \"coapting\", \"unit\": \"mm\", \"axes\": \"mesh\", \"rotate\": [0, 0, 1, 0], "
+                     "\"translate\": [0, 0, -5], \"parameters\": {}}");
+  run_program("mark", meshes[0], "--valve", scratch_path("placed.json"), NULL);
+  expect_warning(program_exit_code, "the mesh looks as if it were in metres, the surface in millimetres (sides ");
+  expect_warning(program_exit_code, "): write --unit m\n");
+  run_program("check", "leaks", meshes[0], "--valve", scratch_path("placed.json"), "--between", "0,0,5", "0,0,-0.01",
+              NULL);
+  assert_non_null(strstr(program_err,
+                         "FROM, 0 0 5, is outside the mesh, which goes from -0.017 -0.016 -0.013 to "
+                         "0.015 0.016 0.004\n"));
+  RUN_FINE("mark", meshes[2], "--valve", scratch_path("placed.json"));
+  RUN_FINE("mark", meshes[0], "--valve", scratch_path("placed.json"), "--unit", "m");
 }
 
 TEST(test_half_thickness) {

@@ -16,7 +16,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include "riis_vtk/picture/picture_faces.hpp"
+#include "riis_vtk/mesh/outside_faces.hpp"
 #include "vtk_shim.h"
 
 namespace {

@@ -309,6 +309,45 @@ TEST(test_append) {
   riis_vtk_surface_destroy(&all);
 }
 
+/* The boundary of a box has the area of its six sides and encloses its volume, so its faces point outwards. */
+TEST(test_boundary_of_a_mesh) {
+  riis_vtk_mesh *mesh = NULL;
+  riis_vtk_surface *boundary = NULL;
+  riis_surface_arrays arrays;
+  assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 5, (double[3]){0, 0, 0}, (double[3]){1, 2, 3}, 0),
+                   1);
+  expect_fine(riis_vtk_mesh_read(scratch_path("box.vtu"), &mesh));
+  expect_fine(riis_vtk_mesh_get_boundary(mesh, &boundary));
+  expect_fine(riis_surface_arrays_init(&arrays, sizeof arrays));
+  expect_fine(riis_vtk_surface_get_arrays(boundary, &arrays, sizeof arrays));
+  const double *const axes[3] = {arrays.x, arrays.y, arrays.z};
+  double area = 0, volume = 0;
+  assert_int_equal(arrays.corners_per_face, 3);
+  for (int64_t face = 0; face < arrays.n_faces; ++face) {
+    const int64_t *const ids = (const int64_t *)arrays.vertex_ids + 3 * face;
+    double p[3][3], n[3];
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < 3; ++k) p[c][k] = axes[k][arrays.stride * ids[c]];
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      n[k] = (p[1][i] - p[0][i]) * (p[2][j] - p[0][j]) - (p[1][j] - p[0][j]) * (p[2][i] - p[0][i]);
+    }
+    area += sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
+    volume += (p[0][0] * n[0] + p[0][1] * n[1] + p[0][2] * n[2]) / 6;
+  }
+  assert_true(fabs(area - 22) < 1e-12 && fabs(volume - 6) < 1e-12);
+  riis_vtk_surface_destroy(&boundary);
+  expect_refused(riis_vtk_mesh_get_boundary(NULL, &boundary), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_refused(riis_vtk_mesh_get_boundary(mesh, NULL), RIIS_INVALID_ARGUMENT, "boundary is NULL");
+  riis_vtk_mesh_destroy(&mesh);
+  scratch_write_text("flat.vtk",
+                     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n"
+                     "0 0 0 1 0 0 0 1 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n");
+  expect_fine(riis_vtk_mesh_read(scratch_path("flat.vtk"), &mesh));
+  expect_refused(riis_vtk_mesh_get_boundary(mesh, &boundary), RIIS_INVALID_ARGUMENT, "mesh has no volume cells");
+  riis_vtk_mesh_destroy(&mesh);
+}
+
 static const float stl_triangles[3][9] = {
     /* The second triangle has no area. */
     {0, 0, 0, 1, 0, 0, 0, 1, 0},

@@ -13,7 +13,7 @@ import numpy
 from numpy.typing import NDArray
 
 from riis._errors import Error, InvalidArgumentError, InvalidMeshError
-from riis._riis import Adjacency, Mesh, Surface
+from riis._riis import Adjacency, Mesh, Surface, mesh_sides
 
 Reals = NDArray[numpy.float64]
 Ids = NDArray[numpy.int64]
@@ -393,6 +393,7 @@ class WholeMesh:
         self.blocks = [] if cells is None else blocks_of(cells, len(self.points), offsets, types)
         self.is_near = near
         self.lower, self.upper = self.points.min(axis=0), self.points.max(axis=0)
+        self.sides = mesh_sides(self.points)
         self._region: Region | None = None
 
     def region(self, lower: Reals, upper: Reals) -> Region:

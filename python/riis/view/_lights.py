@@ -109,8 +109,8 @@ def unit(scene: Scene) -> Light:
     sizes = f"the largest side of the mesh is {shown(mesh)}, that of the valve {shown(side)}"
     known = scene.unit is not None and math.isclose(scene.state.scale, UNITS[scene.unit], rel_tol=1e-9)
     whole, info = scene.whole, scene.surface.info
-    fits, factor = judge_sizes((whole.lower, whole.upper), (info.lower, info.upper), scene.state.origin,
-                               _edge_of(scene.region), scene.state.half_thickness, known)
+    fits, factor = judge_sizes(whole.sides, (info.lower, info.upper), _edge_of(scene.region), scene.state.half_thickness,
+                               known)
     if factor is None:
         level, text = ("warn", sizes + ", which no unit explains") if not fits else ("good", sizes)
         return Light("unit", level, text, "look at the scale" if not fits else "", valve=scene.number)

@@ -35,6 +35,9 @@ struct ValveOptions {
   std::string warp;                   // a file of landmarks on the valve and in the patient; "": none
   riis_surface_options surface_options = defaults<riis_surface_options>();
   std::optional<Unit> unit, surface_unit;  // units of the mesh and of the surface's file; they give the scale
+  std::optional<Unit> placed_unit;         // unit of the file of a placed valve
+  bool takes_placed_unit = false;          // the user named no unit, so `unit` is that of the placed valve
+  bool has_doubted_unit = false;           // the sizes contradict `unit`, so no text calls the mesh's lengths by it
   // Whether the user gave the values as numbers. A case and the checks of the command line set these members.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
   std::int32_t n_threads = 0;  // 0: the library chooses by the amount of work

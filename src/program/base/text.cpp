@@ -127,6 +127,8 @@ std::string text_of_file(const std::string &path) {
   // Opening a folder as a file succeeds. Only reading it fails, so folders are recognised here.
   if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + system_text(errno));
   if (text.str().empty()) refuse_file(path, "is empty");
+  if (text.str().rfind("version https://git-lfs.github.com/spec/", 0) == 0)
+    refuse_file(path, "is a pointer of Git LFS, not the file itself: git lfs pull fetches the file");
   return text.str();
 }
 

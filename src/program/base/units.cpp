@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <functional>
 
 namespace riis::program {
 
@@ -64,33 +64,56 @@ std::optional<Unit> unit_of_valve(double largest_side) {
 
 namespace {
 
-// A mesh fits its valve under three conditions. Its size is 0.5 to 40 times the valve's size. Its edges are at most 0.3 times
-// the valve's size. The two boxes overlap.
-constexpr double smallest_mesh = 0.5, usual_mesh = 3, longest_edge = 0.3;
+// A valve fits its vessel if the valve's largest side is between these limits. The mesh's middle side is at least the least
+// width, because the valve is no wider than the vessel. The mesh's shortest side is at most the largest width, because the vessel
+// is not much wider than the valve. Both are numbers of valves, and they span a decade, so two units seldom fit.
+constexpr double least_width = 0.4, largest_width = 4;
+// The limit for a unit that the user named. The valve may stand in a wide basin.
+constexpr double largest_named_width = 40;
+// Edges longer than this share of the valve's largest side do not show the valve.
+constexpr double longest_edge = 0.3;
+// Edges of a mesh that was made for the default half thickness are seldom longer than this number of half thicknesses.
+constexpr double usual_edge = 3;
 // The least half thickness, as a share of the mesh's edge length. A thinner band falls between two layers of nodes and contains
 // few nodes.
 constexpr double smallest_half_thickness = 0.3;
+// A vessel that is too narrow or too wide by more than these ratios is impossible.
+constexpr double most_too_narrow = 1.5, most_too_wide = 3;
+// A unit is possible if it is at most this much odder than the likeliest one. Oddities are logarithms of ratios.
+constexpr double most_odd = 1;
 
-constexpr std::array<double, 6> factors = {0.1, 10, 0.01, 100, 0.001, 1000};
+// Returns the logarithm of a ratio above 1, and 0 otherwise.
+double excess(double ratio) { return ratio > 1 ? std::log(ratio) : 0; }
 
-// Returns whether the boxes overlap if the surface is scaled by 1 / factor. The translation is not scaled, because it is in the
-// mesh's unit.
-bool overlap_at(double factor, const Sizes &s) {
-  for (int k = 0; k < 3; ++k) {
-    const double shift = s.translation[k];
-    const double lower = (s.surface.lower[k] - shift) / factor + shift,
-                 upper = (s.surface.upper[k] - shift) / factor + shift;
-    if (upper < s.mesh.lower[k] || lower > s.mesh.upper[k]) return false;
-  }
-  return true;
+double narrowness_at(double factor, const Sizes &s) {
+  return excess(least_width * s.surface.largest_side() / (factor * s.mesh_sides[1]));
 }
 
-double mesh_in_surfaces(const Sizes &s) { return s.mesh.largest_side() / s.surface.largest_side(); }
+double wideness_at(double factor, const Sizes &s) {
+  return excess(factor * s.mesh_sides[2] / (largest_width * s.surface.largest_side()));
+}
 
-// Returns whether the edges suit the default half thickness, which belongs to a parametric valve. If they are much longer, the
-// mesh probably has another unit. But if the user named the unit, the mesh is only coarse.
-bool edges_fit_at(double factor, const Sizes &s) {
-  return !s.has_usual_half || s.is_unit_known || !is_too_small(s.half_thickness / factor, s);
+// Returns how odd the sizes are if the mesh's lengths are multiplied by the factor. The default half thickness has the valve's
+// unit, so it says how long the mesh's edges may be.
+double oddity_at(double factor, const Sizes &s) {
+  double oddity = narrowness_at(factor, s) + wideness_at(factor, s) +
+                  excess(factor * s.median_edge / (longest_edge * s.surface.largest_side()));
+  if (s.has_usual_half) oddity += excess(factor * s.median_edge / (usual_edge * s.half_thickness));
+  return oddity;
+}
+
+// Returns the eigenvalues of a symmetric matrix with the elements xx, yy, zz, xy, xz, yz. The largest is the first.
+std::array<double, 3> eigenvalues_of(const std::array<double, 6> &m) {
+  const double mean = (m[0] + m[1] + m[2]) / 3;
+  const double x = m[0] - mean, y = m[1] - mean, z = m[2] - mean;
+  const double size = std::sqrt((x * x + y * y + z * z + 2 * (m[3] * m[3] + m[4] * m[4] + m[5] * m[5])) / 6);
+  if (size == 0) return {mean, mean, mean};
+  const double determinant =
+      x * (y * z - m[5] * m[5]) - m[3] * (m[3] * z - m[5] * m[4]) + m[4] * (m[3] * m[5] - y * m[4]);
+  const double turn = std::acos(std::clamp(determinant / (2 * size * size * size), -1.0, 1.0)) / 3;
+  const double third = 2 * std::acos(-1.0) / 3;
+  const double first = mean + 2 * size * std::cos(turn), last = mean + 2 * size * std::cos(turn + third);
+  return {first, 3 * mean - first - last, last};
 }
 
 }  // namespace
@@ -103,43 +126,63 @@ bool is_too_small(double half_thickness, const Sizes &s) {
   return half_thickness < smallest_half_thickness * s.median_edge;
 }
 
-bool sizes_fit_at(double factor, const Sizes &s) {
-  const double ratio = factor * mesh_in_surfaces(s);
-  return ratio >= smallest_mesh && ratio <= largest_mesh &&
-         factor * s.median_edge <= longest_edge * s.surface.largest_side();
+UnitJudgement judge_units(const Sizes &s, const std::vector<double> &factors) {
+  UnitJudgement judgement{is_as_wide(s, 1), {1}};
+  if (s.is_unit_known)
+    judgement.is_right |=
+        narrowness_at(1, s) == 0 && wideness_at(1, s) <= std::log(largest_named_width / largest_width);
+  std::vector<double> &possible = judgement.factors;
+  possible.insert(possible.end(), factors.begin(), factors.end());
+  const auto is_odder = [&](double a, double b) { return oddity_at(a, s) < oddity_at(b, s); };
+  std::sort(possible.begin(), possible.end());
+  possible.erase(std::unique(possible.begin(), possible.end()), possible.end());
+  std::stable_sort(possible.begin(), possible.end(), is_odder);
+  const double least = oddity_at(possible.front(), s);
+  const auto is_impossible = [&](double factor) {
+    return narrowness_at(factor, s) > std::log(most_too_narrow) || wideness_at(factor, s) > std::log(most_too_wide) ||
+           oddity_at(factor, s) > least + most_odd;
+  };
+  possible.erase(std::remove_if(possible.begin(), possible.end(), is_impossible), possible.end());
+  return judgement;
 }
 
-std::optional<double> missing_factor(const Sizes &s) {
-  const bool sizes_fit = sizes_fit_at(1, s), is_sure = s.is_unit_known || mesh_in_surfaces(s) <= s.most_sure;
-  if (sizes_fit && edges_fit_at(1, s) && is_sure) {
-    // The unit is right in two cases: if the sizes are similar, or if they fit in units that the user named. Then only the
-    // position can be wrong.
-    const bool are_alike = mesh_in_surfaces(s) > 1.0 / 3 && mesh_in_surfaces(s) < 3;
-    if (overlap_at(1, s) || are_alike || s.is_unit_known) return std::nullopt;
+bool is_as_wide(const Sizes &s, double factor) { return narrowness_at(factor, s) == 0 && wideness_at(factor, s) == 0; }
+
+const std::vector<double> &unit_factors() {
+  static const std::vector<double> all = {0.1, 10, 0.01, 100, 0.001, 1000};
+  return all;
+}
+
+void Moments::add(const double *p) {
+  n += 1;
+  for (int k = 0; k < 3; ++k) {
+    sum[k] += p[k];
+    squares[k] += p[k] * p[k];
   }
-  // Sizes that differ this much must have different units, even if no factor brings the positions together.
-  const bool differ_widely = mesh_in_surfaces(s) < 0.1 || mesh_in_surfaces(s) > 100;
-  std::optional<double> best;
-  // The passes become less strict. The last ones accept a mesh that is in another unit and also too coarse.
-  struct Pass {
-    bool must_overlap, must_resolve;
-  };
-  for (const auto [must_overlap, must_resolve] :
-       {Pass{true, true}, Pass{false, true}, Pass{true, false}, Pass{false, false}}) {
-    if (best || (!must_overlap && !differ_widely) || (!must_resolve && sizes_fit)) continue;
-    double least = std::numeric_limits<double>::infinity();
-    for (const double factor : factors) {
-      if (!sizes_fit_at(factor, s) || (must_resolve && !edges_fit_at(factor, s)) ||
-          (must_overlap && !overlap_at(factor, s)))
-        continue;
-      const double oddity = std::abs(std::log(factor * mesh_in_surfaces(s) / usual_mesh));
-      if (oddity < least) {
-        least = oddity;
-        best = factor;
-      }
-    }
-  }
-  return best;
+  squares[3] += p[0] * p[1];
+  squares[4] += p[0] * p[2];
+  squares[5] += p[1] * p[2];
+}
+
+void Moments::add(const Moments &other) {
+  n += other.n;
+  for (int k = 0; k < 3; ++k) sum[k] += other.sum[k];
+  for (int k = 0; k < 6; ++k) squares[k] += other.squares[k];
+}
+
+std::array<double, 3> sides_of(const Box &box, const Moments &moments) {
+  std::array<double, 3> sides{};
+  for (std::size_t k = 0; k < 3; ++k) sides[k] = box.upper[k] - box.lower[k];
+  std::sort(sides.begin(), sides.end(), std::greater<>());
+  if (moments.n == 0) return sides;
+  const double mean[3] = {moments.sum[0] / moments.n, moments.sum[1] / moments.n, moments.sum[2] / moments.n};
+  std::array<double, 6> matrix{};
+  constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+  for (std::size_t k = 0; k < 6; ++k) matrix[k] = moments.squares[k] / moments.n - mean[row[k]] * mean[column[k]];
+  // The moment of a disc is a sixteenth of the square of its diameter.
+  const std::array<double, 3> roots = eigenvalues_of(matrix);
+  for (std::size_t k = 0; k < 3; ++k) sides[k] = std::min(sides[k], 4 * std::sqrt(std::max(roots[k], 0.0)));
+  return sides;
 }
 
 Sizes rescaled(const Sizes &s, double factor) {
@@ -157,7 +200,7 @@ double better_half_thickness(const Sizes &s) {
   };
   const double usual = usual_half_thickness * s.surface.largest_side();
   double best = 0;
-  for (const double factor : factors) {
+  for (const double factor : unit_factors()) {
     const double candidate = s.half_thickness * factor;
     if (!fits(candidate)) continue;
     if (best == 0 || std::abs(std::log(candidate / usual)) < std::abs(std::log(best / usual))) best = candidate;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -61,19 +62,28 @@ inline Box empty_box() {
   return {{far, far, far}, {-far, -far, -far}};
 }
 
-// The number of valves that fit into a mesh for which no other unit is possible.
-inline constexpr double largest_mesh = 40;
+// Sums over points. They tell how far the points reach along their principal axes, so a vessel that lies obliquely is not taken
+// for a wide one.
+struct Moments {
+  double n = 0, sum[3]{}, squares[6]{};  // squares has xx, yy, zz, xy, xz, yz
+
+  void add(const double *point);
+  void add(const Moments &other);
+};
+
+// Returns the three sides of a mesh, the longest first. A side is at most the box's side, and at most the diameter of a disc
+// whose points would have the same moment. Without points, the sides are those of the box.
+std::array<double, 3> sides_of(const Box &box, const Moments &moments);
 
 // The sizes of a mesh and of a valve in it. The functions below tell whether they fit together, and which unit and which half
 // thickness would fit. The program's warnings and the lights of Python's view share these rules.
 struct Sizes {
-  Box mesh, surface;
+  std::array<double, 3> mesh_sides;  // the longest first
+  Box surface;
   double median_edge;  // of the mesh; 0 if unknown
   double half_thickness;
-  double translation[3]{};          // of the surface; it has the mesh's unit already
-  bool is_unit_known = false;       // the user named the unit, so only the position can be wrong if the sizes fit
-  bool has_usual_half = false;      // the half thickness is the default of a parametric valve
-  double most_sure = largest_mesh;  // a mesh of unknown unit that is more valves wide may have another unit
+  bool is_unit_known = false;   // the user named the unit
+  bool has_usual_half = false;  // the half thickness is the default of a parametric valve
 };
 
 // Both limits of the half thickness are shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of the
@@ -88,11 +98,21 @@ bool is_too_small(double half_thickness, const Sizes &sizes);
 // this length does not fit either.
 double better_half_thickness(const Sizes &sizes);
 
-// Returns whether a mesh whose lengths are multiplied by the factor has the size and the edges of a mesh with this valve.
-bool sizes_fit_at(double factor, const Sizes &sizes);
-// Returns the factor that makes the mesh's lengths fit the surface's. Returns none if they already fit, or if no power of ten
-// helps.
-std::optional<double> missing_factor(const Sizes &sizes);
+// The judgement of the unit. A factor stands for a unit: it makes the mesh's lengths fit the surface's.
+struct UnitJudgement {
+  bool is_right;  // nothing speaks against the present unit, so there is no advice
+  std::vector<double>
+      factors;  // all that are possible, the likeliest first; 1 is the present unit; empty if none is possible
+
+  bool is_possible(double factor) const { return std::find(factors.begin(), factors.end(), factor) != factors.end(); }
+};
+
+// Judges the present unit, and each of `factors`. The factor 1 need not be among them.
+UnitJudgement judge_units(const Sizes &sizes, const std::vector<double> &factors);
+// Returns whether the mesh is about as wide as the surface if the mesh's lengths are multiplied by the factor.
+bool is_as_wide(const Sizes &sizes, double factor);
+// The factors between any two units.
+const std::vector<double> &unit_factors();
 // Returns the sizes as they would be with the surface scaled to fit the mesh.
 Sizes rescaled(const Sizes &sizes, double factor);
 

@@ -138,8 +138,9 @@ closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. --valve 
      R"(
 --skirt L gives a valve a strip of the length L, in the mesh's unit. It leads outwards from the attachment and closes the gap
 to the wall. The parameter skirt_length is the same length in the valve's own unit. With --wall FILE, a surface in the mesh's
-frame and unit, the skirt reaches that wall, and no farther. L is then the longest skirt to accept. The program prints the
-gap. A wall that is missed or farther away is refused. In a case, "skirt" and "wall" are keys of a valve.
+frame and unit, the skirt reaches that wall, and no farther. FILE may also be a volume mesh, whose boundary is the wall. L is
+then the longest skirt to accept. The program prints the gap. A wall that is missed, or farther away at any opening, is refused.
+In a case, "skirt" and "wall" are keys of a valve.
 )"},
     {"warp", "a valve that meets a patient's landmarks",
      R"(
@@ -245,14 +246,16 @@ Triangles in .stl files must have the same order in all files.
     {"warnings", "what they mean, and which comes first",
      R"(
 A line on stderr names a suspicious result and the options to write instead. It is printed if no node, all nodes or hardly
-any nodes are marked. It is also printed if the half thickness does not fit the surface or the edges of the mesh. --quiet
-does not silence it, because wrong marks look like right ones. --allow-none is for valves that are sometimes near no node.
+any nodes are marked. It is also printed if the half thickness does not fit the surface or the edges of the mesh, or if the
+valve does not fit its vessel. --quiet does not silence it, because wrong marks look like right ones. --allow-none is for
+valves that are sometimes near no node.
 It is printed, too, if more than 2 % of the leaflets' area is farther than the half thickness outside the mesh. Skirts and the
 housing of a bileaflet valve do not count. A series is judged where each valve is least and most open.
 One fault may cause the others. The order is units, half thickness, places, leaks. Only the first warning in this order has
 advice. Correct that fault and run the program again. A unit that you name by --unit or --scale counts as known, if the sizes
-allow it. With --strict the status is 4 after a warning of any kind. Coordinates have enough digits for an edge of the mesh
-at that place. They have the unit of --unit.
+allow it. If the sizes allow two units, the advice names both. The next run says how many nodes each unit marks. With
+--strict the status is 4 after a warning of any kind. Coordinates have enough digits for an edge of the mesh at that place.
+They have the unit of --unit.
 )"},
     {"leaks", "edges and passages through the band",
      R"(

@@ -367,8 +367,12 @@ std::string summary_of(const States &states, const StatesOptions &options) {
   add_leaflets(states, summary);
   summary.add("orifice", text_of_orifice(states));
   if (!states.disc.empty())
-    summary.add("effective",
-                text_of_area(states, &riis_orifice::effective_area) + "; the band's rim takes " + states.reach);
+    summary.add("effective", text_of_area(states, &riis_orifice::effective_area) + "; the band's rim takes " +
+                                 states.reach +
+                                 (std::any_of(states.states.begin(), states.states.end(),
+                                              [](const State &state) { return has_slits(*state.orifice); })
+                                      ? slits_text
+                                      : ""));
   if (states.states.front().contact) summary.add("contact", text_of_contact(states));
   if (!states.has_edges()) summary.add("edges", "not measured: " + states.why_no_edges);
   if (states.has_edges() && can_open) summary.add("edges", text_of_changes(states));

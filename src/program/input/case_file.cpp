@@ -14,6 +14,7 @@
 #include "program/input/parameters.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/input/valve_source.hpp"
+#include "program/input/wall.hpp"
 #include "program/output/outputs.hpp"
 
 namespace riis::program {

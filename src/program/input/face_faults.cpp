@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "common/array_view.hpp"
 #include "common/sets.hpp"
 #include "program/base/handles.hpp"
+#include "program/base/units.hpp"
+#include "program/mark/mesh_marking.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
 
@@ -145,6 +148,47 @@ void warn_of_faces(const std::string &name, const riis_surface *surface) {
   if (faults.n_closed > 0)
     warn(name + ": " + counted(faults.n_closed, "piece") + (faults.n_closed == 1 ? " is" : " are") +
          " closed, as a thick leaflet is: areas count both faces");
+}
+
+OpenLine longest_open_line(const riis_surface *surface, double most) {
+  const riis_triangles triangles = triangles_of(surface);
+  const std::vector<std::int64_t> places = equal_places(triangles.n_vertices, triangles.xyz);
+  using Edge = std::pair<std::int64_t, std::int64_t>;
+  std::vector<Edge> edges;
+  for (std::int64_t i = 0; i < 3 * triangles.n_triangles; ++i) {
+    const std::int64_t next = i % 3 == 2 ? i - 2 : i + 1;
+    edges.push_back(std::minmax(view(places)[triangles.vertex_id[i]], view(places)[triangles.vertex_id[next]]));
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<Edge> open;
+  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+    while (end < edges.size() && edges[end] == edges[i]) ++end;
+    if (end == i + 1 && edges[i].first != edges[i].second) open.push_back(edges[i]);
+  }
+  // A vertex for each place.
+  std::vector<const double *> points(static_cast<std::size_t>(triangles.n_vertices), nullptr);
+  for (std::int64_t i = 0; i < triangles.n_vertices; ++i) view(points)[view(places)[i]] = triangles.xyz + 3 * i;
+  DisjointSets joined(triangles.n_vertices);
+  for (const auto &[a, b] : open) joined.unite(a, b);
+  struct Line {
+    OpenLine line;
+    Box box = empty_box();
+  };
+  std::map<std::int64_t, Line> lines;
+  for (const auto &[a, b] : open) {
+    Line &of_edge = lines[joined.root(a)];
+    ++of_edge.line.n_edges;
+    of_edge.line.length += distance_between(view(points)[a], view(points)[b]);
+    of_edge.box.grow(view(points)[a]);
+    of_edge.box.grow(view(points)[b]);
+  }
+  OpenLine longest;
+  for (auto &[root, found] : lines) {
+    if (found.line.length > most || found.line.length <= longest.length) continue;
+    longest = found.line;
+    for (int k = 0; k < 3; ++k) longest.point[k] = 0.5 * (found.box.lower[k] + found.box.upper[k]);
+  }
+  return longest;
 }
 
 }  // namespace riis::program

@@ -94,6 +94,10 @@ std::optional<Place> place_of_name(const std::string &name) {
   return std::nullopt;
 }
 
+bool is_landmark(const std::string &name) {
+  return place_of_name(name) || plain(name) == flow_from || plain(name) == flow_to;
+}
+
 class Collector {
  public:
   explicit Collector(LandmarkFile &file) : file_(file) {}
@@ -249,15 +253,19 @@ void read_slicer(const Json &root, LandmarkFile &file) {
       refuse_file(path, where + " has other axes or another unit than markups 0: save them alike");
     file.axes = axes;
     file.unit = unit;
-    const bool is_annulus = list.contains("type") && list["type"] == "ClosedCurve";
+    const bool is_closed_curve = list.contains("type") && list["type"] == "ClosedCurve";
+    const bool is_curve = list.contains("type") && list["type"] == "Curve";
     const auto points = list.find("controlPoints");
     if (points == list.end() || !points->is_array()) refuse_file(path, where + " has no array \"controlPoints\"");
     for (std::size_t k = 0; k < points->size(); ++k) {
       const Json &point = (*points)[k];
       const std::string at = where + ", control point " + std::to_string(k);
       if (!point.is_object()) refuse_file(path, at + " must be an object, not of type " + point.type_name());
-      // A closed curve is an annulus, whatever its points are called.
-      const std::string label = is_annulus ? "annulus_" + std::to_string(++n_annulus) : text_in(point, "label", at);
+      // A closed curve is an annulus, whatever its points are called. An open curve is one too, except for points that have the
+      // names of landmarks.
+      const std::string given = is_closed_curve ? "" : text_in(point, "label", at);
+      const bool is_annulus = is_closed_curve || (is_curve && !is_landmark(given));
+      const std::string label = is_annulus ? "annulus_" + std::to_string(++n_annulus) : given;
       const auto status = point.find("positionStatus"), position = point.find("position");
       if (status != point.end() && *status != "defined")
         refuse_file(path,

@@ -424,8 +424,15 @@ std::string place_report(const Placed &placed, Reader reader) {
             " behind the anterior horn, where the valve has none: " +
             (at.n_as_annulus == 1 ? "it counts as a point" : "they count as points") +
             " of the annulus, and IT_distance is not theirs.\n";
-  text += undetermined.empty() ? "\nThe landmarks determine every size that they bear on.\n"
-                               : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") + ".\n";
+  text += undetermined.empty()
+              ? "\nThe landmarks determine every size that they bear on.\n"
+              : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") +
+                    ".\nTheir values in the table are guesses, drawn to the proportions of the kind. "
+                    "Each may move the valve by more than a\nfifteenth of its radius. Add landmarks" +
+                    (reader == Reader::program
+                         ? ", or give known sizes in cm, as by --set " + undetermined.front() + "=VALUE"
+                         : ", or give known sizes") +
+                    ".\n";
   return text;
 }
 

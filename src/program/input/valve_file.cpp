@@ -250,6 +250,7 @@ PlacedFile read_placed(const std::string &path, const Json &root, std::optional<
   if (file.kind.empty() || has_ending(file.kind, ".json")) values.refuse("valve", "it must be a kind of valve");
   values.needed("unit");
   const Unit own = *values.unit("unit");
+  file.own_unit = own;
   file.unit = unit.value_or(own);
   file.factor = factor_between(own, file.unit);
   const std::vector<double> turn = values.numbers("rotate", 4), shift = values.numbers("translate", 3);
@@ -275,7 +276,9 @@ void use_placed_valve(ValveOptions &options) {
   if (is_moved) refuse_usage("--rotate and --translate have no effect with --valve " + path + ", which is placed");
   options.valve = file.kind;
   options.placed = path;
+  options.takes_placed_unit = !options.unit;
   options.unit = file.unit;
+  options.placed_unit = file.own_unit;
   std::copy_n(file.where.rotation_axis, 3, surface.rotation_axis);
   surface.rotation_angle = file.where.rotation_angle;
   std::copy_n(file.where.translation, 3, surface.translation);

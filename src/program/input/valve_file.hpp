@@ -32,7 +32,7 @@ struct ValveFile {
 // takes it as --valve FILE.json, and Python's read_placed reads it.
 struct PlacedFile {
   std::string kind;
-  Unit unit = Unit::centimetre;                                   // of the placement
+  Unit unit = Unit::centimetre, own_unit = Unit::centimetre;      // of the placement, and of the file
   double factor = 1;                                              // from the file's unit to this one
   riis_surface_options where = defaults<riis_surface_options>();  // the placement
   Json parameters, warp;                                          // null: the valve has no warp

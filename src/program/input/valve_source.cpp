@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "program/input/face_faults.hpp"
 #include "program/input/parameters.hpp"
 #include "program/input/valve_file.hpp"
+#include "program/input/wall.hpp"
 
 namespace riis::program {
 
@@ -46,6 +48,8 @@ void check_read(riis_status status, const std::string &path, Content content) {
   }
 }
 
+bool has_text(const std::string &text, const char *part) { return text.find(part) != std::string::npos; }
+
 Surface surface_of_valve(const ValveOptions &options, const riis_valve *valve) {
   const Stage stage("making the surface", options.quiet);
   return create_for<Surface>(subject_of(options), riis_surface_create, valve, &options.surface_options);
@@ -58,7 +62,12 @@ Surface surface_of_file(const ValveOptions &options, const riis_vtk_surface *fil
     zeros.resize(static_cast<std::size_t>(arrays.n_vertices), 0.0);
     arrays.vx = arrays.vy = arrays.vz = zeros.data();
   }
-  return create_for<Surface>(options.surface, riis_surface_create_from_arrays, &arrays, &options.surface_options);
+  try {
+    return create_for<Surface>(options.surface, riis_surface_create_from_arrays, &arrays, &options.surface_options);
+  } catch (Refusal &refusal) {
+    if (has_text(refusal.text, "has zero area")) refusal.text += "; --skip-zero-area leaves out such triangles";
+    throw;
+  }
 }
 
 }  // namespace
@@ -114,50 +123,7 @@ const char *array_of_leaflets(const ValveOptions &options) {
   return options.leaflets.empty() || options.leaflets == "connected" ? nullptr : options.leaflets.c_str();
 }
 
-// Makes the wall, and multiplies its lengths by `scale`. It is already in the mesh's frame, so no other placement applies to it.
-Surface make_wall(const ValveOptions &options, const SurfaceFile &file, double scale = 1) {
-  ValveOptions as_it_is;
-  as_it_is.surface = options.wall;
-  as_it_is.surface_options.zero_area = RIIS_ZERO_AREA_SKIP;
-  as_it_is.surface_options.scale = scale;
-  return surface_of_file(as_it_is, file.get(), FileVelocity::none);
-}
-
-// Returns a hint if the skirt would reach the wall in another unit, and "" otherwise.
-std::string hint_of_unit(const ValveOptions &options, const SurfaceFile &file, const riis_valve *valve) {
-  for (const char *factor : {"0.1", "10", "0.01", "100", "0.001", "1000"}) {
-    const Valve copy = copy_of(valve);
-    const Surface wall = make_wall(options, file, std::stod(factor));
-    if (riis_valve_set_skirt_to_wall(copy, wall, *options.skirt, &options.surface_options) == RIIS_OK)
-      return std::string("; with its lengths times ") + factor + " the wall would be: save it in the mesh's unit";
-  }
-  return "";
-}
-
 }  // namespace
-
-void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string &subject) {
-  if (!options.skirt) return;
-  if (options.wall.empty()) {
-    check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
-    return;
-  }
-  const SurfaceFile file = read_surface_file(options.wall, nullptr);
-  const Surface wall = make_wall(options, file);
-  const riis_status status = riis_valve_set_skirt_to_wall(valve, wall, *options.skirt, &options.surface_options);
-  if (status == RIIS_INVALID_ARGUMENT) {
-    const std::string reason = options.wall + ": " + riis_last_error();
-    refuse_data(reason + hint_of_unit(options, file, valve));
-  }
-  check(status, subject);
-}
-
-riis_gap gap_to_wall(const ValveOptions &options, const riis_surface *surface) {
-  const Surface wall = make_wall(options, read_surface_file(options.wall, nullptr));
-  riis_gap gap;
-  check(riis_surface_get_gap(surface, wall, nullptr, &gap, sizeof gap), options.wall);
-  return gap;
-}
 
 std::string subject_of(const ValveOptions &options) { return is_valve_file(options.valve) ? options.valve : ""; }
 
@@ -185,6 +151,7 @@ std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
 }
 
 void check_mesh_read(riis_status status, const std::string &path) { check_read(status, path, Content::mesh); }
+void check_surface_read(riis_status status, const std::string &path) { check_read(status, path, Content::surface); }
 
 namespace {
 
@@ -304,6 +271,8 @@ const std::set<std::string> meshes_of_meshio = {".inp", ".su2", ".med"};
 // ParaView opens these. They hold blocks, or grids that are not unstructured.
 const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".vti", ".vtr",
                                                   ".vts",  ".pvti", ".pvtr",  ".pvts",   ".plt", ".tec"};
+// CAD files, which gmsh fills with cells or covers with triangles.
+const std::set<std::string> cad_files = {".step", ".stp", ".iges", ".igs", ".brep"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2"};
 const std::set<std::string> surfaces_of_meshio = {".off"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
@@ -334,11 +303,30 @@ std::string by_meshio(const std::string &path, const char *format) {
   return "; meshio converts it: meshio convert " + shell_word(path) + " " + with_ending(path, format);
 }
 
-// A .msh may be of another version of gmsh, or of Ansys Fluent. A damaged one cannot be converted.
+std::string meshed_by_gmsh(const std::string &path, int dimension, const char *format) {
+  return "; gmsh meshes it: gmsh -" + std::to_string(dimension) + " " + shell_word(path) + " -format " + format +
+         " -o " + with_ending(path, format);
+}
+
+std::string by_paraview(const std::string &path) {
+  return "; ParaView converts it: the filters Merge Blocks and Append Datasets, then File > Save Data..., " +
+         with_ending(path, "vtu");
+}
+
+char first_byte_of(const std::string &path) {
+  std::ifstream file(path, std::ios::binary);
+  return static_cast<char>(file.get());
+}
+
+// A .msh may be of another version of gmsh, or of Ansys Fluent. A damaged one cannot be converted. SimVascular calls the
+// description of a mesh .msh, which is XML.
 std::string hint_for_msh(const std::string &path, const std::string &refusal) {
   if (refusal.find("of gmsh's format;") != std::string::npos || refusal.find("is of gmsh's type") != std::string::npos)
     return by_gmsh(path, "vtk");
-  return refusal.find("is not a mesh of gmsh") != std::string::npos ? by_meshio(path, "vtu") : "";
+  if (!has_text(refusal, "is not a mesh of gmsh")) return "";
+  if (first_byte_of(path) == '<')
+    return "; it is a description by SimVascular, whose mesh is beside it: " + with_ending(path, "vtu");
+  return by_meshio(path, "vtu");
 }
 
 }  // namespace
@@ -346,14 +334,20 @@ std::string hint_for_msh(const std::string &path, const std::string &refusal) {
 std::string conversion_hint(const std::string &path, Content wanted, const std::string &refusal) {
   const std::string ending = ending_of(path);
   // A refusal replaces control characters. So a path with such characters gets no hint, because the command would not work.
-  if (std::any_of(path.begin(), path.end(), is_control)) return "";
+  if (std::any_of(path.begin(), path.end(), is_control) || has_text(refusal, "Git LFS")) return "";
   if (wanted == Content::mesh) {
     if (ending == ".msh") return hint_for_msh(path, refusal);
     if (meshes_of_gmsh.count(ending) != 0) return by_gmsh(path, "vtk");
     // meshio 5.3 fails to write the names of MED's groups to a .vtu.
     if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, ending == ".med" ? "xdmf" : "vtu");
-    if (meshes_of_paraview.count(ending) != 0)
-      return "; ParaView converts it: the filters Merge Blocks and Append Datasets, then File > Save Data..., " +
+    if (meshes_of_paraview.count(ending) != 0) return by_paraview(path);
+    if (has_text(refusal, "holds structured_") || has_text(refusal, "holds rectilinear_grid")) return by_paraview(path);
+    if (cad_files.count(ending) != 0) return meshed_by_gmsh(path, 3, "vtk");
+    if (ending == ".feb") return "; FEBio Studio converts it: File > Export FE Model..., " + with_ending(path, "vtk");
+    if (ending == ".re2" || ending == ".rea")
+      return "; Nek5000 converts it: run the case for one step with its coordinates in the output, open CASE.nek5000 "
+             "in "
+             "ParaView, then File > Save Data..., " +
              with_ending(path, "vtu");
     if (ending == ".cas") return "; OpenFOAM converts it: fluentMeshToFoam " + shell_word(path);
     if (ending == ".h5" || ending == ".hdf5") return "; give the .xdmf file that names it";
@@ -363,6 +357,7 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
   // gmsh writes points and lines beside the faces. A damaged .vtk file cannot be converted.
   if (ending == ".vtk") return refusal.find("; a surface has") != std::string::npos ? by_gmsh(path, "stl") : "";
   if (surfaces_of_gmsh.count(ending) != 0) return by_gmsh(path, "stl");
+  if (cad_files.count(ending) != 0) return meshed_by_gmsh(path, 2, "stl");
   return surfaces_of_meshio.count(ending) != 0 ? by_meshio(path, "stl") : "";
 }
 

@@ -55,11 +55,6 @@ std::string subject_of(const ValveOptions &options);
 double opening_of(const riis_valve *valve);
 // Returns n openings from 0 to 1.
 std::vector<double> openings_from_0_to_1(std::int32_t n);
-// Gives the valve the skirt of --skirt and --wall. Does nothing without --skirt. `subject` begins refusals that are not about the
-// wall.
-void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string &subject);
-// Measures the gap between a valve's surface and the wall of --wall.
-riis_gap gap_to_wall(const ValveOptions &options, const riis_surface *surface);
 Valve copy_of(const riis_valve *valve);
 // Returns the library's reason if the valve cannot open, or "" if it can. With these options, the valve must make a surface at
 // opening 0. The call leaves the valve at opening 1.
@@ -67,6 +62,8 @@ std::string why_closed(riis_valve *valve, const riis_surface_options &how);
 
 // Checks the status of reading a mesh. If riis_vtk cannot read the file, adds to the refusal a command that converts it.
 void check_mesh_read(riis_status status, const std::string &path);
+// Checks the status of reading a surface in the same way.
+void check_surface_read(riis_status status, const std::string &path);
 // Takes the files of --surface. Several files are one valve, and each file is a leaflet. `subject` begins refusals.
 void set_surface(ValveOptions &options, const std::vector<std::string> &files, const std::string &subject);
 // Returns the names of the leaflets of several files, which are the names of the files. Returns none for one file.

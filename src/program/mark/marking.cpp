@@ -2,6 +2,7 @@
 #include "program/mark/marking.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "program/base/progress.hpp"
 #include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
+#include "program/input/wall.hpp"
 #include "program/mark/mesh_marking.hpp"
 #include "program/mark/warnings.hpp"
 
@@ -332,11 +334,13 @@ void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
     are_complete = are_complete && report_.valves[i].marks.complete;
     valves_[i].move_to(times_[most_steps_[i]]);
     const riis_surface_info info = all_.is_series() ? info_of(valves_[i].surface()) : report_.valves[i].surface;
-    Situation situation(valves_[i].options(), info, counts.box, counts.median_edge);
+    Situation situation(valves_[i].options(), info, counts);
     situation.n_nodes = n_nodes;
     situation.n_marked = n_marked_[marked_at(most_steps_[i], i)];
     auto warning = warning_of(situation);
+    compare_units(i, units_left_open(situation));
     if (!warning) continue;
+    if (warning->cause == Cause::units) all_.options.has_doubted_unit = all_.valves[i].options.has_doubted_unit = true;
     const std::string part = all_.part_of(i);
     warning->text.insert(0, part.empty() ? "" : part + ": ");
     warnings.push_back(*warning);
@@ -360,6 +364,49 @@ void Marking::report_outside(std::size_t i, const MeshCounts &counts) {
   if (report->opening == report_.valves[i].opening) report->opening.reset();
   if (n_marked_[marked_at(most_steps_[i], i)] > 0)
     warn_of_outside(*report, report_.valves[i].surface.half_thickness, all_.surface_of(i));
+}
+
+namespace {
+
+// Returns the surface of a valve at its present position, but in another unit.
+Surface surface_in_unit(const MovingValve &valve, const PossibleUnit &unit) {
+  riis_surface_options how = valve.options().surface_options;
+  const double factor = unit.scale / how.scale;
+  how.scale = unit.scale;
+  how.half_thickness = unit.half_thickness;
+  for (double &shift : how.translation) shift *= unit.placement;
+  if (valve.source().valve) return create<Surface>(riis_surface_create, valve.source().valve, &how);
+  JoinedTriangles triangles;
+  triangles.add(triangles_of(valve.surface()), 0);
+  const riis_surface_arrays arrays = triangles.arrays();
+  auto from_present = defaults<riis_surface_options>();
+  from_present.scale = factor;
+  from_present.half_thickness = unit.half_thickness;
+  for (int k = 0; k < 3; ++k) from_present.translation[k] = how.translation[k] - factor * how.translation[k];
+  return create<Surface>(riis_surface_create_from_arrays, &arrays, &from_present);
+}
+
+}  // namespace
+
+void Marking::compare_units(std::size_t i, const std::vector<PossibleUnit> &units) const {
+  if (units.empty()) return;
+  std::string text;
+  NodeCounts counts(units.size());
+  for (std::size_t k = 0; k < units.size(); ++k) {
+    const Surface surface = surface_in_unit(valves_[i], units[k]);
+    const riis_mark_options how = how_to_mark_again(options());
+    mesh_.for_each_own([&](Piece &piece) {
+      if (!piece.mesh) return;
+      const Marks marks = marks_of(surface, piece.mesh->mesh(), how);
+      counts.add(piece.nodes, list_of(marks, RIIS_LIST_MARKED), k);
+    });
+  }
+  const std::vector<std::int64_t> n_marked = counts.sums();
+  for (std::size_t k = 0; k < units.size(); ++k)
+    text += (k == 0 ? "" : ", ") + units[k].write + " marks " + counted(n_marked[k], "node");
+  const std::string part = all_.part_of(i);
+  if (ranks::is_first())
+    std::fprintf(stderr, "riis: %sthe unit is not sure: %s\n", part.empty() ? "" : (part + ": ").c_str(), text.c_str());
 }
 
 // Measures the orifices. In a series, each valve is measured where it is most open.

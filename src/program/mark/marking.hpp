@@ -16,6 +16,7 @@
 #include "program/mark/mesh_pieces.hpp"
 #include "program/mark/moving_valve.hpp"
 #include "program/mark/outside.hpp"
+#include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
 
 namespace riis::program {
@@ -77,6 +78,8 @@ class Marking {
   void report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts);
   void warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts);
   void report_outside(std::size_t i, const MeshCounts &counts);
+  // Prints how many nodes each unit marks that remains possible, for a valve at its present position.
+  void compare_units(std::size_t i, const std::vector<PossibleUnit> &units) const;
   void report_orifices();
 
   Case &all_;

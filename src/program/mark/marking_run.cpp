@@ -54,14 +54,6 @@ void check_first_passage(const Case &all) {
     refuse_usage("--first-passage takes one valve, because each of several may close the way of another");
 }
 
-// Returns a text such as "12.3 MB".
-std::string bytes_text(double n) {
-  const char *const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
-  std::size_t unit = 0;
-  for (; n >= 1000 && unit < 5; ++unit) n /= 1000;
-  return printed(unit == 0 ? "%.0f " : "%.3g ", n) + units[unit];
-}
-
 MeshFile part_of(const riis_vtk_mesh *file, const std::vector<std::int64_t> &node_ids) {
   return create<MeshFile>(riis_vtk_mesh_extract, file, view(node_ids).size(), node_ids.data());
 }

@@ -120,7 +120,7 @@ PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const
     // The neighbours of all centres are known.
     std::int64_t *const n_left_out = how.at_cells ? nullptr : &counts_.n_cells_left_out;
     check(riis_vtk_mesh_get_volume_cells(file, &counts_.n_volume_cells, n_left_out));
-    find_box();
+    find_box_and_moments();
     return;
   }
   role_.resize(static_cast<std::size_t>(n_));
@@ -131,16 +131,19 @@ PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const
     ids_.resize(role_.size());
     check(riis_vtk_mesh_get_sharing(file, n_, role_.data(), ids_.data(), &counts_, sizeof counts_));
   }
-  find_box();
+  find_box_and_moments();
   if (std::find(role_.begin(), role_.end(), RIIS_VTK_NODE_GHOST) == role_.end()) return;
   mask_.resize(role_.size());
   std::transform(role_.begin(), role_.end(), mask_.begin(),
                  [](std::uint8_t role) { return static_cast<std::uint8_t>(role != RIIS_VTK_NODE_GHOST); });
 }
 
-void PieceNodes::find_box() {
-  for (std::int64_t i = 0; i < n_; ++i)
-    if (!is_ghost(i)) box_.grow(point(i));
+void PieceNodes::find_box_and_moments() {
+  for (std::int64_t i = 0; i < n_; ++i) {
+    if (is_ghost(i)) continue;
+    box_.grow(point(i));
+    moments_.add(point(i));
+  }
 }
 
 NodeKey PieceNodes::key(std::int64_t node) const {
@@ -167,6 +170,7 @@ void MeshCounts::add(const Piece &piece) {
   n_with_ids += nodes.has_ids();
   for (std::int64_t i = 0; i < nodes.n(); ++i) n_nodes += nodes.is_inside(i);
   box.grow(nodes.box());
+  moments.add(nodes.moments());
   MeshCounts edges;
   check(riis_vtk_mesh_get_median_edge(piece.file.get(), &edges.median_edge));
   if (edges.median_edge > 0) edges.n_edge_cells = static_cast<double>(nodes.counts().n_cells);
@@ -181,6 +185,7 @@ void MeshCounts::add(const MeshCounts &other) {
   n_with_nodes += other.n_with_nodes;
   n_with_ids += other.n_with_ids;
   box.grow(other.box);
+  moments.add(other.moments);
   if (other.n_edge_cells == 0) return;
   n_edge_cells += other.n_edge_cells;
   median_edge += (other.median_edge - median_edge) * (other.n_edge_cells / n_edge_cells);

@@ -93,8 +93,9 @@ class PieceNodes {
   const std::uint8_t *mask() const { return mask_.empty() ? nullptr : mask_.data(); }
   const riis_vtk_sharing &counts() const { return counts_; }
   bool is_whole() const { return is_whole_; }
-  // Returns the box around all nodes but ghosts.
+  // Both are those of all nodes but ghosts.
   const Box &box() const { return box_; }
+  const Moments &moments() const { return moments_; }
   bool has_ids() const { return counts_.has_global_ids != 0; }
   // Returns the global id, or the number in the piece if there are no global ids.
   std::int64_t id(std::int64_t node) const { return has_ids() ? ids_[static_cast<std::size_t>(node)] : node; }
@@ -104,12 +105,13 @@ class PieceNodes {
     return is_whole_ ? static_cast<std::uint8_t>(RIIS_VTK_NODE_INSIDE) : role_[static_cast<std::size_t>(node)];
   }
 
-  void find_box();
+  void find_box_and_moments();
 
   bool is_whole_;
   std::int64_t n_ = 0;
   const double *xyz_ = nullptr;
   Box box_ = empty_box();
+  Moments moments_;
   std::vector<std::uint8_t> role_, mask_;
   std::vector<std::int64_t> ids_;
   riis_vtk_sharing counts_{};
@@ -132,6 +134,7 @@ struct MeshCounts {
   std::int64_t n_with_nodes = 0, n_with_ids = 0;  // pieces
   double median_edge = 0, n_edge_cells = 0;       // the mean of the pieces' median edges, weighted by cells
   Box box = empty_box();
+  Moments moments;
 
   void add(const Piece &piece);
   void add(const MeshCounts &other);

@@ -9,6 +9,7 @@
 #include "program/base/refusal.hpp"
 #include "program/mark/crossings.hpp"
 #include "program/mark/mesh_marking.hpp"
+#include "program/mark/warnings.hpp"
 
 namespace riis::program {
 
@@ -81,7 +82,10 @@ std::vector<MovingValve> moving_valves(Case &all) {
         made.crossings = look_for_crossings(source.options, source.valve, made.surface(), part);
       else if (source.valve)
         made.crossings = check_shape(source.options, source.valve, source.has_open_state, part);
-      if (!all.options.mesh.empty()) rehearse_marking(source.options, made.surface());
+      if (!all.options.mesh.empty())
+        rehearse_marking(source.options, made.surface());
+      else if (auto warning = warning_of_thickness(source.options, info_of(made.surface())))
+        warn((part.empty() ? "" : part + ": ") + warning->text + warning->advice);
     } catch (Refusal &refusal) {
       if (!source.subject.empty() && refusal.text.rfind(source.subject, 0) != 0)
         refusal = {exit_bad_data, source.subject + ": " + refusal.text};

@@ -41,7 +41,8 @@ void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd
 }
 
 // --quiet does not silence this warning, because the valve lets flow through.
-void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const std::string &surface,
+// An open valve is meant to have a passage, so there is no advice.
+void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const std::string &surface, double opening,
                      const std::string &unknown) {
   const std::string ends = text_of(asked.point(0)) + " and " + text_of(asked.point(1));
   const riis_passage &found = report.found;
@@ -50,11 +51,13 @@ void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const 
   else if (found.state == RIIS_PASSAGE_NONE)
     warn("nothing to seal: the mesh itself does not join " + ends);
   if (found.state != RIIS_PASSAGE_OPEN) return;
-  const std::string text = surface + " leaks: unmarked nodes join " + ends + "; the passage is ";
+  const std::string state = opening > 0 ? "the valve is open, at opening " + shown(opening) : surface + " leaks";
+  const std::string text = state + ": unmarked nodes join " + ends + "; the passage is ";
   if (report.is_end)
-    warn(text + "nearest to the surface at its end at " + report.place + ", " + shown(found.distance) +
-         " from the surface");
-  else if (report.closing_half_thickness > 0)
+    warn(text + "wide everywhere: no place on it is nearer to " + surface + " than its end at " + report.place + ", " +
+         shown(found.distance) + " from it. Either the points are beside " + surface +
+         ", or it does not stand in their way: give points on both sides of it, farther away");
+  else if (report.closing_half_thickness > 0 && opening == 0)
     warn({{Cause::leaks, text + "at " + report.place,
            ", and --half-thickness " + shortest(report.closing_half_thickness) + " closes it"}});
   else
@@ -194,7 +197,7 @@ void PassageCheck::judge(const riis_surface *surface, const riis_valve *valve, c
     });
   if (found.found.node_id >= 0)
     passage.place = place_text(options_, found.found.point, longest_edge_at(found.found, counts));
-  warn_of_passage(*options_.check_leaks, passage, name, unknown);
+  warn_of_passage(*options_.check_leaks, passage, name, valve ? opening_of(valve) : 0, unknown);
   report.passage = passage;
   if (options_.first_passage && unknown.empty()) report.valves[0].flow.first = first_of(valve);
 }

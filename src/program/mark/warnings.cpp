@@ -7,7 +7,9 @@
 #include <cstdio>
 
 #include "program/base/ranks.hpp"
+#include "program/base/text.hpp"
 #include "program/input/valve_file.hpp"
+#include "program/mark/mesh_pieces.hpp"
 #include "program/output/report.hpp"
 
 namespace riis::program {
@@ -47,6 +49,13 @@ std::string text_of(const Box &box, double edge) {
 
 bool is_parametric(const MarkOptions &options) { return options.surface.empty() && !is_valve_file(options.valve); }
 
+// Returns whether the surface has the size of a valve, as far as its own unit is known.
+bool has_size_of_valve(const Situation &s) {
+  const std::optional<Unit> own = s.options.surface_unit;
+  if (is_parametric(s.options)) return true;
+  return own && unit_of_valve(s.surface.largest_side() / s.options.surface_options.scale) == own;
+}
+
 bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >= fewest_judged_nodes; }
 
 // Returns whether suspiciously few nodes are marked. A single layer of nodes on the surface would have about area / edge^2
@@ -80,59 +89,93 @@ Warning warning_of_places(const Situation &s) {
 
 std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
 
-// Two phrases for a warning: the unit that the sizes suggest, and the options to write.
+// The units of a mesh and of a surface, and the options to write for them. Without units, only a factor is known.
 struct Cure {
-  std::string look, write;
+  std::optional<UnitPair> units;
+  std::string write;
 };
 
-std::string look_of(Unit mesh, Unit surface) {
-  if (mesh == surface) return std::string("the mesh looks as if it were in ") + words_of(mesh) + ", as the surface is";
-  return std::string("the mesh looks as if it were in ") + words_of(mesh) + ", the surface in " + words_of(surface);
+Cure cure_for_scale(const Situation &s, double scale) {
+  const MarkOptions &options = s.options;
+  const std::optional<Unit> own = is_parametric(options) ? Unit::centimetre : options.surface_unit;
+  const auto mesh = own ? unit_reached(*own, scale) : std::nullopt;
+  std::optional<UnitPair> pair;
+  if (mesh)
+    pair = UnitPair{*own, *mesh};
+  else if (!is_parametric(options))
+    pair = units_of_factor(scale);
+  if (!pair && !own && scale == 1)
+    if (const auto both = unit_of_valve(s.surface.largest_side())) pair = UnitPair{*both, *both};
+  if (!pair) return {std::nullopt, "--scale " + shown(scale)};
+  const std::string of_surface = is_parametric(options) ? "" : " " + option("--surface-unit", pair->surface);
+  return {pair, option("--unit", pair->mesh) + of_surface};
 }
 
-Cure cure_for_scale(const MarkOptions &options, double scale) {
-  if (is_parametric(options)) {
-    if (const auto mesh = unit_reached(Unit::centimetre, scale)) {
-      return {look_of(*mesh, Unit::centimetre), option("--unit", *mesh)};
-    }
-  } else {
-    const auto mesh = options.surface_unit ? unit_reached(*options.surface_unit, scale) : std::nullopt;
-    const auto pair = mesh ? UnitPair{*options.surface_unit, *mesh} : units_of_factor(scale);
-    if (pair) {
-      return {look_of(pair->mesh, pair->surface),
-              option("--unit", pair->mesh) + " " + option("--surface-unit", pair->surface)};
-    }
-  }
-  return {"the mesh and the surface look as if they were in different units", "--scale " + shown(scale)};
+// Returns the factors of the units that the mesh may have, or all factors if the present scale is that of no unit.
+std::vector<double> factors_of_units(const Situation &s) {
+  std::vector<double> found;
+  for (const double factor : unit_factors())
+    if (cure_for_scale(s, s.options.surface_options.scale / factor).units) found.push_back(factor);
+  return found.empty() ? unit_factors() : found;
+}
+
+UnitJudgement judgement_of(const Situation &s) { return judge_units(s, factors_of_units(s)); }
+
+std::string text_of_units(const Situation &s, const std::vector<Cure> &cures) {
+  std::vector<std::string> meshes;
+  for (const Cure &cure : cures)
+    if (cure.units) meshes.emplace_back(words_of(cure.units->mesh));
+  if (meshes.size() < cures.size()) return "the mesh and the surface look as if they were in different units";
+  UnitPair first = *cures.front().units;
+  if (s.options.placed_unit) first.surface = *s.options.placed_unit;
+  const std::string text = "the mesh looks as if it were in " + joined_by(meshes, " or ");
+  return text + (cures.size() == 1 && first.mesh == first.surface
+                     ? ", as the surface is"
+                     : std::string(", the surface in ") + words_of(first.surface));
 }
 
 // Returns the user's own options for the scale, which the user must replace.
 std::string in_place_of(const MarkOptions &options) {
-  if (options.unit) {
+  if (options.unit && !options.takes_placed_unit) {
     const std::string unit = " in place of " + option("--unit", *options.unit);
     return options.surface_unit ? unit + " " + option("--surface-unit", *options.surface_unit) : unit;
   }
   return options.has_scale ? " in place of --scale " + shown(options.surface_options.scale) : "";
 }
 
-// Returns a warning if the sizes suggest different units for the mesh and the surface. It names these units and the options to
+// Returns the option for a half thickness that suits another unit, or "" if the user's suits it.
+std::string half_thickness_at(double factor, const Situation &s) {
+  if (!s.options.has_half_thickness) return "";
+  const Sizes cured = rescaled(s, factor);
+  if (!is_too_large(s.half_thickness, cured) && !is_too_small(s.half_thickness, cured)) return "";
+  const double better = better_half_thickness(cured);
+  return better > 0 ? " --half-thickness " + shown(better) : "";
+}
+
+std::string sides_text(const Box &box) {
+  std::vector<std::string> sides;
+  for (int k = 0; k < 3; ++k) sides.push_back(shown(box.upper[k] - box.lower[k]));
+  return joined_by(sides, " x ");
+}
+
+// Returns a warning if the sizes suggest other units than the present ones. It names each possible unit, and the options to
 // write, such as "the mesh looks as if it were in metres, ...: write --unit m".
 std::optional<Warning> warning_of_units(const Situation &s) {
-  const auto factor = missing_factor(s);
-  if (!factor) return std::nullopt;
-  const Cure cure = cure_for_scale(s.options, s.options.surface_options.scale / *factor);
-  std::string write = cure.write;
-  if (s.options.has_half_thickness) {
-    const Sizes cured = rescaled(s, *factor);
-    if (is_too_large(s.half_thickness, cured) || is_too_small(s.half_thickness, cured)) {
-      const double better = better_half_thickness(cured);
-      if (better > 0) write += " --half-thickness " + shown(better);
-    }
+  const UnitJudgement units = judgement_of(s);
+  const bool is_same = units.factors == std::vector<double>{1};
+  if (units.is_right || units.factors.empty() || is_same || (s.is_unit_known && units.is_possible(1)))
+    return std::nullopt;
+  std::vector<Cure> cures;
+  std::vector<std::string> write;
+  for (const double factor : units.factors) {
+    // Scales that are no units are too many to name all.
+    if (!cures.empty() && !cures.front().units) break;
+    cures.push_back(cure_for_scale(s, s.options.surface_options.scale / factor));
+    write.push_back(cures.back().write + half_thickness_at(factor, s));
   }
-  return Warning{
-      Cause::units,
-      cure.look + " (largest sides " + shown(s.mesh.largest_side()) + " and " + shown(s.surface.largest_side()) + ")",
-      ": write " + write + in_place_of(s.options)};
+  return Warning{Cause::units,
+                 text_of_units(s, cures) + " (sides " + sides_text(s.mesh) + " and " + sides_text(s.surface) + ")",
+                 ": write " + joined_by(write, " or ") + in_place_of(s.options)};
 }
 
 // Returns a warning if the half thickness is too large or too small. It names the option to write.
@@ -162,24 +205,49 @@ std::optional<Warning> warning_of_half_thickness(const Situation &s) {
 
 std::string shown(double number) { return printed("%.3g", number); }
 
-Situation::Situation(const MarkOptions &marking, const riis_surface_info &info, const Box &mesh_box,
-                     double median_edge_of_mesh)
-    : Sizes{mesh_box, {}, median_edge_of_mesh, info.half_thickness}, options(marking), area(info.area) {
+Situation::Situation(const MarkOptions &marking, const riis_surface_info &info, const MeshCounts &counts)
+    : Sizes{sides_of(counts.box, counts.moments), {}, counts.median_edge, info.half_thickness},
+      options(marking),
+      mesh(counts.box),
+      area(info.area) {
   std::copy_n(info.lower, 3, surface.lower);
   std::copy_n(info.upper, 3, surface.upper);
-  std::copy_n(options.surface_options.translation, 3, translation);
-  is_unit_known = options.unit || options.has_scale;
+  is_unit_known = (options.unit && !options.takes_placed_unit) || options.has_scale;
   has_usual_half = is_parametric(options) && !options.has_half_thickness;
 }
 
 std::optional<Warning> warning_of(const Situation &s) {
   const bool has_none = s.n_marked == 0 && !s.options.allow_none;
-  if (!has_none && !has_all(s) && !has_hardly_any(s) && !has_odd_half_thickness(s)) return std::nullopt;
-  std::optional<Warning> why = warning_of_units(s);
+  const bool are_odd = has_none || has_all(s) || has_hardly_any(s) || has_odd_half_thickness(s);
+  // A valve has a known size, so a wrong unit shows even if the marks look right.
+  const bool has_size = is_parametric(s.options) && s.n_nodes >= fewest_judged_nodes && s.n_marked > 0;
+  std::optional<Warning> why = are_odd || has_size ? warning_of_units(s) : std::nullopt;
+  if (!why && !are_odd) return std::nullopt;
   if (!why) why = warning_of_half_thickness(s);
   if (!why) why = warning_of_places(s);
   why->text = marked_text(s) + ": " + why->text;
   return why;
+}
+
+std::optional<Warning> warning_of_thickness(const MarkOptions &options, const riis_surface_info &info) {
+  return warning_of_half_thickness(Situation(options, info, MeshCounts()));
+}
+
+std::vector<PossibleUnit> units_left_open(const Situation &s) {
+  const double present = s.options.surface_options.scale;
+  const double usual = s.options.placed_unit ? factor_between(Unit::centimetre, *s.options.placed_unit) : 1;
+  if (!s.is_unit_known || !has_size_of_valve(s) || is_as_wide(s, present / usual) || warning_of_units(s)) return {};
+  std::vector<double> factors = judgement_of(s).factors;
+  factors.erase(std::remove(factors.begin(), factors.end(), 1), factors.end());
+  if (factors.empty()) return {};
+  factors.insert(factors.begin(), 1);
+  std::vector<PossibleUnit> open;
+  for (const double factor : factors) {
+    const double half_thickness = s.options.has_half_thickness ? s.half_thickness : s.half_thickness / factor;
+    open.push_back({cure_for_scale(s, present / factor).write, present / factor, half_thickness,
+                    s.options.placed_unit ? 1 / factor : 1});
+  }
+  return open;
 }
 
 void warn(const std::string &text) {
@@ -202,7 +270,7 @@ std::int64_t n_warnings() { return n_printed; }
 std::string place_text(const ValveOptions &options, const double *point, double edge) {
   std::string text;
   for (int k = 0; k < 3; ++k) text += (k == 0 ? "" : " ") + coordinate_text(point[k], edge);
-  return options.unit ? text + " " + name_of(*options.unit) : text;
+  return options.unit && !options.has_doubted_unit ? text + " " + name_of(*options.unit) : text;
 }
 
 }  // namespace riis::program

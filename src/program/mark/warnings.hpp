@@ -15,12 +15,14 @@
 
 namespace riis::program {
 
+struct MeshCounts;
+
 // The result of a marking with the sizes of its mesh and surface, in the mesh's unit.
 struct Situation : Sizes {
-  // `median_edge` of the mesh is 0 if it is unknown.
-  Situation(const MarkOptions &marking, const riis_surface_info &info, const Box &mesh_box, double median_edge_of_mesh);
+  Situation(const MarkOptions &marking, const riis_surface_info &info, const MeshCounts &counts);
 
   const MarkOptions &options;
+  Box mesh;
   double area;  // of the surface
   int64_t n_nodes = 0, n_marked = 0;
 };
@@ -38,6 +40,20 @@ struct Warning {
 
 // Returns a warning, or nothing if the marks look right.
 std::optional<Warning> warning_of(const Situation &situation);
+
+// Returns a warning if the half thickness is too large for a surface. It needs no mesh.
+std::optional<Warning> warning_of_thickness(const MarkOptions &options, const riis_surface_info &info);
+
+// A unit that a mesh may have: the options that the user writes for it, the placement, and the half thickness.
+struct PossibleUnit {
+  std::string write;
+  double scale, half_thickness;
+  double placement;  // the factor of the placement's lengths
+};
+
+// Returns the units that remain possible if the user named one of them, or none if no other is possible. The present unit comes
+// first. A run without a unit advises the same units.
+std::vector<PossibleUnit> units_left_open(const Situation &situation);
 
 // Prints the line on stderr, and counts it for --strict. --quiet does not silence it, because wrong marks look like right ones.
 void warn(const std::string &text);

@@ -2,6 +2,7 @@
 #include "program/output/report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <locale>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,21 @@
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {
+
+std::string bytes_text(double n) {
+  const char *const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
+  std::size_t unit = 0;
+  for (; n >= 1000 && unit < 5; ++unit) n /= 1000;
+  return printed(unit == 0 ? "%.0f " : "%.3g ", n) + units[unit];
+}
+
+bool has_slits(const riis_orifice &orifice) {
+  // The perimeter is less than that of a circle with a hundredth of the area.
+  const double pi = std::acos(-1);
+  const bool has_no_rim = orifice.perimeter * orifice.perimeter < 4 * pi * 0.01 * orifice.area;
+  return has_no_rim && orifice.area > 1e-3 * orifice.outline_area && orifice.effective_area > 0.5 * orifice.area;
+}
+
 namespace {
 
 std::ostringstream table_stream() {
@@ -161,7 +177,7 @@ void add_flow(const ValveReport &valve, std::ostringstream &out) {
     if (flow.orifice_opening) state << (valve.name.empty() ? "" : ", ") << "opening " << *flow.orifice_opening;
     out << line("orifice", state.str()) << flow.orifice->area << " open, " << flow.orifice->effective_area
         << " effective: the band takes " << flow.orifice->rim_reach << " half thicknesses along a perimeter of "
-        << flow.orifice->perimeter
+        << flow.orifice->perimeter << (has_slits(*flow.orifice) ? slits_text : "")
         << (flow.orifice->outline == RIIS_OUTLINE_BOUNDARY ? "; the outline is that of the open edges" : "") << "\n";
   }
   if (flow.first) {

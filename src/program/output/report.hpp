@@ -81,6 +81,14 @@ struct OutsideReport {
   std::optional<double> opening;  // set if it differs from that of the marks
 };
 
+// Returns a text such as "12.3 MB".
+std::string bytes_text(double n);
+
+// Returns whether an orifice has an area but hardly a perimeter, because slits have none, and the text about them.
+bool has_slits(const riis_orifice &orifice);
+inline constexpr const char *slits_text =
+    ", where slits narrower than a fifth of the half thickness do not count: they are in the open area only";
+
 struct CrossingReport {
   int n_openings = 0;             // number of openings checked, or 0 if only the given surface was checked
   std::optional<double> opening;  // the opening at which a crossing was found

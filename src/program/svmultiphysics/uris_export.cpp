@@ -5,8 +5,10 @@
 
 #include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <system_error>
 #include <vector>
 
@@ -194,6 +196,26 @@ void write_frames(UrisLeaflets &leaflets, const std::vector<double> &openings, c
   for (TextFile &file : files) file.close();
 }
 
+// Prints the estimated size of all frames, from that of the first one. Small exports have no line.
+void announce(const ExportOptions &options, const UrisMotion &motion, const UrisLeaflets &leaflets,
+              const std::vector<double> &first) {
+  constexpr double least_announced = 1e7;
+  double of_frame = 0;
+  std::size_t n_moving = 0;
+  for (const UrisLeaflet &leaflet : leaflets.leaflets()) {
+    if (leaflet.is_scaffold) continue;
+    of_frame += static_cast<double>(text_of_points(first, leaflet).size());
+    ++n_moving;
+  }
+  const double n_bytes = of_frame * static_cast<double>(motion.opening.size() + motion.closing.size());
+  if (options.quiet || n_bytes < least_announced) return;
+  std::fprintf(stderr, "riis: writing %s with %s of leaflets in %s, %s in all, to %s\n",
+               counted(static_cast<std::int64_t>(2 * n_moving), "file").c_str(),
+               counted(leaflets.n_triangles(), "triangle").c_str(),
+               counted(static_cast<std::int64_t>(motion.opening.size() + motion.closing.size()), "frame").c_str(),
+               bytes_text(n_bytes).c_str(), options.folder.c_str());
+}
+
 void write_export(const ExportOptions &options, const UrisMotion &motion, UrisLeaflets &leaflets,
                   const UrisForecast &forecast) {
   const UnbrokenWrite unbroken;
@@ -206,6 +228,7 @@ void write_export(const ExportOptions &options, const UrisMotion &motion, UrisLe
   };
   const std::vector<double> first = leaflets.vertices_at(motion.opening[0]);
   for (const UrisLeaflet &leaflet : leaflets.leaflets()) write_small(leaflet.name + ".vtu", vtu_text(first, leaflet));
+  announce(options, motion, leaflets, first);
   std::string normal;
   append_point({leaflets.forward().begin(), leaflets.forward().end()}, 0, normal);
   write_small("normal.dat", normal);
@@ -311,7 +334,9 @@ std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, c
 void export_uris(const ExportOptions &options) {
   check_whole_folder(options.folder, "FOLDER");
   const UrisMotion motion = uris_motion_of(options);
+  std::optional<Stage> stage(std::in_place, "making the leaflets of all frames", options.quiet);
   UrisLeaflets leaflets(options, motion);
+  stage.reset();
   if (leaflets.n_left_out() > 0) {
     warn(counted(leaflets.n_left_out(), "triangle") +
          " left out, because the area is 0 in some frames and svMultiPhysics would divide by it");
@@ -320,6 +345,7 @@ void export_uris(const ExportOptions &options) {
   const UrisForecast forecast = options.mesh.empty() ? UrisForecast{} : forecast_of(options, motion, leaflets);
   write_export(options, motion, leaflets, forecast);
   if (!options.quiet) write_text("-", mesh_block(options, motion, leaflets, forecast));
+  if (!forecast.failure.empty()) refuse_data(forecast.failure);
 }
 
 }  // namespace riis::program

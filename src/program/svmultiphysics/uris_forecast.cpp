@@ -153,7 +153,8 @@ class Forecaster {
     }
     if (!expected.is_solved) {
       say("expected drop: not found, because the equations were not solved");
-      warn("the drop across the closed valve was not found, because the equations were not solved");
+      forecast_.failure = "the drop across the closed valve was not found, because the equations were not solved. " +
+                          text_of_stiffness() + "; the files are written";
       return;
     }
     if (!is_sensible(expected.drop)) {
@@ -177,6 +178,13 @@ class Forecaster {
     }
     say("  " + needed);
     warn("svMultiPhysics will drop " + shown(expected.drop) + " of (R/eps) u across the closed valve; " + needed);
+  }
+
+  // Says how stiff the resistance makes the equations.
+  std::string text_of_stiffness() const {
+    const double stiffness = options_.resistance * options_.time_step / (options_.density * half_thickness_);
+    return "With --resistance " + shown(options_.resistance) + ", R dt/(rho eps) is " + shown(stiffness) +
+           ", and in blood flows it is about 1 to 1,000: look at the unit of --resistance";
   }
 
   // Finds the half thickness by steps of a quarter, and then by halving the last step twice.

@@ -15,7 +15,8 @@ namespace riis::program {
 
 struct UrisForecast {
   std::vector<std::string> lines;
-  std::string table;  // CSV
+  std::string table;    // CSV
+  std::string failure;  // why the drop was not found; "": it was
 };
 
 // Refuses an export whose valve can never open or never close in this mesh. Warns of a drop that is too small.

@@ -131,9 +131,11 @@ SkirtLengths lengths_to_wall(const PatchSet &set, const Placement &placement, co
   if (n_too_far > 0) {
     const auto first = static_cast<std::size_t>(std::find_if(found.begin(), found.end(), is_too_far) - found.begin());
     const Vec3 p = starts[first].point;
-    const Message how = found[first] ? Message("too far, at ", *found[first]) : Message("missed");
-    fail(RIIS_INVALID_ARGUMENT, "wall is not within longest, ", longest, ", at ", n_too_far, " of ", found.size(),
-         " points of the attachment; at the first, (", p.x, ", ", p.y, ", ", p.z, "), it is ", how.text());
+    constexpr int digits = 6;
+    const Message how = found[first] ? Message("too far, at ", rounded(*found[first], digits)) : Message("missed");
+    fail(RIIS_INVALID_ARGUMENT, "wall is not within longest, ", rounded(longest, digits), ", at ", n_too_far, " of ",
+         found.size(), " points of the attachment; at the first, (", rounded(p.x, digits), ", ", rounded(p.y, digits),
+         ", ", rounded(p.z, digits), "), it is ", how.text());
   }
   SkirtLengths lengths;
   std::vector<Vec3> ends;

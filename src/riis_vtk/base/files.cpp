@@ -112,6 +112,14 @@ std::string ending_of(const std::string &path) {
   return lower_case(ending);
 }
 
+namespace {
+
+// A pointer of Git LFS is a small text that begins with these words.
+constexpr std::string_view lfs_pointer = "version https://git-lfs.github.com/spec/";
+constexpr off_t largest_lfs_pointer = 1024;
+
+}  // namespace
+
 std::int64_t check_readable(const std::string &path) {
   struct stat status;
   if (stat(path.c_str(), &status) != 0) fail_file(path, "cannot be read: ", system_text(errno));
@@ -119,6 +127,11 @@ std::int64_t check_readable(const std::string &path) {
   if (!S_ISREG(status.st_mode)) fail_file(path, "is not a regular file");
   if (access(path.c_str(), R_OK) != 0) fail_file(path, "cannot be read: ", system_text(errno));
   if (status.st_size == 0) fail_file(path, "is empty");
+  if (status.st_size <= largest_lfs_pointer) {
+    const MappedFile file(path, status.st_size);
+    if (file.bytes().rfind(lfs_pointer, 0) == 0)
+      fail_file(path, "is a pointer of Git LFS, not the file itself: git lfs pull fetches the file");
+  }
   return status.st_size;
 }
 

@@ -24,8 +24,8 @@
 
 #include "riis_vtk/base/files.hpp"
 #include "riis_vtk/mesh/mesh.hpp"
+#include "riis_vtk/mesh/outside_faces.hpp"
 #include "riis_vtk/picture/drawing.hpp"
-#include "riis_vtk/picture/picture_faces.hpp"
 
 namespace riis::vtk {
 namespace {

@@ -10,6 +10,8 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include "riis_vtk/mesh/mesh.hpp"
+#include "riis_vtk/mesh/outside_faces.hpp"
 #include "riis_vtk/read/grid_files.hpp"
 #include "riis_vtk/read/other_files.hpp"
 #include "riis_vtk/surface/surfaces.hpp"
@@ -114,6 +116,18 @@ RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflet
       made->faces = faces_of(path, read_surface_data(path, caught), LeafletArray(leaflets));
       *surface = made.release();
     });
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_get_boundary(const riis_vtk_mesh *mesh, riis_vtk_surface **boundary) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    require(boundary, "boundary");
+    const Outside outside = outside_of(mesh->grid, nullptr, nullptr);
+    if (!outside.of_volumes) fail(RIIS_INVALID_ARGUMENT, "mesh has no volume cells, so it has no boundary");
+    auto made = std::make_unique<riis_vtk_surface>();
+    made->faces = faces_of("boundary", outside.faces, LeafletArray(nullptr));
+    *boundary = made.release();
   });
 }
 

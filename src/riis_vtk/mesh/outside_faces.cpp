@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the outer faces of cells. VTK's own filters for this, vtkDataSetSurfaceFilter and vtkGeometryFilter, would take longer
 // than all other steps of a picture.
-#include "riis_vtk/picture/picture_faces.hpp"
+#include "riis_vtk/mesh/outside_faces.hpp"
 
 #include <algorithm>
 

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/input/wall.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "program/base/handles.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/face_faults.hpp"
+#include "program/input/json.hpp"
+#include "program/input/mesh_reading.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/output/report.hpp"
+
+namespace riis::program {
+namespace {
+
+// The openings at which the wall must be within reach.
+constexpr std::int32_t n_openings = 11;
+// The gap is measured at other points than the skirt's length, so it may exceed the longest skirt by this share.
+constexpr double most_beyond = 0.01;
+// An open line of the wall is a hole if it is shorter than this share of the attachment. The end of a vessel is longer.
+constexpr double longest_hole = 0.3;
+
+// Reads the wall. The wall of a volume mesh is its boundary.
+SurfaceFile read_wall(const std::string &path) {
+  static const std::set<std::string> surface_endings = {".vtp", ".stl", ".obj", ".ply"};
+  static const std::set<std::string> common_endings = {".vtu", ".vtk"};
+  SurfaceFile wall;
+  const riis_status status = riis_vtk_surface_read(path.c_str(), nullptr, wall.out());
+  if (status == RIIS_OK) return wall;
+  const std::string ending = ending_of(path), reason = riis_last_error();
+  if (status != RIIS_FILE_ERROR || surface_endings.count(ending) != 0) check_surface_read(status, path);
+  MeshFile mesh;
+  try {
+    mesh = read_mesh_file(path);
+  } catch (const Refusal &) {
+    if (common_endings.count(ending) == 0) throw;
+    refuse_data(reason);
+  }
+  std::int64_t n_volumes = 0;
+  check(riis_vtk_mesh_get_volume_cells(mesh, &n_volumes, nullptr));
+  if (n_volumes == 0) refuse_data(reason);
+  check(riis_vtk_mesh_get_boundary(mesh, wall.out()), path);
+  return wall;
+}
+
+// How a wall differs from the file's: a factor of its lengths, and half a turn about z, by which the axes LPS and RAS differ.
+struct Change {
+  const char *factor;
+  bool is_turned;
+};
+
+// Makes the wall. It is already in the mesh's frame, so no other placement applies to it.
+Surface make_wall(const ValveOptions &options, const SurfaceFile &file, Change change = {"1", false}) {
+  const auto arrays = get<riis_surface_arrays>(riis_vtk_surface_get_arrays, file);
+  auto how = defaults<riis_surface_options>();
+  how.zero_area = RIIS_ZERO_AREA_SKIP;
+  how.scale = std::stod(change.factor);
+  how.rotation_axis[2] = 1;
+  how.rotation_angle = change.is_turned ? 180 : 0;
+  return create_for<Surface>(options.wall, riis_surface_create_from_arrays, &arrays, &how);
+}
+
+// Returns the advice for a wall whose axes are not the valve's.
+std::string axes_advice(const ValveOptions &options) {
+  if (options.placed.empty()) return "give both the same axes";
+  const Json placed = parse_json_file(options.placed, "a placed valve");
+  const bool is_ras = placed.contains("axes") && placed["axes"] == "RAS";
+  return std::string("place the valve by riis place --axes ") + (is_ras ? "LPS" : "RAS");
+}
+
+// Returns a hint if the skirt would reach the wall in another unit or with other axes, and "" otherwise.
+std::string hint_of_change(const ValveOptions &options, const SurfaceFile &file, const riis_valve *valve) {
+  for (const Change change : {Change{"1", true}, Change{"0.1", false}, Change{"10", false}, Change{"0.01", false},
+                              Change{"100", false}, Change{"0.001", false}, Change{"1000", false}}) {
+    const Valve copy = copy_of(valve);
+    const Surface wall = make_wall(options, file, change);
+    if (riis_valve_set_skirt_to_wall(copy, wall, *options.skirt, &options.surface_options) != RIIS_OK) continue;
+    if (!change.is_turned)
+      return std::string("; with its lengths times ") + change.factor +
+             " the wall would be: save it in the mesh's unit";
+    return "; after half a turn about z the wall would be, so one of valve and wall is in LPS and the other in RAS: " +
+           axes_advice(options);
+  }
+  return "";
+}
+
+// Prints a warning, but only once for a run, because several stages make the valve anew.
+void warn_once(const std::string &text) {
+  static std::set<std::string> printed;
+  if (printed.insert(text).second) warn(text);
+}
+
+double length_of(const riis_attachment &attachment) {
+  double length = 0;
+  for (std::int64_t i = 0; i < attachment.n_edges; ++i) {
+    const double *const p = attachment.edges + 6 * i;
+    length += std::hypot(p[3] - p[0], p[4] - p[1], p[5] - p[2]);
+  }
+  return length;
+}
+
+// Warns of holes in the wall, and of a length that is larger than the valve.
+void check_sizes(const ValveOptions &options, const riis_surface *wall, const riis_surface *valve) {
+  const riis_surface_info info = info_of(valve);
+  double largest_side = 0;
+  for (int k = 0; k < 3; ++k) largest_side = std::max(largest_side, info.upper[k] - info.lower[k]);
+  if (*options.skirt > largest_side)
+    warn_once("--skirt: " + shown(*options.skirt) + " is longer than the valve, whose largest side is " +
+              shown(largest_side) + ": lengths have the unit of the mesh" +
+              (options.unit ? std::string(", ") + name_of(*options.unit) : ""));
+  const auto attachment = get<riis_attachment>(riis_surface_get_attachment, valve);
+  const OpenLine hole = longest_open_line(wall, longest_hole * length_of(attachment));
+  if (hole.n_edges == 0) return;
+  warn_once(options.wall + ": the wall has a hole of " + counted(hole.n_edges, "edge") + " at " +
+            place_text(options, hole.point, hole.length / static_cast<double>(hole.n_edges)) +
+            ", through which a skirt may pass: close it");
+}
+
+// Refuses a wall that is farther away than --skirt at an opening. The attachment may move while the valve opens.
+void check_all_openings(const ValveOptions &options, const riis_valve *valve, const riis_surface *wall) {
+  const Valve trial = copy_of(valve);
+  if (!why_closed(trial, options.surface_options).empty()) return;
+  for (const double opening : openings_from_0_to_1(n_openings)) {
+    check(riis_valve_set_scalar(trial, "opening", opening));
+    const auto surface = create<Surface>(riis_surface_create, trial, &options.surface_options);
+    riis_gap gap;
+    check(riis_surface_get_gap(surface, wall, nullptr, &gap, sizeof gap), options.wall);
+    if (opening == 0) check_sizes(options, wall, surface);
+    const std::string at = options.wall + ": at the opening " + shown(opening) + " the wall is ";
+    if (gap.most > (1 + most_beyond) * *options.skirt)
+      refuse_data(at + "not within --skirt, " + shown(*options.skirt) + ": the widest gap is " + shown(gap.most) +
+                  ", at " + place_text(options, gap.widest_point, 0));
+  }
+}
+
+}  // namespace
+
+void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string &subject) {
+  if (!options.skirt) return;
+  if (options.wall.empty()) {
+    check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
+    return;
+  }
+  const SurfaceFile file = read_wall(options.wall);
+  const Surface wall = make_wall(options, file);
+  const riis_status status = riis_valve_set_skirt_to_wall(valve, wall, *options.skirt, &options.surface_options);
+  if (status == RIIS_INVALID_ARGUMENT) {
+    const std::string reason = options.wall + ": " + riis_last_error();
+    refuse_data(reason + hint_of_change(options, file, valve));
+  }
+  check(status, subject);
+  check_all_openings(options, valve, wall);
+}
+
+riis_gap gap_to_wall(const ValveOptions &options, const riis_surface *surface) {
+  const Surface wall = make_wall(options, read_wall(options.wall));
+  riis_gap gap;
+  check(riis_surface_get_gap(surface, wall, nullptr, &gap, sizeof gap), options.wall);
+  return gap;
+}
+
+}  // namespace riis::program
