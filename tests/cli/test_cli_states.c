@@ -445,9 +445,19 @@ TEST(test_skirts_and_files) {
   RUN_STATES("--valve", "aortic", "--count", "2");
   CHECK_NEAR(of_file, cell(1, "orifice_area"), 0.005 * of_file);
 
+  /* Leaflets of a mechanical valve leave the rest of a square tube open. */
+  run_program("surface", "--valve", "bileaflet", "--opening", "1", "--tolerance", "0.01", "--output", file, NULL);
+  expect_run_fine(__FILE__, __LINE__);
+  RUN_STATES("--surface", file, "--wall", wall);
+  expect_said("; the longest open boundary of the wall has 16");
+  const double in_wall = cell(0, "orifice_area");
+  RUN_STATES("--valve", "bileaflet", "--count", "2");
+  const double disc = pi * 1.1 * 1.1;
+  CHECK_NEAR(in_wall, 16 - (disc - cell(1, "orifice_area")), 0.005 * disc);
+
   char csv[256];
   snprintf(csv, sizeof csv, "%s", scratch_path("no.csv"));
-  RUN_REFUSED(2, "--wall requires --skirt", "states", csv, "--wall", wall);
+  RUN_REFUSED(2, "--wall needs --skirt or --surface", "states", csv, "--wall", wall);
   RUN_REFUSED(2, "--skirt excludes --surface", "states", csv, "--surface", file, "--skirt", "1");
   RUN_REFUSED(2, "--skirt: -1 is not above 0 and finite", "states", csv, "--skirt", "-1");
   RUN_REFUSED(1, "'skirt_length' is not a parameter of the bileaflet valve", "states", csv, "--valve", "bileaflet",

@@ -205,6 +205,8 @@ SizeFieldOptions finish_size_field(const Command &command, SizeFieldOptions opti
 }
 
 StatesOptions finish_states(const Command &command, StatesOptions options) {
+  if (command.has("--wall") && options.surface.empty() && !options.skirt)
+    refuse_usage("--wall needs --skirt or --surface");
   check_surface_files(command, options);
   check_set_opening(options, "has no effect: the table has all openings");
   finish_valve(command, options);

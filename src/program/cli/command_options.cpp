@@ -468,8 +468,9 @@ void declare_states(Command command, StatesOptions &options) {
   declare_tolerance(command, options);
   CLI::Option *const surface = declare_surface_files(command, options);
   for (const char *name :
-       {"--valve", "--params", "--params-open", "--set", "--warp", "--skirt", "--wall", "--tolerance", "--count"})
+       {"--valve", "--params", "--params-open", "--set", "--warp", "--skirt", "--tolerance", "--count"})
     surface->excludes(command.option(name));
+  command.option("--wall")->remove_needs(command.option("--skirt"));  // the wall of a surface bounds its orifice
   declare_leaflets(command, surface, options);
   declare_unit(command, options);
   declare_half_thickness(command, options);

@@ -290,9 +290,10 @@ closed values, and the area of the orifice. The summary on stdout names the free
 from the closed length. Free edges are the sides v = 1 of the patches on a leaflet's rim. The orifice is the part of an outline
 that the leaflets leave uncovered, seen along the outline's axis. effective_area is the part that the band around the leaflets
 leaves to the flow, by the half thickness and a round rim. The outline is the leaflets' farthest edges in all directions, such
-as the annulus. Straight lines join leaflets that do not touch. A bileaflet valve has the disc of the housing's radius. The
-table has no columns for measures that a valve lacks. The default tolerance is 0.01. A valve without an open state has one
-line, at opening 0.
+as the annulus. Straight lines join leaflets that do not touch. A bileaflet valve has the disc of the housing's radius. If the
+leaflets of --surface do not reach the wall, --wall FILE, a ring or a straight tube, gives the outline. The table has no
+columns for measures that a valve lacks. The default tolerance is 0.01. A valve without an open state has one line, at
+opening 0.
 )"},
     {"export", "what riis export writes",
      R"(

@@ -16,6 +16,7 @@
 #include "program/base/text.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/input/valve_source.hpp"
+#include "program/input/wall.hpp"
 #include "program/mark/crossings.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/outputs.hpp"
@@ -80,6 +81,7 @@ class Measured {
       source.file = read_surface(options, seconds);
     }
     surface_ = make_surface(source, FileVelocity::none);
+    if (!options.wall.empty()) wall_ = wall_of(options);
     keyframes_ = std::move(source.keyframes);
   }
 
@@ -109,7 +111,12 @@ class Measured {
     return made;
   }
 
-  riis_orifice orifice() const { return get<riis_orifice>(riis_surface_get_orifice, surface_, nullptr); }
+  riis_orifice orifice() const {
+    if (!wall_) return get<riis_orifice>(riis_surface_get_orifice, surface_, nullptr);
+    riis_orifice made;
+    check(riis_surface_get_orifice_in_wall(surface_, wall_, nullptr, &made, sizeof made), options_.wall);
+    return made;
+  }
 
   riis_coaptation contact() const {
     return get<riis_coaptation>(riis_surface_get_coaptation, surface_, RIIS_AUTO, RIIS_ALL_LEAFLETS);
@@ -124,6 +131,7 @@ class Measured {
   Keyframes keyframes_;
   std::vector<double> times_;
   Surface surface_;
+  Surface wall_;  // null unless it bounds the orifice of a surface from a file
 };
 
 // Tells whether a leaflet is the valve's skirt, which has the largest id.
@@ -171,6 +179,7 @@ States frame_of(const StatesOptions &options, Measured &valve) {
   if (orifice.outline == RIIS_OUTLINE_DISC) states.disc = "the disc of radius " + shown(orifice.radius);
   if (orifice.outline == RIIS_OUTLINE_ATTACHMENT) states.disc = "the outline of the attachment";
   if (orifice.outline == RIIS_OUTLINE_BOUNDARY) states.disc = "the outline of the open edges";
+  if (orifice.outline == RIIS_OUTLINE_WALL) states.disc = "the longest open boundary of the wall";
   states.reach = shown(orifice.rim_reach) + " half thicknesses of " + shown(orifice.half_thickness);
   return states;
 }

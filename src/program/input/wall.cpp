@@ -40,7 +40,7 @@ SurfaceFile read_wall(const std::string &path) {
   if (status != RIIS_FILE_ERROR || surface_endings.count(ending) != 0) check_surface_read(status, path);
   MeshFile mesh;
   try {
-    mesh = read_mesh_file(path);
+    mesh = read_mesh_file(path, "");
   } catch (const Refusal &) {
     if (common_endings.count(ending) == 0) throw;
     refuse_data(reason);
@@ -161,8 +161,10 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   check_all_openings(options, valve, wall);
 }
 
+Surface wall_of(const ValveOptions &options) { return make_wall(options, read_wall(options.wall)); }
+
 riis_gap gap_to_wall(const ValveOptions &options, const riis_surface *surface) {
-  const Surface wall = make_wall(options, read_wall(options.wall));
+  const Surface wall = wall_of(options);
   riis_gap gap;
   check(riis_surface_get_gap(surface, wall, nullptr, &gap, sizeof gap), options.wall);
   return gap;
