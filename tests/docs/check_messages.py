@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """check_messages.py ROOT: every command that a message prints is in messages.txt, with the test that runs it.
 
-A command is a word of a shell in a literal of the sources, or an option that a message tells to write. The texts of --help and the
-descriptions of options are no messages. Prints how many commands the messages of each part have.
+A command is a word of a shell in a literal of the sources, or an option that a message tells to write. The texts of --help and
+the descriptions of options are no messages. Prints how many commands the messages of each part have.
 """
 import ast
 import collections

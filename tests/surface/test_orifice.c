@@ -199,8 +199,8 @@ static double area_by_turned_lines(const riis_surface *surface, double radius, c
 }
 
 /* Orifices are compared with the results of turned lines, inside the disc or the attachment. The attachment of the aortic valve
- * is no closed line. The free edges of the coapting valve reach out of the attachment. The orifices must also be those that polygons
- * gave. These were made by other programs, for valves whose axis of view is known by symmetry. */
+ * is no closed line. The free edges of the coapting valve reach out of the attachment. The orifices must also be those that
+ * polygons gave. These were made by other programs, for valves whose axis of view is known by symmetry. */
 TEST(orifices_are_those_of_turned_lines) {
   static const double openings[] = {0, 0.25, 0.5, 0.75, 1};
   static const double by_polygons[n_kinds][5] = {{-1, -1, -1, -1, -1},

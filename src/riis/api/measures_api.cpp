@@ -61,6 +61,14 @@ riis_orifice orifice_of(const riis::Surface &surface, const riis::Surface *wall,
           0};
 }
 
+void write_orifice(const riis::Surface &surface, const riis::Surface *wall, const riis_resistance *resistance,
+                   riis_orifice *orifice, int64_t struct_size) {
+  const riis_resistance whole = resistance_for(resistance, surface);
+  riis::check_struct_size<riis_orifice>(struct_size, "orifice");
+  require(orifice, "orifice");
+  riis::write_struct(orifice, struct_size, "orifice", orifice_of(surface, wall, whole));
+}
+
 // Tries openings of a valve in a mesh. It calls the public functions, so their messages refuse bad input.
 class PassageTrials {
  public:
@@ -172,18 +180,6 @@ riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leafle
     riis::write_struct(sizes, struct_size, "sizes", riis::view(leaflets)[leaflet]);
   });
 }
-
-namespace {
-
-void write_orifice(const riis::Surface &surface, const riis::Surface *wall, const riis_resistance *resistance,
-                   riis_orifice *orifice, int64_t struct_size) {
-  const riis_resistance whole = resistance_for(resistance, surface);
-  riis::check_struct_size<riis_orifice>(struct_size, "orifice");
-  require(orifice, "orifice");
-  riis::write_struct(orifice, struct_size, "orifice", orifice_of(surface, wall, whole));
-}
-
-}  // namespace
 
 riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                      riis_orifice *orifice, int64_t struct_size) {
