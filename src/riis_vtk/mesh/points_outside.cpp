@@ -32,7 +32,7 @@ bool contains(const Vector &a, const Vector &b, const Vector &c, const Vector &d
          sign * volume_of(a, b, p, d) >= least && sign * volume_of(a, b, c, p) >= least;
 }
 
-struct Bounds {
+struct CellBounds {
   Vector lower = {INFINITY, INFINITY, INFINITY}, upper = {-INFINITY, -INFINITY, -INFINITY};
 
   void grow(const Vector &p) {
@@ -72,7 +72,7 @@ class PointGrid {
 
   // Calls visit with the number of each point within the bounds.
   template <class Visit>
-  void for_each_in(const Bounds &wanted, const Visit &visit) const {
+  void for_each_in(const CellBounds &wanted, const Visit &visit) const {
     for (std::size_t k = 0; k < 3; ++k)
       if (!(wanted.lower[k] <= bounds_.upper[k] && wanted.upper[k] >= bounds_.lower[k])) return;
     for (std::int64_t i = place(wanted.lower, 0); i <= place(wanted.upper, 0); ++i)
@@ -92,7 +92,7 @@ class PointGrid {
   std::int64_t box_of(const Vector &p) const { return (place(p, 0) * n_[1] + place(p, 1)) * n_[2] + place(p, 2); }
 
   std::vector<Vector> points_;
-  Bounds bounds_;
+  CellBounds bounds_;
   std::array<std::int64_t, 3> n_ = {};
   Vector per_length_ = {};
   std::vector<std::int64_t> starts_, order_;
@@ -113,7 +113,7 @@ class SolidCells {
       vtkIdType n = 0;
       const vtkIdType *ids = nullptr;
       grid_->GetCells()->GetCellAtId(cell, n, ids);
-      Bounds bounds;
+      CellBounds bounds;
       for (vtkIdType i = 0; i < n; ++i) bounds.grow(point(ids[i]));
       visit(cell, bounds);
     }
@@ -214,7 +214,7 @@ struct Asked {
 
 void find_contained(SolidCells &cells, const Asked &asked, std::uint8_t *is_outside) {
   const PointGrid grid(asked.points);
-  cells.for_each([&](vtkIdType cell, const Bounds &bounds) {
+  cells.for_each([&](vtkIdType cell, const CellBounds &bounds) {
     grid.for_each_in(bounds, [&](std::int64_t i) {
       std::uint8_t &out = is_outside[view(asked.number)[i]];
       if (out != 0 && cells.has(cell, grid.point(i))) out = 0;
@@ -225,7 +225,7 @@ void find_contained(SolidCells &cells, const Asked &asked, std::uint8_t *is_outs
 void find_near(SolidCells &cells, const Asked &asked, double distance, std::uint8_t *is_outside) {
   const PointGrid grid(asked.points);
   std::vector<Vector> triangles;
-  cells.for_each([&](vtkIdType cell, Bounds bounds) {
+  cells.for_each([&](vtkIdType cell, CellBounds bounds) {
     for (std::size_t k = 0; k < 3; ++k) {
       bounds.lower[k] -= distance;
       bounds.upper[k] += distance;
