@@ -69,8 +69,8 @@ class Orifice(typing.NamedTuple):
 
     @property
     def rest(self):
-        """The opening of the closed valve. The bands just touch there, so opening leaflets push hardly any blood before they
-        part."""
+        """The opening of the closed valve. At this opening the bands just touch. So leaflets that begin to open push hardly
+        any blood before their bands part."""
         return max(self.sealed, self.openings[0])
 
     @property

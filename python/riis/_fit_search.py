@@ -295,7 +295,7 @@ class Judge:
             variances = numpy.maximum(variances, (_N_USUAL * usual + n_pieces * robust) / (_N_USUAL + n_pieces))
         errors = numpy.where(blind, numpy.inf, numpy.sqrt(variances))
         ratio = numpy.maximum(errors**2 / numpy.diag(covariance), 1.0)
-        # The profile comes before the share of the fixed sizes. With this share, most points would count as outliers.
+        # The profile takes the errors without those of the fixed sizes. With them, most points would count as outliers.
         errors, better = self._profile(errors, covariance, ratio)
         errors = numpy.sqrt(errors**2 + self._of_fixed(precision, jacobian, area, inlier, share / scatter**2, errors**2))
         influence = numpy.sqrt((rows**2).sum(axis=0) / inlier.sum())

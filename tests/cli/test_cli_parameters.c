@@ -264,7 +264,7 @@ TEST(test_near_names) {
   RUN_REFUSED(1, "did you mean 'root_radius'?", "params", "--params", scratch_path("p.json"));
 }
 
-/* Sizes by a surgeon's names, from options and files. Sizes that are not set follow by their rules, and the template has their
+/* Sizes by a surgeon's names, from options and files. Rules give the sizes that are not set, and the template file lists these
  * values. */
 TEST(test_named_sizes) {
   static char by_options[longest_output];

@@ -34,7 +34,7 @@ struct SourceValve {
 
 class Surface {
  public:
-  // Makes the surface. A surface that moved is made again in the same memory. After a failure the surface must not be used.
+  // Makes the surface. After a motion, another call reuses its memory. After a failure the surface must not be used.
   void make(TriangleSet triangles, double half_thickness, int n_threads);
   // Moves the triangles out, so that the next surface's triangles can reuse their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }

@@ -59,7 +59,7 @@ struct TriangleGroups {
 
   // Copies the corners of a set's triangles, and computes their bounds.
   void take_corners(const TriangleSet &set, int n_threads);
-  // Replaces the groups by new groups of the triangles whose corners were copied last. Reuses the groups' memory.
+  // Replaces the groups by new groups of the triangles of the last take_corners. Reuses the groups' memory.
   void make(const TriangleSet &set, const SurfaceFrame &surface_frame, int n_threads);
 
   Range groups_of(std::int64_t pack) const {
