@@ -38,7 +38,7 @@ def placed(shift):
 
 
 def second_difference(n, h, ends):
-    """Returns the matrix of -d2/dx2 for n values on a grid of spacing h. Beyond an end, a value is ends[i] times its neighbour."""
+    """Returns the matrix of -d2/dx2 for n values on a grid of step h. Beyond an end, a value is ends[i] times its neighbour."""
     matrix = scipy.sparse.diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(n, n)).tolil()
     matrix[0, 0] -= ends[0]
     matrix[-1, -1] -= ends[1]

@@ -44,8 +44,8 @@ bool begin_threads() noexcept;
 bool has_lost_threads() noexcept;
 
 // The pool (arena.hpp) keeps its arenas while at least one object of this type exists. Each handle that walks over a mesh or has
-// a scene of Embree has such an object. The last object's destructor frees the arenas, because a caller may want to end TBB (tbb::finalize),
-// and TBB refuses that while there are arenas.
+// a scene of Embree owns such an object. The last object's destructor frees the arenas, because a caller may want to end TBB
+// (tbb::finalize), and TBB refuses that while there are arenas.
 class KeepsArenas {
  public:
   KeepsArenas() noexcept;
