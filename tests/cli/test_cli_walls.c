@@ -86,6 +86,31 @@ TEST(test_holes) {
     }
 }
 
+/* Writes the closed state of the example's patches as a valve that does not open. */
+static void write_closed_state(const char *name) {
+  char text[8192];
+  FILE *file = fopen(RIIS_EXAMPLES "/prosthesis.json", "r");
+  assert_non_null(file);
+  const size_t n = fread(text, 1, sizeof text - 1, file);
+  assert_true(n < sizeof text - 1 && fclose(file) == 0);
+  text[n] = 0;
+  char *const open = strstr(text, ",\n  \"open\"");
+  assert_non_null(open);
+  strcpy(open, "}\n");
+  scratch_write_text(name, text);
+}
+
+TEST(test_hole_beside_a_valve_that_does_not_open) {
+  write_closed_state("closed.json");
+  tube one = {0, 0, 1.6, 0, 1, 13};
+  char wall[256];
+  snprintf(wall, sizeof wall, "%s", write_tube("wall.stl", &one));
+  run_program("surface", "--valve", scratch_path("closed.json"), "--skirt", "1", "--wall", wall, "--output",
+              scratch_path("skirt.vtp"), NULL);
+  assert_int_equal(program_exit_code, 0);
+  assert_non_null(strstr(program_err, "wall.stl: the wall has a hole of 4 edges at "));
+}
+
 TEST(test_other_axes) {
   const tube wall = {-3, -2, 1.6, 0, 1, -1};
   skirt_to(write_tube("wall.stl", &wall), "1", "-3,-2,0");

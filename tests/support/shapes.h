@@ -3,6 +3,16 @@
 #ifndef RIIS_TEST_SHAPES_H
 #define RIIS_TEST_SHAPES_H
 
+/* Evaluates a Bezier curve by de Casteljau's method. */
+static inline void evaluate(const double *control, int degree, double t, double *point) {
+  double q[4][3];
+  memcpy(q, control, (size_t)(degree + 1) * sizeof *q);
+  for (int n = degree; n > 0; --n)
+    for (int i = 0; i < n; ++i)
+      for (int c = 0; c < 3; ++c) q[i][c] = (1 - t) * q[i][c] + t * q[i + 1][c];
+  memcpy(point, q[0], sizeof q[0]);
+}
+
 enum { max_curves = 12, max_patches = 3 };
 
 /* Patches with spare room for changes. */

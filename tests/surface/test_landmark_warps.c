@@ -126,15 +126,6 @@ static double distance_to(const riis_surface *surface, const double *p) {
 
 /* --- Landmarks on curves ---------------------------------------------------------------------------------------------- */
 
-static void evaluate(const double *control, int degree, double t, double *point) {
-  double q[4][3];
-  memcpy(q, control, (size_t)(degree + 1) * sizeof *q);
-  for (int n = degree; n > 0; --n)
-    for (int i = 0; i < n; ++i)
-      for (int c = 0; c < 3; ++c) q[i][c] = (1 - t) * q[i][c] + t * q[i + 1][c];
-  memcpy(point, q[0], sizeof q[0]);
-}
-
 /* A point on a side of a patch: its piece, and the parameter there. */
 typedef struct on_side {
   int64_t patch;

@@ -373,15 +373,6 @@ TEST(a_rigid_warp_equals_a_placement) {
 
 /* Curves of warped valves are compared with the map: their ends, the directions of their end tangents, and their distance from
  * the mapped curve. A curve that is not warped must equal the plain valve's curve. */
-static void evaluate(const double *control, int degree, double t, double *point) {
-  double q[4][3];
-  memcpy(q, control, (size_t)(degree + 1) * sizeof *q);
-  for (int n = degree; n > 0; --n)
-    for (int i = 0; i < n; ++i)
-      for (int c = 0; c < 3; ++c) q[i][c] = (1 - t) * q[i][c] + t * q[i + 1][c];
-  memcpy(point, q[0], sizeof q[0]);
-}
-
 static riis_valve_patches patches_of(riis_valve *valve) {
   riis_valve_patches patches;
   CHECK_OK(riis_valve_get_patches(valve, &patches, sizeof patches));

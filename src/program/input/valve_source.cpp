@@ -346,8 +346,7 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
     if (ending == ".feb") return "; FEBio Studio converts it: File > Export FE Model..., " + with_ending(path, "vtk");
     if (ending == ".re2" || ending == ".rea")
       return "; Nek5000 converts it: run the case for one step with its coordinates in the output, open CASE.nek5000 "
-             "in "
-             "ParaView, then File > Save Data..., " +
+             "in ParaView, then File > Save Data..., " +
              with_ending(path, "vtu");
     if (ending == ".cas") return "; OpenFOAM converts it: fluentMeshToFoam " + shell_word(path);
     if (ending == ".h5" || ending == ".hdf5") return "; give the .xdmf file that names it";

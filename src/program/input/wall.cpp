@@ -2,13 +2,9 @@
 #include "program/input/wall.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
 #include <set>
 #include <vector>
 
-#include "common/array_view.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
@@ -16,6 +12,7 @@
 #include "program/input/json.hpp"
 #include "program/input/mesh_reading.hpp"
 #include "program/input/valve_source.hpp"
+#include "program/mark/mesh_marking.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
 
@@ -103,7 +100,7 @@ double length_of(const riis_attachment &attachment) {
   double length = 0;
   for (std::int64_t i = 0; i < attachment.n_edges; ++i) {
     const double *const p = attachment.edges + 6 * i;
-    length += std::hypot(p[3] - p[0], p[4] - p[1], p[5] - p[2]);
+    length += distance_between(p, p + 3);
   }
   return length;
 }
@@ -125,16 +122,19 @@ void check_sizes(const ValveOptions &options, const riis_surface *wall, const ri
             ", through which a skirt may pass: close it");
 }
 
-// Refuses a wall that is farther away than --skirt at an opening. The attachment may move while the valve opens.
+// Checks the wall and the skirt's length for the closed valve. If the valve opens, its attachment may move. The wall is then
+// refused if it is farther away than --skirt at an opening.
 void check_all_openings(const ValveOptions &options, const riis_valve *valve, const riis_surface *wall) {
   const Valve trial = copy_of(valve);
+  const auto surface_at = [&](double opening) {
+    check(riis_valve_set_scalar(trial, "opening", opening));
+    return create<Surface>(riis_surface_create, trial, &options.surface_options);
+  };
+  check_sizes(options, wall, surface_at(0));
   if (!why_closed(trial, options.surface_options).empty()) return;
   for (const double opening : openings_from_0_to_1(n_openings)) {
-    check(riis_valve_set_scalar(trial, "opening", opening));
-    const auto surface = create<Surface>(riis_surface_create, trial, &options.surface_options);
     riis_gap gap;
-    check(riis_surface_get_gap(surface, wall, nullptr, &gap, sizeof gap), options.wall);
-    if (opening == 0) check_sizes(options, wall, surface);
+    check(riis_surface_get_gap(surface_at(opening), wall, nullptr, &gap, sizeof gap), options.wall);
     const std::string at = options.wall + ": at the opening " + shown(opening) + " the wall is ";
     if (gap.most > (1 + most_beyond) * *options.skirt)
       refuse_data(at + "not within --skirt, " + shown(*options.skirt) + ": the widest gap is " + shown(gap.most) +

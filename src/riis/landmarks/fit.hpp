@@ -40,6 +40,10 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
 std::vector<double> normal_matrix(const Residuals &residuals, std::size_t n_residuals, double size,
                                   const std::vector<double> &x);
 
+// Replaces b by the solution of matrix * x = b, for a positive definite matrix, by Cholesky's method. Returns false if rounding
+// makes the matrix indefinite.
+bool solve_positive(std::vector<double> matrix, std::vector<double> &b);
+
 // Eigenvalues of a symmetric matrix in ascending order, and the unit eigenvectors, which are the rows of `vectors`.
 struct Eigen {
   std::vector<double> values, vectors;

@@ -49,8 +49,9 @@ std::vector<double> normal_matrix(const std::vector<std::vector<double>> &column
   return matrix;
 }
 
-// Solves matrix * x = b for a positive definite matrix by Cholesky's method. Returns false if rounding makes it indefinite.
-bool solve(std::vector<double> matrix, std::vector<double> &b) {
+}  // namespace
+
+bool solve_positive(std::vector<double> matrix, std::vector<double> &b) {
   const std::size_t n = b.size();
   for (std::size_t j = 0; j < n; ++j) {
     double pivot = matrix[j * n + j];
@@ -74,8 +75,6 @@ bool solve(std::vector<double> matrix, std::vector<double> &b) {
   }
   return true;
 }
-
-}  // namespace
 
 std::vector<double> normal_matrix(const Residuals &residuals, std::size_t n_residuals, double size,
                                   const std::vector<double> &x) {
@@ -115,7 +114,7 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
       // The second damping term keeps the step finite if no residual depends on an unknown.
       for (std::size_t i = 0; i < n; ++i) damped[i * n + i] += damping * matrix[i * n + i] + 1e-3 * damping * largest;
       for (std::size_t i = 0; i < n; ++i) step[i] = -gradient[i];
-      if (solve(std::move(damped), step)) {
+      if (solve_positive(std::move(damped), step)) {
         std::vector<double> tried(n);
         for (std::size_t i = 0; i < n; ++i) tried[i] = x[i] + step[i];
         tried = clamped(tried);

@@ -147,9 +147,8 @@ std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, cons
     }
   }
   if (!nearest) return std::nullopt;
-  const PatchImage &image = nearest->image, turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
   const Curve::PointAndTangent found = nearest->curve.with_tangent(at);
-  return OnAttachment{place(image, found.point), place(turn, found.tangent)};
+  return OnAttachment{place(nearest->image, found.point), place(turn_of(nearest->image), found.tangent)};
 }
 
 // Two landmarks are in one place if they are at most this share of the valve's radius apart.
@@ -178,33 +177,6 @@ struct WarpPairs {
   Vector<std::size_t> landmark;  // the numbers of the landmarks
 };
 
-// Solves a x = b for a symmetric, positive definite matrix by Cholesky's method. Overwrites both. Returns false if a pivot is not
-// positive.
-bool solve_positive(Vector<double> &a, Vector<double> &b) {
-  const std::size_t n = b.size();
-  for (std::size_t j = 0; j < n; ++j) {
-    for (std::size_t i = j; i < n; ++i) {
-      double sum = a[i * n + j];
-      for (std::size_t k = 0; k < j; ++k) sum -= a[i * n + k] * a[j * n + k];
-      if (i > j) {
-        a[i * n + j] = sum / a[j * n + j];
-      } else {
-        if (!(sum > 0)) return false;
-        a[j * n + j] = std::sqrt(sum);
-      }
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < i; ++k) b[i] -= a[i * n + k] * b[k];
-    b[i] /= a[i * n + i];
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    for (std::size_t k = i + 1; k < n; ++k) b[i] -= a[k * n + i] * b[k];
-    b[i] /= a[i * n + i];
-  }
-  return true;
-}
-
 // Slides the places along the attachment, so that the warp that meets all landmarks bends least (F. L. Bookstein 1997). Then
 // neighbours neither crowd nor thin out, and the warp does not fold between them.
 void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
@@ -232,7 +204,7 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
     }
     // A place that moves changes the displacement of its landmark. The bending is least where no such change lowers it further.
     const std::size_t n = sliding.size();
-    Vector<double> matrix(n * n), steps(n);
+    std::vector<double> matrix(n * n), steps(n);
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t at = sliding[i].pair;
       steps[i] = map.size * dot(sliding[i].mapped, Vec3{map.weight_x[at], map.weight_y[at], map.weight_z[at]});
@@ -240,7 +212,7 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
         matrix[i * n + k] =
             bending[at * pairs.sources.size() + sliding[k].pair] * dot(sliding[i].mapped, sliding[k].mapped);
     }
-    if (!solve_positive(matrix, steps)) return;
+    if (!solve_positive(std::move(matrix), steps)) return;
     double moved = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t at = sliding[i].pair, landmark = pairs.landmark[at];

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -35,23 +34,18 @@ namespace {
 std::vector<std::int64_t> pieces_of(const TriangleSet &set) {
   std::int64_t n_positions = 0;
   const auto position = distinct_positions(set, n_positions);
-  std::vector<std::int64_t> above(static_cast<std::size_t>(set.n_triangles()));
-  std::iota(above.begin(), above.end(), 0);
-  const auto root = [&](std::int64_t i) {
-    while (view(above)[i] != i) i = view(above)[i] = view(above)[view(above)[i]];
-    return i;
-  };
+  DisjointSets triangles(set.n_triangles());
   std::unordered_map<std::int64_t, std::int64_t> first_at;  // by the leaflet and the position of a corner
   first_at.reserve(static_cast<std::size_t>(n_positions));
   for (std::int64_t i = 0; i < set.n_triangles(); ++i)
     for (std::int64_t k = 0; k < 3; ++k) {
       const std::int64_t corner = view(position)[view(set.vertex_id)[3 * i + k]];
       const auto other = first_at.try_emplace(view(set.leaflet_id)[i] * n_positions + corner, i).first;
-      const std::int64_t a = root(other->second), b = root(i);
-      view(above)[std::max(a, b)] = std::min(a, b);
+      triangles.unite(other->second, i);
     }
-  for (std::int64_t i = 0; i < set.n_triangles(); ++i) view(above)[i] = root(i);
-  return above;
+  std::vector<std::int64_t> lowest;
+  for (std::int64_t i = 0; i < set.n_triangles(); ++i) lowest.push_back(triangles.root(i));
+  return lowest;
 }
 
 // Adds the centroids of the pieces and the normal. `piece` has the piece of each triangle, or -1 for a triangle that does not

@@ -116,7 +116,7 @@ SkirtLengths lengths_to_wall(const PatchSet &set, const Placement &placement, co
     const Patch &patch = set.patches[sides[i].patch];
     const Curve curve = along(set, sides[i].side);
     for (const PatchImage &image : patch.images) {
-      const PatchImage turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
+      const PatchImage turn = turn_of(image);
       for (std::size_t k = 0; k <= n_skirt_parts; ++k) {
         const double share = static_cast<double>(k) / static_cast<double>(n_skirt_parts);
         const Vec3 p = curve.at(share);

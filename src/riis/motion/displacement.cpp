@@ -433,7 +433,7 @@ Vec3 PatchDisplacement::at(std::size_t i, std::size_t j) const {
 }
 
 ImageVelocity::AffineMap ImageVelocity::map_of(const PatchImage &image, const Placement &placement) {
-  const PatchImage turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
+  const PatchImage turn = turn_of(image);
   const auto column = [&](Vec3 unit) { return placement.scale * (placement.rotation * place(turn, unit)); };
   const Vec3 x = column({1, 0, 0}), y = column({0, 1, 0}), z = column({0, 0, 1});
   return {{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}, place(placement, image.translation)};

@@ -82,8 +82,7 @@ PlacedBy placed_by(const PatchImage &image, const Placement &placement) {
 }
 
 AxisLine placed(const AxisLine &axis, const PatchImage &image, const Placement &placement) {
-  const PatchImage turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
-  return {place(placement, place(image, axis.centre)), placement.rotation * place(turn, axis.direction)};
+  return {place(placement, place(image, axis.centre)), placement.rotation * place(turn_of(image), axis.direction)};
 }
 
 // Makes the triangles of a tile whose vertices are placed.

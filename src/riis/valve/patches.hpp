@@ -40,6 +40,9 @@ inline Vec3 place(const PatchImage &image, Vec3 p) {
          image.translation;
 }
 
+// Returns the image without its translation, which places directions.
+inline PatchImage turn_of(const PatchImage &image) { return {image.mirror, image.rotation, {0, 0, 0}, 0, 0}; }
+
 // A curve as the side of a patch. It is given by its position in PatchSet::curves, and runs from its first point or from its
 // last.
 struct Side {

@@ -58,8 +58,6 @@ Vector<Step> steps_of(const Curve &curve) {
   return steps;
 }
 
-PatchImage turn_of(const PatchImage &image) { return {image.mirror, image.rotation, {0, 0, 0}, 0, 0}; }
-
 Vector<Step> steps_of_attachment(const PatchSet &set, const Vector<HeldSide> &sides) {
   Vector<Step> steps;
   for (const HeldSide &held : sides) {
@@ -473,7 +471,7 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
   for (const HeldSide &held : sides) {
     Patch &patch = set.patches[held.patch];
     const PatchImage &image = patch.images.front();
-    const PatchImage turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
+    const PatchImage turn = turn_of(image);
     patch.axis = {without_placement(turn, whole.centre - image.translation), without_placement(turn, whole.direction)};
     // A plane of symmetry contains the line. Rounding must not move the line out of this plane, because the mirror images would
     // then not meet.

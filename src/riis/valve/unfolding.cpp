@@ -46,7 +46,7 @@ std::size_t Unfolding::add(std::size_t curve, const PatchImage *image) {
   if (curve < set_.rates.size()) {  // a skirt's curves have no rates
     copy.rates = set_.rates[curve];
     if (image) {
-      const PatchImage turn{image->mirror, image->rotation, {0, 0, 0}, 0, 0};
+      const PatchImage turn = turn_of(*image);
       for (Bezier &rate : copy.rates) rate = moved_by(rate, [&](Vec3 p) { return place(turn, p); });
     }
   }

@@ -242,11 +242,8 @@ Valve::Disc Valve::disc() const {
     z += (shift[2] - z) / n_shifts;
   }
   if (!warp_) return disc;
-  const BlendedWarp warp = blended_warp();
-  constexpr double step = 1e-3;
-  const Vec3 along_x = warp.value({disc.x + step, disc.y, z}) - warp.value({disc.x - step, disc.y, z});
-  const Vec3 along_y = warp.value({disc.x, disc.y + step, z}) - warp.value({disc.x, disc.y - step, z});
-  const Vec3 normal = cross(along_x, along_y);
+  const MapAt here = blended_warp().at({disc.x, disc.y, z});
+  const Vec3 normal = cross(here.along_x, here.along_y);
   if (length(normal) > 0) disc.axis = (1 / length(normal)) * normal;
   return disc;
 }

@@ -16,18 +16,13 @@
 #include "common/array_view.hpp"
 #include "riis_vtk/base/files.hpp"
 #include "riis_vtk/mesh/mesh.hpp"
+#include "riis_vtk/mesh/outside_faces.hpp"
 #include "riis_vtk/read/other_files.hpp"
 
 namespace riis::vtk {
 namespace {
 
 bool is_volume(vtkUnstructuredGrid *grid, vtkIdType cell) { return shape_of(grid->GetCellType(cell)).dimension == 3; }
-
-bool has_volumes(vtkUnstructuredGrid *grid) {
-  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
-    if (is_volume(grid, cell)) return true;
-  return false;
-}
 
 // ---- The choice ----
 
@@ -106,7 +101,7 @@ void choose_cells(riis_vtk_mesh &mesh, const Where &where, std::int64_t *n_chose
   if (n_chosen && grid->GetNumberOfCells() == 0) return;  // an empty piece may lack the array
   const std::vector<vtkDataArray *> arrays = arrays_of(grid, where.name);
   const std::set<double> wanted = numbers_of(where, mesh.region_names);
-  const bool needs_volumes = has_volumes(grid);
+  const bool needs_volumes = largest_dimension(grid) == 3;
   std::vector<vtkIdType> cells;
   std::int64_t n = 0;
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
