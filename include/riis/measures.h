@@ -67,8 +67,8 @@ typedef struct riis_orifice {
 RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                               riis_orifice *orifice, int64_t struct_size);
 /* Measures the orifice inside a wall: a ring or a tube around leaflets that do not reach it, such as those of a mechanical valve
- * from arrays. The longest connected line of open edges of the wall gives the outline and the axis. The other arguments are as
- * in riis_surface_get_orifice.
+ * from arrays. The longest connected line of open edges of the wall gives the outline and the axis (docs/theory/measures.md,
+ * "Outline"). The other arguments are as in riis_surface_get_orifice.
  *   wall  in the frame of the surface. RIIS_INVALID_ARGUMENT if this line does not surround a centre */
 RIIS_API riis_status riis_surface_get_orifice_in_wall(const riis_surface *surface, const riis_surface *wall,
                                                       const riis_resistance *resistance, riis_orifice *orifice,

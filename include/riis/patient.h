@@ -101,10 +101,12 @@ RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, i
  * (docs/theory/landmarks.md). Rotations and leaflet angles of an aortic valve follow from the landmarks. If a
  * leaflet_power would make its cusps overlap, it is lowered.
  * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear, mirrored, or too
- * large or small for a heart valve at this scale, and if they do not show the flow; the message names them. For a mitral
- * valve also if a posterior horn or a trigone is on the wrong side of the annulus, if the axis of the fitted valve is at
- * more than 20 degrees to the annulus' normal, or if its AP_diameter differs from the depth that the horns or the
- * annulus show by more than a twelfth and by more than five times the noise.
+ * large or small for a heart valve at this scale, and if they do not show the flow; the message names them. A mitral
+ * valve must also satisfy three conditions:
+ * - The posterior horn and the trigones are on their own sides of the annulus.
+ * - The axis of the fitted valve is at most 20 degrees from the annulus' normal.
+ * - The fitted AP_diameter agrees with the depth that the horns or the annulus show. The difference may be a twelfth of
+ *   this depth or five times the noise.
  * RIIS_INVALID_PARAMETER for a valve from patches, an unknown name in held, and sizes that do not fit together. */
 RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
                                 const riis_placement_arrays *arrays, riis_placement *placement,

@@ -127,7 +127,7 @@ RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const ch
 /* Names the unit of a point array, as VTK's key UNITS_LABEL in .vtu and .pvtu, and as the attribute Unit in XDMF.
  *   name  the name of an array
  *   unit  1 to 64 characters of ASCII that can be printed, such as "g/(cm3 s)"
- * Errors: RIIS_INVALID_ARGUMENT for a name that the mesh lacks. */
+ * Errors: RIIS_INVALID_ARGUMENT for a name that the mesh lacks, and for another unit. */
 RIIS_API riis_status riis_vtk_mesh_set_unit(riis_vtk_mesh *mesh, const char *name, const char *unit);
 /* Tells whether the mesh has a point array of that name: *has is then 1, otherwise 0. */
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
@@ -152,11 +152,12 @@ RIIS_API riis_status riis_vtk_mesh_choose_cells(riis_vtk_mesh *mesh, const char 
 RIIS_API riis_status riis_vtk_mesh_find_regions(riis_vtk_mesh *mesh, const char **array, int64_t *n_values,
                                                 const double **values);
 
-/* Tells which points are farther than a distance outside the mesh, that is from all of its volume cells. Cells of
- * higher order count with straight edges. A point is outside a mesh in pieces if it is outside of each piece.
+/* Tells which points lie outside the mesh and farther than a distance from all of its volume cells. Cells of higher
+ * order have straight edges here. A point is outside a mesh in pieces if it is outside each piece.
  *   xyz         (3, n_points), finite
- *   distance    >= 0, finite. 0 asks which points no cell contains
- *   is_outside  (n_points). In: 0 for points that are not asked about. Out: 0 also for the points that are not outside */
+ *   distance    >= 0, finite, in the unit of xyz. With 0 these are the points that no cell contains
+ *   is_outside  (n_points). In: 0 for points that are not wanted. Out: 0 also for the points that are not outside
+ * Errors: RIIS_INVALID_ARGUMENT naming the argument and its value; is_outside is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64_t n_points, const double *xyz,
                                                 double distance, uint8_t *is_outside);
 
@@ -253,7 +254,8 @@ typedef struct riis_vtk_surface riis_vtk_surface;
  * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the arrays that exist. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflets, riis_vtk_surface **surface);
 /* Makes a surface of the faces that only one volume cell of the mesh has. It is the wall around the blood. The faces
- * point outwards. Faces of cells of higher order become straight.
+ * point outwards. Faces of cells of higher order become straight. The surface borrows nothing, and
+ * riis_vtk_surface_destroy destroys it.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without volume cells. */
 RIIS_API riis_status riis_vtk_mesh_get_boundary(const riis_vtk_mesh *mesh, riis_vtk_surface **boundary);
 /* Makes every connected piece of the surface a leaflet, numbered from 0 in the order of the pieces' first

@@ -319,8 +319,8 @@ def fit(
                lengths have half to twice the start value
     weights    (n,) float64 >= 0, of the squares of distances. If None: the area around each vertex of a
                surface, or 1 for other points
-    True: the points cover the whole valve about evenly, so a surface that extends beyond them is penalized. False: the
-               points cover a part of it, and nothing pulls back an edge that extends beyond them
+    whole      True: the points cover the whole valve about evenly, so a surface that extends beyond them is penalized.
+               False: they cover a part of it, and nothing pulls back an edge that extends beyond them
     n_starts   the largest number of starts; None: 20. The first start has the given values. The others, by seed, have
                random values within the bounds, and a random rotation if start has none. The starts end when two of them have
                reached the best fit. There are at least four starts, or eight for a part of a valve. If this fit has doubts that

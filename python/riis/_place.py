@@ -77,7 +77,7 @@ def place(
                JSON, CSV, or 3D Slicer's .mrk.json or .fcsv. docs/formats.md lists the names
     valve      a kind, or a Valve whose proportions the result gets. The default is the kind that the file names
     unit       of the landmarks; needed for a mapping. For a file it is the unit of the result, to which the landmarks are
-    converted
+               converted
     axes       of the mesh. If a file has the other axes, its landmarks are turned by half a turn about z
     flow       (3,), the direction of flow; needed for bileaflet valves, and for mitral valves without commissures and saddle
     noise      standard deviation of each coordinate, in the unit; default 0.3 mm

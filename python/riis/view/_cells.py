@@ -35,8 +35,7 @@ _FACES = {
     6: ((0, 1, 2, 2), (3, 5, 4, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
     8: ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7)),
 }
-_MARGIN = 0.4  # the distance by which the region extends beyond the valves, as a share of their
-# size
+_MARGIN = 0.4  # how far the region extends beyond the valves, as a share of their size
 _EDGES = {
     4: ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)),
     5: ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)),
