@@ -74,8 +74,8 @@ void *new_many_aligned(size_t size, size_t alignment) {
   return counted(or_abort(__libc_memalign(alignment, size ? size : 1)), __builtin_return_address(0));
 }
 
-/* Returns the object that contains the function. A static library exports nothing, so its functions are in the same object
- * as this function. */
+/* Returns the object that contains the function. Without a shared library the name is not found, and the function is in the same
+ * object as this one. */
 static const void *object_of(const char *name) {
   const void *function = dlsym(RTLD_DEFAULT, name);
   return object_at(function ? function : (const void *)(intptr_t)object_of);

@@ -29,8 +29,8 @@ static inline void seen_from(const frame *of, const double *p, double *out) {
   out[1] = of->y[0] * p[0] + of->y[1] * p[1] + of->y[2] * p[2];
 }
 
-/* The outline of triangles seen along an axis: the farthest points of their edges from the middle, in many directions. All edges
- * count, since edges inside a leaflet are nearer than the boundary, or cover what they add. */
+/* The outline of triangles seen along an axis: the farthest points of their edges from the middle, in many directions. Edges
+ * inside a leaflet count too, and do no harm: the boundary is farther from the middle, or triangles cover the area between. */
 enum { n_directions = 1440 };
 typedef struct outline {
   double middle[2], distance[n_directions], reach;
