@@ -26,7 +26,8 @@ module riis_crossing
     real(c_double) :: seconds = 0                           !< Wall time of riis_find_crossings.
   end type riis_crossing_list
 
-  !> The pairs that riis_find_crossings found. They are empty before that call and after %destroy, which must be called.
+  !> The pairs that riis_find_crossings found. They are empty before that call and after %destroy. Call %destroy, since nothing
+  !! else frees them.
   type :: riis_crossings
     private
     type(c_ptr) :: handle = c_null_ptr

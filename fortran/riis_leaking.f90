@@ -27,7 +27,8 @@ module riis_leaking
     real(c_double) :: seconds = 0                           !< Wall time of riis_find_leaks.
   end type riis_leak_list
 
-  !> The edges that riis_find_leaks found. They are empty before that call and after %destroy, which must be called.
+  !> The edges that riis_find_leaks found. They are empty before that call and after %destroy. Call %destroy, since nothing else
+  !! frees them.
   type :: riis_leaks
     private
     type(c_ptr) :: handle = c_null_ptr

@@ -41,7 +41,8 @@ module riis_valves
   end type riis_parameter_info
 
   !> A parametric valve: its kind and its parameters' values. It is empty before %create or %create_from_patches and after
-  !! %destroy, which must be called. Any number of threads may read it at once. One thread may write it while no other reads it.
+  !! %destroy. Call %destroy, since nothing else frees it. Any number of threads may read it at once. One thread may write it
+  !! while no other reads it.
   type :: riis_valve
     private
     type(c_ptr) :: handle = c_null_ptr

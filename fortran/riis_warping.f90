@@ -10,8 +10,8 @@ module riis_warping
   public :: riis_warp
 
   !> A smooth map of space that takes landmarks on a valve to landmarks in a patient. Its matrix is factored once, so new targets
-  !! in each time step cost little. It is empty before %create and after %destroy, which must be called. Any number of threads may
-  !! read it at once. One thread may write it while no other reads it.
+  !! in each time step cost little. It is empty before %create and after %destroy. Call %destroy, since nothing else frees it. Any
+  !! number of threads may read it at once. One thread may write it while no other reads it.
   type :: riis_warp
     private
     type(c_ptr) :: handle = c_null_ptr

@@ -10,8 +10,8 @@ module riis_adjacencies
   private
   public :: riis_adjacency
 
-  !> The neighbours of nodes, made from cells, faces or a structured grid. It is empty before it is created and after %destroy,
-  !! which must be called. Any number of threads may read it at once.
+  !> The neighbours of nodes, made from cells, faces or a structured grid. It is empty before it is created and after %destroy.
+  !! Call %destroy, since nothing else frees it. Any number of threads may read it at once.
   type :: riis_adjacency
     private
     type(c_ptr) :: handle = c_null_ptr

@@ -13,7 +13,7 @@ module riis_frames
 
   !> A surface that moves by frames, such as a patient's valve. All frames have the same faces, but other positions of the
   !! vertices. riis_surface%create_from_keyframes and %update_from_keyframes make the surface at a time. Keyframes are empty
-  !! before %create and after %destroy, which must be called. Any number of threads may read them at once.
+  !! before %create and after %destroy. Call %destroy, since nothing else frees them. Any number of threads may read them at once.
   type :: riis_keyframes
     private
     type(c_ptr) :: handle = c_null_ptr

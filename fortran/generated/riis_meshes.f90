@@ -25,8 +25,8 @@ module riis_meshes
   !! gfortran shows these copies with -Warray-temporaries and, when the program runs, with -fcheck=array-temps. Local variables
   !! that end, and allocatable arrays that are reallocated, have the same effect.
   !!
-  !! A mesh is empty before %create and after %destroy, which must be called. Any number of threads may read it at once. One
-  !! thread may write it while no other reads it.
+  !! A mesh is empty before %create and after %destroy. Call %destroy, since nothing else frees it. Any number of threads may read
+  !! it at once. One thread may write it while no other reads it.
   type :: riis_mesh
     private
     type(c_ptr) :: handle = c_null_ptr

@@ -35,8 +35,8 @@ module riis_surfaces
   end type riis_attachment
 
   !> A surface of triangles with a half thickness, which answers closest-point queries. It borrows nothing from the caller. It is
-  !! empty before %create or %create_from_arrays and after %destroy, which must be called. Any number of threads may read it at
-  !! once. One thread may write it while no other reads it.
+  !! empty before %create or %create_from_arrays and after %destroy. Call %destroy, since nothing else frees it. Any number of
+  !! threads may read it at once. One thread may write it while no other reads it.
   !!
   !! The placement, x -> scale * rotation * x + translation, is applied last, to valves and to arrays. Options that are passed to
   !! an update replace the surface's options. Other options stay as they were.

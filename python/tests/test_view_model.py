@@ -294,7 +294,7 @@ def test_clicks_place_the_annulus(kind, unit, random):
 
 @pytest.mark.parametrize("kind", view.KINDS)
 def test_clicks_anywhere_on_a_circle(kind, random):
-    """The circle through any three clicks becomes the annulus, and the axis keeps its given side."""
+    """The circle through any three clicks becomes the annulus. Its axis points to the side of the given axis."""
     model = view.Model(numpy.zeros((1, 3)), unit="mm")
     i = model.add(kind)
     for _ in range(5):

@@ -587,7 +587,7 @@ class Model(Valves):
     # ---- Files ----
 
     def case(self, times: Any = None) -> str:
-        """Returns a case file of the program (riis help cases), either of the present valves or with times of their motion."""
+        """Returns a case file of the program (riis help cases): the valves as they are now, or as they move at ``times``."""
         moments = None if times is None else [number(moment, "times") for moment in numpy.ravel(times)]
         return _outputs.case_of(self.valves, self._unit, self._path, moments)
 

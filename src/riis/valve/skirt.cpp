@@ -255,7 +255,7 @@ class SkirtMaker {
   SkirtDirections directions_;
   std::int32_t leaflet_id_, n_ids_ = 0;
   std::map<std::array<double, 6>, std::size_t> lines_;
-  std::map<std::array<std::size_t, 2>, std::array<std::size_t, 2>> places_;  // strip and its image, patch and its image
+  std::map<std::array<std::size_t, 2>, std::array<std::size_t, 2>> places_;  // key: a patch and its image
 };
 
 // An end of a held side of an image. `is_before` tells whether the side ends there, as seen along the axis.

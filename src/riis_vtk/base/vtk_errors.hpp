@@ -90,8 +90,8 @@ void destroy(Object **object) {
 }
 
 // While an object of this type exists, it replaces VTK's process-wide output window, and silences VTK's log on stderr, which
-// repeats every error. VTK reports only the highest level of all logs, not the level of the log on stderr. The destructor
-// therefore sets the log on stderr to this highest level.
+// repeats every error. VTK tells only the highest level of all its logs, so the destructor gives this level to the log
+// on stderr.
 class CaughtOutput {
  public:
   CaughtOutput();
