@@ -378,8 +378,8 @@ double off_line(double width, const Sizes &of) {
   return std::min({0.5 * width * of.slope, off_line(width, of.bend), 2 * of.size});
 }
 
-// The part that SideMaterial adds to the displacement between points at equal shares. It is C(u) - C(u + slide(u)) + rest(u). C is
-// the side's curve in the earlier state.
+// The part that SideMaterial adds to the displacement between points at equal shares. It is C(u) - C(u + slide(u)) + rest(u). C
+// is the side's curve in the earlier state.
 class AddedByMaterial {
  public:
   // `third` bounds the third derivative of C by the share. It may be infinite.
