@@ -65,8 +65,8 @@ riis help landmarks explains the files and the report.)"},
   riis view root.vtu
   riis view root.vtu --unit mm --folder results --no-browser
   riis view --open valve.view.json
-A page in the browser has the mesh, the valve and sliders for its sizes. Other options: --port N. RIIS_PYTHON names the Python
-that has the package riis; python3 unless set.)"},
+A page in the browser has the mesh, the valve and sliders for its sizes. Other options: --port N, and --cells-where NAME=VALUES
+as in riis mark. RIIS_PYTHON names the Python that has the package riis; python3 unless set.)"},
     {"help", R"(Examples:
   riis help units)"},
     {"riis", R"(Examples:
