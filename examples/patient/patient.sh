@@ -90,7 +90,7 @@ patient_checks() {
 
 # random_patients N: takes N random patients from landmarks to marks, prints a table, and puts pictures of the closed valves into
 # one. Returns 1 for a valve with a fault: it does not seal, it does not open, its leaflets go through each other, or an edge
-# leaks. Also returns 1 if the attachment of any patient is too far from the patient's own: 0.4 mm with exact landmarks, 0.8 mm
+# leaks. Also returns 1 if the attachment of any patient is too far from the patient's own: 0.1 mm with exact landmarks, 0.8 mm
 # with noise.
 random_patients() {
   local folder=out/patients seed row place inputs=() tiles='' layout='' n=0
@@ -117,7 +117,7 @@ random_patients() {
       "$(of_patient "$row" crossings n_pairs)" "$(seconds_to_marks "$row")"
     [[ $(of_patient "$row" closed state) = closed && $(of_patient "$row" open state) = open &&
       $(leaking_edges "$row") -eq 0 && $(of_patient "$row" crossings n_pairs) -eq 0 ]] || patient_failed=1
-    LC_ALL=C awk 'FNR == NR { noise = $1 } END { exit !(noise <= 0.8 && $1 <= 0.4) }' "$row/noise.txt" "$row/exact.txt" ||
+    LC_ALL=C awk 'FNR == NR { noise = $1 } END { exit !(noise <= 0.8 && $1 <= 0.1) }' "$row/noise.txt" "$row/exact.txt" ||
       patient_failed=1
   done
   if ((n > 1)); then
