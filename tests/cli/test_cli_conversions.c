@@ -86,6 +86,9 @@ TEST(test_texts) {
               "valve.unv -format stl -o valve.stl\n",
               "mark", mesh, "--surface", "valve.unv");
   RUN_REFUSED(1, "; meshio converts it: meshio convert valve.off valve.stl\n", "mark", mesh, "--surface", "valve.off");
+  RUN_REFUSED(1, "; meshio converts it: meshio convert valve.xdmf valve.vtu\n", "mark", mesh, "--surface",
+              "valve.xdmf");
+  RUN_REFUSED(1, "; ParaView converts it: ", "mark", mesh, "--surface", "valve.vtkhdf");
   RUN_REFUSED(1, "valve.obj: cannot be read: No such file or directory\n", "mark", mesh, "--surface", "valve.obj");
   scratch_write_text("leaflet.vtk",
                      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"
@@ -218,6 +221,14 @@ TEST(test_meshio) {
               scratch_path("skin.vtp"));
   RUN_FINE("surface", "--surface", convert("meshio", RIIS_MESHIO), "--output", scratch_path("skin.vtp"));
   assert_non_null(strstr(program_out, "1 triangle, area 2\n"));
+  scratch_write_text(
+      "faces.inp",
+      "*HEADING\nquad\n*NODE\n1, 0, 0, 0\n2, 2, 0, 0\n3, 2, 1, 0\n4, 0, 1, 0\n*ELEMENT, TYPE=S4\n1, 1, 2, "
+      "3, 4\n");
+  RUN_REFUSED(1, "meshio converts it", "surface", "--surface", scratch_path("faces.inp"), "--output",
+              scratch_path("faces.vtp"));
+  RUN_FINE("surface", "--surface", convert("meshio", RIIS_MESHIO), "--output", scratch_path("faces.vtp"));
+  assert_non_null(strstr(program_out, "area 2\n"));
 }
 #endif
 

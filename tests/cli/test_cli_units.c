@@ -215,16 +215,6 @@ TEST(test_coarse_or_other_unit) {
   expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
 }
 
-/* The same holds for a basin of 16 cm with edges of 1 cm, because coarse meshes exist in every unit. */
-TEST(test_two_possible_units_of_a_coarse_mesh) {
-  const double far = 8;
-  assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 17, (double[3]){-far, -far, -far},
-                                  (double[3]){far, far, far}, 0),
-                   1);
-  run_program("mark", scratch_path("coarse.vtu"), NULL);
-  assert_non_null(strstr(program_err, "): write --unit mm or --unit cm\n"));
-}
-
 /* A basin of 13 cm with short edges may also be a vessel of 13 mm. The advice names both units, and the next run says how many
  * nodes each unit marks. */
 TEST(test_two_possible_units) {

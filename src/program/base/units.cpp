@@ -74,8 +74,6 @@ constexpr double largest_named_width = 40;
 constexpr double longest_edge = 0.3;
 // Edges of a mesh that was made for the default half thickness are seldom longer than this number of half thicknesses.
 constexpr double usual_edge = 3;
-// Coarse meshes exist in every unit, so edges speak against a unit at most as much as this.
-constexpr double most_by_edges = 0.6;
 // The least half thickness, as a share of the mesh's edge length. A thinner band falls between two layers of nodes and contains
 // few nodes.
 constexpr double smallest_half_thickness = 0.3;
@@ -98,9 +96,10 @@ double wideness_at(double factor, const Sizes &s) {
 // Returns how odd the sizes are if the mesh's lengths are multiplied by the factor. The default half thickness has the valve's
 // unit, so it says how long the mesh's edges may be.
 double oddity_at(double factor, const Sizes &s) {
-  double by_edges = excess(factor * s.median_edge / (longest_edge * s.surface.largest_side()));
-  if (s.has_usual_half) by_edges += excess(factor * s.median_edge / (usual_edge * s.half_thickness));
-  return narrowness_at(factor, s) + wideness_at(factor, s) + std::min(by_edges, most_by_edges);
+  double oddity = narrowness_at(factor, s) + wideness_at(factor, s) +
+                  excess(factor * s.median_edge / (longest_edge * s.surface.largest_side()));
+  if (s.has_usual_half) oddity += excess(factor * s.median_edge / (usual_edge * s.half_thickness));
+  return oddity;
 }
 
 // Returns the eigenvalues of a symmetric matrix with the elements xx, yy, zz, xy, xz, yz. The largest is the first.

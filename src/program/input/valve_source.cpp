@@ -276,8 +276,11 @@ const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".
                                                   ".plt",  ".tec",  ".vtmb",  ".vtpc",   ".vtpd"};
 // CAD files, which gmsh fills with cells or covers with triangles.
 const std::set<std::string> cad_files = {".step", ".stp", ".iges", ".igs", ".brep"};
-const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2"};
+const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2", ".med", ".wrl"};
 const std::set<std::string> surfaces_of_meshio = {".off"};
+// meshio writes all faces of these to a .vtu. To a .stl it writes triangles only.
+const std::set<std::string> faces_of_meshio = {".xdmf", ".xmf", ".inp", ".e", ".exo", ".avs", ".mdpa", ".vol"};
+const std::set<std::string> surfaces_of_paraview = {".vtkhdf", ".pvtp", ".vtm"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
 
 // Quotes the path, so that a shell reads it as one word and a program does not read it as an option.
@@ -373,6 +376,8 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
   // gmsh writes points and lines beside the faces. A damaged .vtk file cannot be converted.
   if (ending == ".vtk") return refusal.find("; a surface has") != std::string::npos ? by_gmsh(path, "stl") : "";
   if (surfaces_of_gmsh.count(ending) != 0) return by_gmsh(path, "stl");
+  if (faces_of_meshio.count(ending) != 0) return by_meshio(path, "vtu");
+  if (surfaces_of_paraview.count(ending) != 0) return by_paraview(path);
   if (cad_files.count(ending) != 0) return meshed_by_gmsh(path, 2, "stl");
   return surfaces_of_meshio.count(ending) != 0 ? by_meshio(path, "stl") : "";
 }
