@@ -153,8 +153,8 @@ marks_of_patient() {
   done
 }
 
-# random_patient SEED FOLDER: the commands of docs/patient.md for a random patient, with three more landmarks in each half cusp. If
-# an edge leaks, the mesh is made once more with shorter edges in the band, as the page advises.
+# random_patient SEED FOLDER: the commands of docs/patient.md for a random patient, with three more landmarks in each half cusp.
+# If an edge leaks, the mesh is made once more with shorter edges in the band, as the page advises.
 random_patient() {
   local here=$PWD riis=$PWD/$build/bin/riis from to valve=(--valve placed.json --skirt 6 --wall root.stl)
   mkdir -p "$2" && cd "$2" || return

@@ -313,8 +313,8 @@ TEST(test_meshio) { skip(); }
 
 /* ---- Files that cannot be read ---- */
 
-/* With Mesh.SaveParametric, nodes of version 2 have their entity, and their parameters on curves and surfaces. When gmsh appends a
- * view, it writes the mesh once more. */
+/* With Mesh.SaveParametric, nodes of version 2 have their entity, and their parameters on curves and surfaces. When gmsh
+ * appends a view, it writes the mesh once more. */
 TEST(test_gmsh_sections) {
   static const char *const format = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   static const char *const mesh =

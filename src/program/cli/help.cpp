@@ -346,8 +346,9 @@ paper's. They are slow, and serve for comparison.
 )"},
     {"running", "progress, Ctrl-C, locks",
      R"(
-On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series. If stderr is
-a file or a pipe, such a line comes after half a minute, and steps are counted each half minute. --quiet silences both. While a file is written, the first Ctrl-C waits until the file is complete; the second does not wait.
+On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series. If stderr
+is a file or a pipe, such a line comes after half a minute, and steps are counted each half minute. --quiet silences both.
+While a file is written, the first Ctrl-C waits until the file is complete; the second does not wait.
 During a run, an empty file .riis-NAME.lock beside each output NAME keeps other runs from writing that output. A run that is
 killed leaves the lock behind, and the next run takes it over.
 )"},
