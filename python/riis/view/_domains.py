@@ -107,7 +107,7 @@ def read_once(mesh: Any) -> Any:
     for name, number in groups_of_volumes(mesh).items():
         for k, part in enumerate(mesh.cell_sets.get(name, ())):
             if part is not None and len(part):
-                cells = starts[k] + numpy.asarray(part)
+                cells = starts[k] + numpy.asarray(part, numpy.int64)
                 groups.append((cells, numpy.full(len(cells), number)))
     for k, array in enumerate(_further_groups(numbers, groups)):
         mesh.cell_data[f"{GROUPS}_{k + 2}"] = numpy.split(array, starts[1:-1])
