@@ -90,7 +90,7 @@ patient_checks() {
 
 # random_patients N: takes N random patients from landmarks to marks, prints a table, and puts pictures of the closed valves into
 # one. Returns 1 for a valve with a fault: it does not seal, it does not open, its leaflets go through each other, or an edge
-# leaks. Also returns 1 if the attachment of any patient is too far from the patient's own: 0.4 mm with exact landmarks, 0.8 mm
+# leaks. Also returns 1 if the attachment of any patient is too far from the patient's own: 0.1 mm with exact landmarks, 0.8 mm
 # with noise.
 random_patients() {
   local folder=out/patients seed row place inputs=() tiles='' layout='' n=0
@@ -104,20 +104,20 @@ random_patients() {
     layout+="|$((n % 5 * 320))_$((place * 256))"
     n=$((n + 1))
   done
-  printf '\n  %-4s  %-13s  %-18s  %-13s  %-14s\n' '' 'residual, mm' 'gap to wall, mm' 'attachment, mm' ''
-  printf '  %-4s  %-13s  %-18s  %-14s  %6s  %-6s  %-4s  %5s  %5s  %7s\n' \
-    seed 'before  after' 'least  most  mean' 'noise  exact' nodes closed open leaks cross seconds
+  printf '\n  %-4s  %-13s  %-18s  %-13s  %-14s\n' '' 'residual, mm' 'gap to wall, mm' 'attachment, mm' 'edges'
+  printf '  %-4s  %-13s  %-18s  %-14s  %5s  %6s  %-6s  %-4s  %5s  %5s  %7s\n' \
+    seed 'before  after' 'least  most  mean' 'noise  exact' 'in mm' nodes closed open leaks cross seconds
   for seed in $(seq "$1"); do
     row=$folder/$seed
-    printf '  %4s  %6.2f %6.2f  %5.2f %5.2f %5.2f  %5.2f %7.2f  %6s  %-6s  %-4s  %5s  %5s  %7s\n' "$seed" \
+    printf '  %4s  %6.2f %6.2f  %5.2f %5.2f %5.2f  %5.2f %7.2f  %5s  %6s  %-6s  %-4s  %5s  %5s  %7s\n' "$seed" \
       "$(of_patient "$row" placed rms)" "$(of_patient "$row" placed warped_rms)" \
       "$(gap_of "$row" least)" "$(gap_of "$row" most)" "$(gap_of "$row" mean)" \
-      "$(< "$row/noise.txt")" "$(< "$row/exact.txt")" "$(of_patient "$row" closed n_nodes | thousands)" \
+      "$(< "$row/noise.txt")" "$(< "$row/exact.txt")" "$(< "$row/band_edge.txt")" "$(of_patient "$row" closed n_nodes | thousands)" \
       "$(of_patient "$row" closed state)" "$(of_patient "$row" open state)" "$(leaking_edges "$row")" \
       "$(of_patient "$row" crossings n_pairs)" "$(seconds_to_marks "$row")"
     [[ $(of_patient "$row" closed state) = closed && $(of_patient "$row" open state) = open &&
       $(leaking_edges "$row") -eq 0 && $(of_patient "$row" crossings n_pairs) -eq 0 ]] || patient_failed=1
-    LC_ALL=C awk 'FNR == NR { noise = $1 } END { exit !(noise <= 0.8 && $1 <= 0.4) }' "$row/noise.txt" "$row/exact.txt" ||
+    LC_ALL=C awk 'FNR == NR { noise = $1 } END { exit !(noise <= 0.8 && $1 <= 0.1) }' "$row/noise.txt" "$row/exact.txt" ||
       patient_failed=1
   done
   if ((n > 1)); then
@@ -138,22 +138,32 @@ attachment_of_patient() {
     python3 -B "$make" . --random --seed "$1" --measure "$4.d/closed.vtp" >"$4"
 }
 
+# marks_of_patient BAND_EDGE FROM TO: makes the mesh of the patient in this folder, with these edges in the band, and marks it at
+# all openings. Uses $here, $riis and $valve of random_patient.
+marks_of_patient() {
+  local opening
+  echo "$1" >band_edge.txt
+  "$riis" size-field valve.dat "${valve[@]}" --band-edge "$1" --largest-edge 5 --quiet &&
+    gmsh -2 -nt 1 -format msh2 -o surface.msh surface.geo edges.geo &&
+    gmsh -3 -nt 1 -setnumber algorithm 1 -format vtk -o graded.vtk surface.msh edges.geo fill.geo &&
+    "$riis" check leaks graded.vtk "${valve[@]}" --opening 0 "--between=$2" "$3" --stats closed.json &&
+    "$riis" check leaks graded.vtk "${valve[@]}" --opening 1 "--between=$2" "$3" --stats open.json || return
+  for opening in "${patient_openings[@]}"; do
+    "$riis" mark graded.vtk "${valve[@]}" --opening "$opening" --stats "state_$opening.json" || return
+  done
+}
+
 # random_patient SEED FOLDER: the commands of docs/patient.md for a random patient, with three more landmarks in each half cusp.
+# If an edge leaks, the mesh is made once more with shorter edges in the band, as the page advises.
 random_patient() {
-  local here=$PWD riis=$PWD/$build/bin/riis from to opening valve=(--valve placed.json --skirt 6 --wall root.stl)
+  local here=$PWD riis=$PWD/$build/bin/riis from to valve=(--valve placed.json --skirt 6 --wall root.stl)
   mkdir -p "$2" && cd "$2" || return
   cp "$here"/examples/patient/*.geo "$here/examples/demo/fill.geo" . &&
     python3 -B "$here/examples/patient/make_patient.py" . --random --seed "$1" --attachment 3 &&
     { read -r from && read -r to; } <sides.txt &&
     "$riis" place landmarks.mrk.json --valve coapting --warp smoothed --output placed.json &&
-    "$riis" size-field valve.dat "${valve[@]}" --largest-edge 5 --quiet &&
-    gmsh -2 -nt 1 -format msh2 -o surface.msh surface.geo edges.geo &&
-    gmsh -3 -nt 1 -setnumber algorithm 1 -format vtk -o graded.vtk surface.msh edges.geo fill.geo &&
-    "$riis" check leaks graded.vtk "${valve[@]}" --opening 0 "--between=$from" "$to" --stats closed.json &&
-    "$riis" check leaks graded.vtk "${valve[@]}" --opening 1 "--between=$from" "$to" --stats open.json || return
-  for opening in "${patient_openings[@]}"; do
-    "$riis" mark graded.vtk "${valve[@]}" --opening "$opening" --stats "state_$opening.json" || return
-  done
+    marks_of_patient 0.95 "$from" "$to" || return
+  if (($(leaking_edges .) > 0)); then marks_of_patient 0.85 "$from" "$to" || return; fi
   "$riis" check crossings "${valve[@]}" --stats crossings.json &&
     xvfb-run -a -s "-screen 0 1600x1200x24" "$riis" mark graded.vtk "${valve[@]}" --opening 0 --picture closed.png --quiet &&
     attachment_of_patient "$1" 0.3 smoothed noise.txt && attachment_of_patient "$1" 0 exact exact.txt

@@ -17,6 +17,9 @@ def _parser() -> argparse.ArgumentParser:
     view.add_argument("mesh", nargs="?", metavar="MESH", help="a mesh: .vtu, .vtk, .pvtu, .msh, .xdmf; or the page opens one")
     view.add_argument("--open", metavar="FILE", dest="saved", help="a saved view; it names its mesh, unless MESH is given")
     view.add_argument("--unit", choices=("mm", "cm", "m"), help="the unit of the mesh; not known unless given")
+    view.add_argument(
+        "--cells-where", metavar="NAME=VALUES", help="only the cells with such a value of a cell array, such as region=1,2"
+    )
     view.add_argument("--folder", default=".", help="where the page writes files; the current folder unless given")
     view.add_argument("--port", type=int, default=0, help="the port on 127.0.0.1; a free one unless given")
     view.add_argument("--no-browser", action="store_true", help="print the address, and open no browser")
@@ -55,7 +58,8 @@ def main(words: list[str] | None = None) -> int:
     try:
         path = None if options.mesh is None else os.path.abspath(options.mesh)
         saved = None if options.saved is None else os.path.abspath(options.saved)
-        Page(path, saved=saved, unit=options.unit, folder=options.folder).serve(port=options.port, browser=not options.no_browser)
+        page = Page(path, saved=saved, unit=options.unit, folder=options.folder, cells_where=options.cells_where)
+        page.serve(port=options.port, browser=not options.no_browser)
     except (RuntimeError, OSError) as error:
         print(f"riis view: {error}", file=sys.stderr)
         return 1

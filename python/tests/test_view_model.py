@@ -513,20 +513,82 @@ def test_the_light_inside_is_green_up_to_two_percent(fine):
     assert levels["good"] < 0.035 and levels["warn"] > 0.1
 
 
-def test_cells_of_two_physical_groups_are_read_once(tmp_path):
-    """gmsh's version 2 has each of the two cubes once for each group. The wall of the view would otherwise be missing."""
-    pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
-    pytest.importorskip("meshio", reason="meshio is missing; ./run python installs it")
+def two_cubes(path, version, groups):
+    """Writes two cubes, one above the other, in these groups: version 2.2 of gmsh has a cube once for each of its groups."""
     nodes = [(x, y, z) for z in range(3) for y in range(2) for x in range(2)]
     cubes = [[1, 2, 4, 3, 5, 6, 8, 7], [5, 6, 8, 7, 9, 10, 12, 11]]
-    elements = [(5, 2, group, cube + 1, *corners) for group in (1, 2) for cube, corners in enumerate(cubes)]
-    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", "12"]
-    lines += [f"{i + 1} {x} {y} {z}" for i, (x, y, z) in enumerate(nodes)] + ["$EndNodes", "$Elements", "4"]
-    lines += [" ".join(map(str, (i + 1, *element))) for i, element in enumerate(elements)] + ["$EndElements", ""]
-    (tmp_path / "twice.msh").write_text("\n".join(lines))
-    grid = reading.read_mesh(str(tmp_path / "twice.msh"), {})
+    lines = ["$MeshFormat", f"{version} 0 8", "$EndMeshFormat", "$PhysicalNames", "4", '3 1 "all"', '3 2 "lumen"', '2 3 "lid"']
+    lines += ['3 4 "wall"', "$EndPhysicalNames"]
+    points = [f"{x} {y} {z}" for x, y, z in nodes]
+    if version == "2.2":
+        lines += ["$Nodes", "12"] + [f"{i + 1} {point}" for i, point in enumerate(points)] + ["$EndNodes"]
+        elements = [(5, 2, groups[cube][k], cube + 1, *cubes[cube]) for k in range(2) for cube in range(2)]
+        lines += ["$Elements", str(len(elements))] + [" ".join(map(str, (i + 1, *row))) for i, row in enumerate(elements)]
+    else:
+        lines += ["$Entities", "0 0 0 2"]
+        for cube in range(2):
+            lines.append(" ".join(map(str, (cube + 1, 0, 0, cube, 1, 1, cube + 1, len(groups[cube]), *groups[cube], 0))))
+        lines += ["$EndEntities", "$Nodes", "1 12 1 12", "3 1 0 12"] + [str(i + 1) for i in range(12)] + points + ["$EndNodes"]
+        lines += ["$Elements", "2 2 1 2"]
+        for cube in range(2):
+            lines += [f"3 {cube + 1} 5 1", " ".join(map(str, (cube + 1, *cubes[cube])))]
+    path.write_text("\n".join([*lines, "$EndElements", ""]))
+
+
+@pytest.mark.parametrize("version", ["2.2", "4.1"])
+def test_cells_of_two_physical_groups_are_read_once(tmp_path, version):
+    """The wall of the view would otherwise be missing. All groups of a cell can be chosen."""
+    pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
+    pytest.importorskip("meshio", reason="meshio is missing; ./run python installs it")
+    path = tmp_path / "twice.msh"
+    two_cubes(path, version, [[1, 2], [1, 4]])
+    grid = reading.read_mesh(str(path), {})
     assert grid.n_cells == 2 and grid.n_points == 12 and list(grid.cell_data["gmsh:physical"]) == [1, 1]
+    assert list(grid.cell_data["gmsh:physical_2"]) == [2, 4]
     assert numpy.isclose(view.Model(**reading.arrays_of(grid))._region().wall().info.area, 10.0)
+    for where, cells in (("1", [0, 1]), ("all", [0, 1]), ("lumen", [0]), ("2", [0]), ("wall", [1]), ("wall,2", [0, 1])):
+        part = reading.read_mesh(str(path), cells_where=f"gmsh:physical={where}")
+        assert list(part.cell_data["riis_cell_id"]) == cells, where
+    with pytest.raises(riis.InvalidArgumentError, match="--cells-where: lid is not a number, nor the name of a physical group"):
+        reading.read_mesh(str(path), cells_where="gmsh:physical=lid")
+
+
+def test_cells_of_one_domain(tmp_path):
+    """The chosen cells, and the marks of their nodes, equal those of the whole mesh. The program's files keep the choice."""
+    pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
+    image = pyvista.ImageData(dimensions=(25, 25, 25), spacing=3 * [1.0 / 6.0], origin=(-2.0, -2.0, -1.5))
+    grid, path = image.cast_to_unstructured_grid(), tmp_path / "two.vtu"
+    grid.cell_data["region"] = numpy.where(grid.cell_centers().points[:, 0] > 0.3, 7, 3)
+    grid.points = numpy.asarray(grid.points, numpy.float64)
+    grid.save(path)
+    cells = numpy.flatnonzero(grid.cell_data["region"] == 7)
+    nodes = numpy.unique(grid.cell_connectivity.reshape(-1, 8)[cells])
+    part = reading.read_mesh(str(path), cells_where="region=7")
+    assert numpy.array_equal(part.cell_data["riis_cell_id"], cells)
+    assert numpy.array_equal(part.point_data["riis_node_id"], nodes)
+    assert numpy.array_equal(part.points, grid.points[nodes])
+    assert numpy.array_equal(nodes[part.cell_connectivity], grid.cell_connectivity.reshape(-1, 8)[cells].ravel())
+    marks = {}
+    for name, mesh, where in (("whole", grid, None), ("part", part, "region=7")):
+        model = view.Model(**reading.arrays_of(mesh), path=path, cells_where=where)
+        model.add("aortic")
+        marks[name] = model.update().marked
+    assert 0 < len(marks["part"]) and numpy.array_equal(nodes[marks["part"]], numpy.intersect1d(marks["whole"], nodes))
+    assert "--cells-where=region=7" in shlex.split(model.command()) and json.loads(model.case())["cells_where"] == "region=7"
+    model.save(tmp_path / "part.view.json")
+    assert reading.mesh_of_saved(str(tmp_path / "part.view.json")) == (str(path), "region=7")
+    assert view.Model.load(tmp_path / "part.view.json", reading.arrays_of(part)).cells_where == "region=7"
+    script: dict = {}
+    exec(model.python(), script)
+    assert numpy.array_equal(script["marks"]["aortic"].ids, marks["part"])
+    for where, text in (
+        ("region", "it must be NAME=VALUES"), ("region=3,,7", "it must be NAME=VALUES"), ("=3", "it must be NAME=VALUES"),
+        ("region=fluid", "--cells-where: fluid is not a number$"),
+        ("domain=3", "the mesh has no cell array domain of single numbers; there are: region"),
+        ("region=4", "no volume cell has such a value of region; they have 3, 7"),
+    ):  # fmt: skip
+        with pytest.raises(riis.InvalidArgumentError, match=text):
+            reading.read_mesh(str(path), cells_where=where)
 
 
 def test_crossing_leaflets(small):

@@ -145,7 +145,9 @@ def test_a_page_loses_nothing(tmp_path):
         scene.check_of_graphics()
     except RuntimeError as missing:
         pytest.skip(str(missing))
-    box().save(tmp_path / "box.vtu")
+    grid = box()
+    grid.cell_data["half"] = numpy.where(grid.cell_centers().points[:, 2] > 0.6, 1, 2)
+    grid.save(tmp_path / "box.vtu")
     box(10).save(tmp_path / "other.vtu")
 
     async def use():
@@ -180,6 +182,18 @@ def test_a_page_loses_nothing(tmp_path):
         shutil.copy(tmp_path / "box.vtu", tmp_path / "moved.vtu")
         assert "opened" in await tell_task(page._reopen(str(tmp_path / "valve.view.json"), str(tmp_path / "moved.vtu")))
         assert page.state.path.endswith("moved.vtu") and not page.model.can_undo
+
+        assert await tell_task(page._read(str(tmp_path / "box.vtu"), cells_where="half=1")) == ""
+        assert page._grid.n_cells == 605 and "605 cells with half=1" in page.state.mesh_text
+        page.model.save(tmp_path / "half.view.json")
+        assert "no cell array no of single" in await tell_task(page._read(str(tmp_path / "box.vtu"), cells_where="no=1"))
+        page._on_open("cells", "all")
+        await asyncio.wait(page._tasks)
+        assert page._grid.n_cells == 1331 and page.model.cells_where is None
+        assert "opened" in await tell_task(page._reopen(str(tmp_path / "half.view.json")))
+        assert page._grid.n_cells == 605
+        page._on_open("cells", "all")
+        await asyncio.wait(page._tasks)
 
         page._need_cycle()
         before = page.model.valves

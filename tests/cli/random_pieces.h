@@ -215,7 +215,8 @@ static void write_list(const char *name, int n, const char *const *sources) {
   assert_non_null(file);
   fprintf(file, "<?xml version=\"1.0\"?>\n<!-- a list -->\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\">\n");
   fprintf(file, "<PUnstructuredGrid GhostLevel=\"%d\">\n<PPointData>\n", has_ghosts);
-  fprintf(file, "<PDataArray type=\"Float64\" Name=\"pressure\"/>\n");
+  fprintf(file, "<PDataArray type=\"Float64\" Name=\"pressure\"%s/>\n",
+          has_ghosts ? " NumberOfComponents=\"0\"" : ""); /* as dolfinx 0.5 writes it */
   if (has_ids) fprintf(file, "<PDataArray type=\"Int64\" Name=\"GlobalNodeId\"/>\n");
   fprintf(file, "</PPointData>\n<PCellData>%s</PCellData>\n",
           has_ghosts ? "<PDataArray type=\"UInt8\" Name=\"vtkGhostType\"/>" : "");

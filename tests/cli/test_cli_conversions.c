@@ -15,8 +15,18 @@ TEST(test_texts) {
   RUN_REFUSED(1, "; gmsh converts it: gmsh -save heart.UNV -format vtk -o heart.vtk\n", "mark", "heart.UNV");
   RUN_REFUSED(1, "; meshio converts it: meshio convert heart.inp heart.vtu\n", "mark", "heart.inp");
   RUN_REFUSED(1, "; meshio converts it: meshio convert heart.med heart.xdmf\n", "mark", "heart.med");
-  const char *endings[] = {"cgns", "case", "encas", "vtkhdf", "vti", "vts", "vtr", "pvts", "tec"};
-  for (int i = 0; i < 9; ++i) {
+  const char *by_meshio[] = {"mesh", "meshb", "avs",  "dat", "f3grid", "h5m",
+                             "mdpa", "vol",   "node", "ele", "xml",    "post"};
+  for (int i = 0; i < 12; ++i) {
+    char name[32], wanted[96];
+    snprintf(name, sizeof name, "heart.%s", by_meshio[i]);
+    snprintf(wanted, sizeof wanted, "; meshio converts it: meshio convert %s heart.vtu\n", name);
+    RUN_REFUSED(1, wanted, "mark", name);
+  }
+  RUN_REFUSED(1, "; a .pvd is a list of files: give one of its meshes\n", "mark", "heart.pvd");
+  const char *endings[] = {"cgns", "case", "encas", "vtkhdf", "vti",  "vts",
+                           "vtr",  "pvts", "tec",   "vtmb",   "vtpc", "vtpd"};
+  for (int i = 0; i < 12; ++i) {
     char name[32];
     snprintf(name, sizeof name, "heart.%s", endings[i]);
     RUN_REFUSED(1,
@@ -76,6 +86,9 @@ TEST(test_texts) {
               "valve.unv -format stl -o valve.stl\n",
               "mark", mesh, "--surface", "valve.unv");
   RUN_REFUSED(1, "; meshio converts it: meshio convert valve.off valve.stl\n", "mark", mesh, "--surface", "valve.off");
+  RUN_REFUSED(1, "; meshio converts it: meshio convert valve.xdmf valve.vtu\n", "mark", mesh, "--surface",
+              "valve.xdmf");
+  RUN_REFUSED(1, "; ParaView converts it: ", "mark", mesh, "--surface", "valve.vtkhdf");
   RUN_REFUSED(1, "valve.obj: cannot be read: No such file or directory\n", "mark", mesh, "--surface", "valve.obj");
   scratch_write_text("leaflet.vtk",
                      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"
@@ -118,7 +131,7 @@ static void make_by_gmsh(int dimension, const char *format, const char *path) {
 }
 
 TEST(test_meshes_by_gmsh) {
-  const char *formats[] = {"msh40", "unv", "bdf", "mesh", "bdf"}, *endings[] = {"msh", "unv", "bdf", "mesh", "nas"};
+  const char *formats[] = {"msh40", "unv", "bdf", "msh1", "bdf"}, *endings[] = {"msh", "unv", "bdf", "msh", "nas"};
   for (int i = 0; i < 5; ++i) {
     char name[32], path[256];
     snprintf(name, sizeof name, "cube_%d.%s", i, endings[i]);
@@ -129,6 +142,22 @@ TEST(test_meshes_by_gmsh) {
     assert_int_equal(program_exit_code, 0);
     assert_true(json_number(program_out, "n_nodes") > 100 && json_number(program_out, "n_marked") > 5);
   }
+}
+
+/* Elements of order 3 are refused with a line for the shell. */
+TEST(test_orders_by_gmsh) {
+  static char command[2048];
+  char path[256];
+  snprintf(path, sizeof path, "%s", scratch_path("cubic.msh"));
+  make_by_gmsh(3, "msh41 -order 3", path);
+  RUN_REFUSED(1, "elements of orders 1 and 2 are read; gmsh lowers the order: echo ", "mark", path);
+  const char *const line = strstr(program_err, "echo ");
+  snprintf(command, sizeof command, "cd %s && PATH=$(dirname " RIIS_GMSH "):$PATH && %.*s > log.txt 2>&1",
+           scratch_path(""), (int)strcspn(line, "\n"), line);
+  assert_int_equal(system(command), 0);
+  run_program("mark", scratch_path("cubic_order2.msh"), "--half-thickness", "0.6", "--stats", "-", NULL);
+  assert_int_equal(program_exit_code, 0);
+  assert_true(json_number(program_out, "n_nodes") > 100 && json_number(program_out, "n_marked") > 5);
 }
 
 /* gmsh writes a cube as CAD, and the advised commands fill it and cover it. */
@@ -175,8 +204,9 @@ TEST(test_meshio) {
       "tet.su2", "NDIME= 3\nNELEM= 1\n10 0 1 2 3 0\nNPOIN= 4\n-1 -1 -1 0\n1 -1 -1 1\n0 1 -1 2\n0 0 1 3\nNMARK= 0\n");
   scratch_write_text("skin.off", "OFF\n3 1 0\n-1 -1 -1\n1 -1 -1\n0 1 -1\n3 0 1 2\n");
   /* meshio writes MED if it has h5py, and the format of Ansys. */
-  const char *meshes[] = {"tet.inp", "tet.su2", "tet.msh", "tet.med"}, *to[] = {"--output-format ansys", ""};
-  for (int i = 0; i < 4; ++i) {
+  const char *meshes[] = {"tet.inp", "tet.su2", "tet.msh", "tet.med", "tet.mesh", "tet.avs", "tet.dat", "tet.vol"};
+  const char *to[] = {"--output-format ansys", "", "", "", "", ""};
+  for (int i = 0; i < 8; ++i) {
     char path[256], command[1024];
     snprintf(path, sizeof path, "%s", scratch_path(meshes[i]));
     snprintf(command, sizeof command, RIIS_MESHIO " convert %s %s %s > /dev/null 2>&1", to[i < 2 ? 0 : i - 2],
@@ -191,6 +221,14 @@ TEST(test_meshio) {
               scratch_path("skin.vtp"));
   RUN_FINE("surface", "--surface", convert("meshio", RIIS_MESHIO), "--output", scratch_path("skin.vtp"));
   assert_non_null(strstr(program_out, "1 triangle, area 2\n"));
+  scratch_write_text(
+      "faces.inp",
+      "*HEADING\nquad\n*NODE\n1, 0, 0, 0\n2, 2, 0, 0\n3, 2, 1, 0\n4, 0, 1, 0\n*ELEMENT, TYPE=S4\n1, 1, 2, "
+      "3, 4\n");
+  RUN_REFUSED(1, "meshio converts it", "surface", "--surface", scratch_path("faces.inp"), "--output",
+              scratch_path("faces.vtp"));
+  RUN_FINE("surface", "--surface", convert("meshio", RIIS_MESHIO), "--output", scratch_path("faces.vtp"));
+  assert_non_null(strstr(program_out, "area 2\n"));
 }
 #endif
 

@@ -41,7 +41,7 @@ TEST(test_help) {
       {"states", {"OUT", "--count", "--tolerance", "--params-open"}},
       {"export", {"FOLDER", "--time-step", "--largest-edge", "--closing-span"}},
       {"params", {"--describe", "--set", "--opening"}},
-      {"view", {"--unit", "--folder", "--no-browser", "--open", "--port", "RIIS_PYTHON"}},
+      {"view", {"--unit", "--folder", "--no-browser", "--open", "--port", "--cells-where", "RIIS_PYTHON"}},
       {"help", {"TOPIC"}},
   };
   for (size_t i = 0; i < sizeof helps / sizeof helps[0]; ++i) {

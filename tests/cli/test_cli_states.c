@@ -209,6 +209,23 @@ TEST(test_stdout) {
   free(text);
 }
 
+/* Without a word, an open area of which the band takes all along no perimeter looks wrong. The slit between the closed leaflets
+ * has a perimeter if it is wider than a fifth of the half thickness. */
+TEST(test_slits) {
+  static const struct {
+    const char *gap, *half_thickness;
+    int is_told;
+  } slits[] = {{"gap=0.019", "0.1", 1}, {"gap=0.021", "0.1", 0}, {"gap=0.019", "0.09", 0}, {"gap=0.019", "0.2", 1}};
+  static const char *const text = "where slits narrower than a fifth of the half thickness do not count";
+  for (size_t i = 0; i < sizeof slits / sizeof *slits; ++i) {
+    RUN_STATES("--valve", "bileaflet", "--set", slits[i].gap, "--half-thickness", slits[i].half_thickness, "--count",
+               "2");
+    assert_true(cell(0, "orifice_area") > 0.03);
+    assert_int_equal(cell(0, "orifice_perimeter") == 0, slits[i].is_told);
+    assert_int_equal(strstr(program_out, text) != NULL, slits[i].is_told);
+  }
+}
+
 /* ---- The aortic valve ---- */
 
 /* Returns the length of a cubic, approximated by chords. */

@@ -406,6 +406,65 @@ TEST(test_marking_rule) {
   }
 }
 
+/* Sums of delta over a grid round a closed valve with a ring, by the solver's rule and by the library. */
+typedef struct {
+  int n_twice; /* nodes in the bands of the leaflets and of the ring, whose terms the solver adds */
+  double of_solver, excess, of_whole;
+} ring_sums;
+
+static ring_sums sums_with_ring(const riis_surface *whole) {
+  const double eps = exported.thickness, step = 0.5 * eps;
+  riis_surface_info info;
+  ring_sums sums = {0, 0, 0, 0};
+  CHECK_OK(riis_surface_get_info(whole, &info, sizeof info));
+  uris_state moving = uris_state_of(&exported, exported.n_faces, 1, exported.face[0].n_close - 1), ring = {0};
+  if (exported.has_scaffold) ring = uris_scaffold_of(&exported);
+  double p[3];
+  for (p[0] = info.lower[0] - eps; p[0] < info.upper[0] + eps; p[0] += step)
+    for (p[1] = info.lower[1] - eps; p[1] < info.upper[1] + eps; p[1] += step)
+      for (p[2] = info.lower[2] - eps; p[2] < info.upper[2] + eps; p[2] += step) {
+        riis_closest closest;
+        double from_moving = 2 * eps, from_ring = 2 * eps;
+        CHECK_OK(riis_closest_point(whole, p, &closest, sizeof closest));
+        uris_nearest(&moving, p, &from_moving);
+        if (ring.n > 0) uris_nearest(&ring, p, &from_ring);
+        const double first = delta(from_moving, eps), second = delta(from_ring, eps);
+        sums.of_whole += delta(closest.distance, eps);
+        sums.of_solver += first + second;
+        sums.n_twice += first > 0 && second > 0;
+        sums.excess += fmin(first, second);
+      }
+  uris_state_free(&moving);
+  if (ring.n > 0) uris_state_free(&ring);
+  return sums;
+}
+
+/* With the ring as a face, the solver's K is that of the whole surface. As a scaffold, nodes in both bands have the smaller
+ * term more. */
+TEST(test_ring_counts_once) {
+  riis_valve *valve = NULL;
+  CHECK_OK(riis_valve_create("bileaflet", &valve));
+  CHECK_OK(riis_valve_set_scalar(valve, "ring_height", 0.6));
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
+  riis_surface *whole = surface_at(&places[0], valve);
+  ring_sums sums[2];
+  for (int is_scaffold = 0; is_scaffold < 2; ++is_scaffold) {
+    EXPORT(is_scaffold ? "once_scaffold" : "once_face", RAMPS, "--valve", "bileaflet", "--set", "ring_height=0.6",
+           "--largest-edge", "0.04", "--ring", is_scaffold ? "scaffold" : "face");
+    sums[is_scaffold] = sums_with_ring(whole);
+    uris_free(&exported);
+  }
+  printf("ring as a face: %d nodes twice, K %.4f of the whole; as a scaffold: %d nodes, K %.4f\n", sums[0].n_twice,
+         sums[0].of_solver / sums[0].of_whole, sums[1].n_twice, sums[1].of_solver / sums[1].of_whole);
+  assert_true(sums[0].n_twice == 0 && sums[1].n_twice > 100);
+  /* Middles of triangles are farther than the surface, so the solver's K is a little smaller. */
+  assert_true(sums[0].of_solver < sums[0].of_whole && sums[0].of_solver > 0.97 * sums[0].of_whole);
+  CHECK_NEAR(sums[1].of_solver - sums[1].excess, sums[0].of_solver, 1e-9 * sums[0].of_solver);
+  assert_true(sums[1].excess > 0.03 * sums[1].of_whole);
+  riis_surface_destroy(&whole);
+  riis_valve_destroy(&valve);
+}
+
 /* ---- The solver's box ---- */
 
 /* A frame of the solver, with or without the face that enlarges the box. */

@@ -313,6 +313,35 @@ TEST(test_meshio) { skip(); }
 
 /* ---- Files that cannot be read ---- */
 
+/* With Mesh.SaveParametric, nodes of version 2 have their entity, and their parameters on curves and surfaces. When gmsh
+ * appends a view, it writes the mesh once more. */
+TEST(test_gmsh_sections) {
+  static const char *const format = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  static const char *const mesh =
+      "$ParametricNodes\n4\n1 0 0 0 0 7\n2 1 0 0 1 3 0.25\n3 0 1 0 2 5 0.5 0.75\n4 0 0 1 3 1\n$EndParametricNodes\n"
+      "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n";
+  const double points[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  char text[2048];
+  for (int n_copies = 1; n_copies < 3; ++n_copies) {
+    snprintf(text, sizeof text, "%s%s%s%s$NodeData\n0\n$EndNodeData\n", format, mesh, n_copies > 1 ? format : "",
+             n_copies > 1 ? mesh : "");
+    scratch_write_text("view.msh", text);
+    rewrite("view.msh", "view.vtu", "");
+    int64_t n_points = 0, n_cells = 0;
+    double found[12];
+    assert_int_equal(shim_read_points(scratch_path("view.vtu"), &n_points, &n_cells, NULL, NULL), 1);
+    assert_true(n_points == 4 && n_cells == 1);
+    shim_read_points(scratch_path("view.vtu"), &n_points, &n_cells, NULL, found);
+    assert_memory_equal(found, points, sizeof points);
+  }
+  /* Another mesh is refused. */
+  strstr(strstr(text, "$EndElements"), "1 0 0 1")[2] = '2';
+  scratch_write_text("other.msh", text);
+  riis_vtk_mesh *other = NULL;
+  expect_refused(riis_vtk_mesh_read(scratch_path("other.msh"), &other), RIIS_FILE_ERROR,
+                 "has a second section $ParametricNodes, which differs from the first");
+}
+
 /* Version 2 has the cells of two physical groups twice, with separate numbers. */
 TEST(test_gmsh_groups) {
   char text[2048] =

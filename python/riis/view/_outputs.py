@@ -22,6 +22,7 @@ from riis._errors import Error, InvalidArgumentError
 from riis._place import UNITS
 from riis._riis import resistance_units
 from riis.laws import OpeningTable, OpeningTimes
+from riis.view._domains import OPTION
 from riis.view._valves import (
     KINDS, SURFACE, TRIANGULATIONS, Cycle, SurfaceSource, Value, ValveState, above_zero, at_least_zero, check_valve_name,
     number, refuse, share,
@@ -81,7 +82,9 @@ def _times_of_surfaces(states: Iterable[ValveState]) -> list[float] | None:
     return [now, now + (moving[0].surface.period or float(times[-1] - times[0])) / 50.0]
 
 
-def case_of(states: tuple[ValveState, ...], unit: str | None, path: str | None, times: list[float] | None) -> str:
+def case_of(
+    states: tuple[ValveState, ...], unit: str | None, path: str | None, cells_where: str | None, times: list[float] | None
+) -> str:
     """Returns a case. Without times the valves keep their openings, and surfaces keep their time."""
     _check_paths(states)
     if not states:
@@ -92,6 +95,8 @@ def case_of(states: tuple[ValveState, ...], unit: str | None, path: str | None, 
     root: dict[str, Any] = {}
     if path is not None:
         root["mesh"] = os.path.abspath(path)
+    if cells_where is not None:
+        root["cells_where"] = cells_where
     with_unit = has_unit(states, unit)
     if with_unit:
         root["unit"] = unit
@@ -127,7 +132,8 @@ def _numbers(values: Iterable[float]) -> str:
 
 
 def command_of(
-    states: tuple[ValveState, ...], unit: str | None, path: str | None, case: str, output: str, program: str
+    states: tuple[ValveState, ...], unit: str | None, path: str | None, cells_where: str | None, case: str, output: str,
+    program: str,
 ) -> str:
     _check_paths(states)
     if not states:
@@ -138,6 +144,8 @@ def command_of(
             output = os.path.splitext(output)[0] + ".pvd"
         return shlex.join([program, "mark", "--case", case, "--output", output])
     words = [program, "mark", os.path.abspath(path) if path is not None else "MESH.vtu"]
+    if cells_where is not None:
+        words.append(f"{OPTION}={cells_where}")
     with_unit = has_unit(states, unit)
     if state.surface is not None:
         words.append(f"--surface={os.path.abspath(str(state.surface.path))}")
@@ -171,12 +179,17 @@ def _units_of_K(unit: str | None) -> str:
     return f"  # in {of_K}, with R in {of_R}"
 
 
-def python_of(states: tuple[ValveState, ...], unit: str | None, path: str | None) -> str:
+def python_of(states: tuple[ValveState, ...], unit: str | None, path: str | None, cells_where: str | None) -> str:
     _check_paths(states)
-    uses_files = path is not None or any(state.surface is not None for state in states)
-    lines = ["import numpy"] + (["import pyvista"] if uses_files else []) + ["import riis", ""]
+    reads_part = path is not None and cells_where is not None
+    uses_files = (path is not None and not reads_part) or any(state.surface is not None for state in states)
+    lines = ["import numpy"] + (["import pyvista"] if uses_files else []) + ["import riis"]
+    lines += ["from riis.view import reading", ""] if reads_part else [""]
     if path is None:
         lines.append("# points: (n, 3) float64, the nodes of the mesh")
+    elif reads_part:
+        lines.append(f"grid = reading.read_mesh({os.path.abspath(path)!r}, cells_where={cells_where!r})")
+        lines.append("points = numpy.array(grid.points, numpy.float64)")
     else:
         lines.append(f"points = numpy.array(pyvista.read({os.path.abspath(path)!r}).points, numpy.float64)")
     lines += ["mesh = riis.Mesh(points)", "K = numpy.zeros(len(mesh))" + _units_of_K(unit), "marks = {}"]
@@ -285,7 +298,8 @@ def _unpacked(value: Any) -> Any:
 
 
 def session_of(
-    states: tuple[ValveState, ...], unit: str | None, path: str | None, n_nodes: int, time: float, page: Mapping[str, Any] | None
+    states: tuple[ValveState, ...], unit: str | None, path: str | None, cells_where: str | None, n_nodes: int, time: float,
+    page: Mapping[str, Any] | None,
 ) -> str:
     valves = []
     for state in states:
@@ -309,6 +323,8 @@ def session_of(
     root: dict[str, Any] = {
         "format": _FORMAT, "version": _VERSION, "mesh": path, "n_nodes": n_nodes, "unit": unit, "time": time, "valves": valves,
     }
+    if cells_where is not None:
+        root["cells_where"] = cells_where
     if page is not None:
         root["page"] = page
     return json.dumps(root, indent=2) + "\n"
@@ -367,6 +383,8 @@ def read_session(path: str) -> tuple[dict[str, Any], tuple[ValveState, ...]]:
     try:
         if root["mesh"] is not None and not isinstance(root["mesh"], str):
             raise ValueError(f"mesh is {root['mesh']!r}")
+        if not isinstance(root.setdefault("cells_where", None), (str, type(None))):
+            raise ValueError(f"cells_where is {root['cells_where']!r}")
         if root["unit"] is not None and root["unit"] not in UNITS:
             raise ValueError(f"unit is {root['unit']!r}")
         root["time"], root["n_nodes"] = number(root["time"], "time"), int(root["n_nodes"])

@@ -81,6 +81,7 @@ class Model(Valves):
     types    (n_cells,): VTK's types of the cells. With types, cells may also be triangles, lines or quadratic
     unit     of the mesh: "mm", "cm" or "m". None: not known
     path     the file of the mesh, for the files and commands that the model writes
+    cells_where  NAME=VALUES, if the arrays are only these cells of the file
     """
 
     def __init__(
@@ -92,12 +93,14 @@ class Model(Valves):
         types: Any = None,
         unit: Literal["mm", "cm", "m"] | None = None,
         path: str | os.PathLike[str] | None = None,
+        cells_where: str | None = None,
         _near: bool = False,
     ) -> None:
         if unit is not None and unit not in UNITS:
             raise refuse(f"unit: is {unit!r}; it must be {', '.join(UNITS)}")
         self._mesh = WholeMesh(points, cells, offsets=offsets, types=types, near=_near)
         self._path = None if path is None else os.fspath(path)
+        self._cells_where = cells_where
         super().__init__(unit)
         self._time = 0.0
         self._shown: Shown | None = None
@@ -129,6 +132,10 @@ class Model(Valves):
     @property
     def path(self) -> str | None:
         return self._path
+
+    @property
+    def cells_where(self) -> str | None:
+        return self._cells_where
 
     @property
     def time(self) -> float:
@@ -589,16 +596,16 @@ class Model(Valves):
     def case(self, times: Any = None) -> str:
         """Returns a case file of the program (riis help cases): the valves as they are now, or as they move at ``times``."""
         moments = None if times is None else [number(moment, "times") for moment in numpy.ravel(times)]
-        return _outputs.case_of(self.valves, self._unit, self._path, moments)
+        return _outputs.case_of(self.valves, self._unit, self._path, self._cells_where, moments)
 
     def command(self, *, case: str = "case.json", output: str = "marked.vtu", program: str = "riis") -> str:
         """Returns the command that gives the present marks. Several valves need the file of ``case()``, under the name case. If
         one of several valves is a surface that moves, the output is a .pvd file, whose first step has the present marks."""
-        return _outputs.command_of(self.valves, self._unit, self._path, case, output, program)
+        return _outputs.command_of(self.valves, self._unit, self._path, self._cells_where, case, output, program)
 
     def python(self) -> str:
         """Returns a script that gives the present marks: marks[NAME] for each valve, and K. Without a path it needs points."""
-        return _outputs.python_of(self.valves, self._unit, self._path)
+        return _outputs.python_of(self.valves, self._unit, self._path, self._cells_where)
 
     def openfoam(self, density: float = 1060.0) -> str:
         """Returns fvOptions of OpenFOAM, in metres and kilograms. A mesh without a unit is taken as it is, and so is its R."""
@@ -607,7 +614,9 @@ class Model(Valves):
     def save(self, path: str | os.PathLike[str], page: Mapping[str, Any] | None = None) -> None:
         """Writes the session. ``load`` opens it as it was. A page adds further data that it shows, such as its camera, as
         JSON."""
-        text = _outputs.session_of(self.valves, self._unit, self._path, len(self.points), self._time, page)
+        text = _outputs.session_of(
+            self.valves, self._unit, self._path, self._cells_where, len(self.points), self._time, page
+        )
         Path(path).write_text(text, encoding="utf-8")
 
     def restore(self, path: str | os.PathLike[str]) -> dict[str, Any]:
@@ -643,7 +652,8 @@ class Model(Valves):
             arrays = dict(mesh)
         else:
             raise refuse(f"mesh: is None; pass the arrays of {root['mesh'] or 'the mesh'}, or a function that reads them")
-        made = cls(**{"path": root["mesh"], "unit": root["unit"], "_near": arrays.pop("near", False), **arrays})
+        known = {name: root[name] for name in ("unit", "cells_where")}
+        made = cls(**{"path": root["mesh"], **known, "_near": arrays.pop("near", False), **arrays})
         made.restore(path)
         made.forget_steps()
         return made

@@ -47,16 +47,25 @@ class Page(Hand, Heartbeat, saving.Files):
     saved   a saved view to open, or None
     unit    of the meshes: "mm", "cm" or "m". None: not known
     folder  the folder to which the page writes, and from which relative paths start
+    cells_where  NAME=VALUES: the cells of the mesh to take. None: all, or those of the saved view
     """
 
-    def __init__(self, path: str | None, *, saved: str | None = None, unit: Any = None, folder: str = "."):
+    def __init__(
+        self,
+        path: str | None,
+        *,
+        saved: str | None = None,
+        unit: Any = None,
+        folder: str = ".",
+        cells_where: str | None = None,
+    ):
         from trame.app import get_server
 
         check_of_graphics()
         self.server = get_server("riis", client_type="vue3")
         self.state = self.server.state
         self.folder = Path(folder).resolve()
-        self._begin_path, self._begin_saved, self._unit = path, saved, unit
+        self._begin_path, self._begin_saved, self._unit, self._begin_cells = path, saved, unit, cells_where
         self.model: Any = None
         self.scene: Any = None
         self._grid: Any = None
@@ -107,6 +116,7 @@ class Page(Hand, Heartbeat, saving.Files):
             "writes": saving.WRITES, "file_name": "valve", "replace": False,
             "open_rows": [
                 {"name": "mesh", "label": "Mesh", "value": ""},
+                {"name": "cells", "label": "Only its cells with NAME=VALUES, or all", "value": ""},
                 {"name": "surface", "label": "A patient's surface", "value": ""},
                 {"name": "view", "label": "A saved view", "value": ""},
             ],
@@ -185,9 +195,9 @@ class Page(Hand, Heartbeat, saving.Files):
     def _ready(self, **_: Any) -> None:
         self._begin_task(self._pictures())
         if self._begin_saved is not None:
-            self._begin_task(self._reopen(self._begin_saved, self._begin_path))
+            self._begin_task(self._reopen(self._begin_saved, self._begin_path, self._begin_cells))
         elif self._begin_path is not None:
-            self._begin_task(self._read(self._begin_path))
+            self._begin_task(self._read(self._begin_path, cells_where=self._begin_cells))
 
     # the mesh
 
@@ -196,7 +206,10 @@ class Page(Hand, Heartbeat, saving.Files):
         if not value:
             return
         path = str(self.folder / os.path.expanduser(value))
-        if name == "mesh":
+        if name == "cells":
+            self._need_model()
+            self._begin_task(self._read(self.state.path, cells_where=None if value == "all" else value))
+        elif name == "mesh":
             self._begin_task(self._read(path))
         elif name == "view":
             self._begin_task(self._reopen(path))
@@ -206,12 +219,12 @@ class Page(Hand, Heartbeat, saving.Files):
             self.state.current = len(self.model.valves) - 1
             self._renew_all()
 
-    async def _read(self, path: str, saved: str | None = None) -> None:
+    async def _read(self, path: str, saved: str | None = None, cells_where: str | None = None) -> None:
         """On a thread, reads a mesh and a saved view of it, and shows the progress. If one of them is refused, nothing
         changes."""
         parts = {"part": -1.0}
         with self._alone(f"{os.path.basename(path)} is being read"):
-            work = asyncio.get_running_loop().run_in_executor(None, self._make_model, path, saved, parts)
+            work = asyncio.get_running_loop().run_in_executor(None, self._make_model, path, saved, cells_where, parts)
             try:
                 while not work.done():
                     with self.state as state:
@@ -225,12 +238,14 @@ class Page(Hand, Heartbeat, saving.Files):
             self._take(grid, wall, model, path)
             self._show_as_saved(shown)
 
-    def _make_model(self, path: str, saved: str | None, parts: dict[str, float]) -> tuple[Any, Any, Any, dict[str, Any]]:
-        grid = reading.read_mesh(path, parts)
-        parts["part"] = -1.0
-        make = Model.near if grid.n_points > MANY_NODES else Model
+    def _make_model(
+        self, path: str, saved: str | None, cells_where: str | None, parts: dict[str, float]
+    ) -> tuple[Any, Any, Any, dict[str, Any]]:
         try:
-            model = make(**reading.arrays_of(grid), unit=self._unit, path=path)
+            grid = reading.read_mesh(path, parts, cells_where=cells_where)
+            parts["part"] = -1.0
+            make = Model.near if grid.n_points > MANY_NODES else Model
+            model = make(**reading.arrays_of(grid), unit=self._unit, path=path, cells_where=cells_where)
         except riis.Error as error:
             raise reading.Refusal(f"{path}: {error}") from error
         shown = {} if saved is None else model.restore(saved)
@@ -258,11 +273,14 @@ class Page(Hand, Heartbeat, saving.Files):
         self._look("oblique")
         self._renew_all()
 
-    async def _reopen(self, path: str, mesh: str | None = None) -> None:
-        """Opens a saved view, with its mesh or with this mesh instead."""
-        mesh = mesh if mesh is not None else reading.mesh_of_saved(path)
-        if mesh is not None and (self.model is None or os.path.abspath(mesh) != os.path.abspath(self.state.path)):
-            await self._read(mesh, path)
+    async def _reopen(self, path: str, mesh: str | None = None, cells_where: str | None = None) -> None:
+        """Opens a saved view, with its mesh and cells, or with these instead."""
+        if mesh is None:
+            mesh, saved_cells = reading.mesh_of_saved(path)
+            cells_where = cells_where or saved_cells
+        wanted = None if mesh is None else (os.path.abspath(mesh), cells_where)
+        if mesh is not None and (self.model is None or wanted != (os.path.abspath(self.state.path), self.model.cells_where)):
+            await self._read(mesh, path, cells_where)
         else:
             self._begin_change()
             root, valves = read_session(path)
@@ -322,7 +340,8 @@ class Page(Hand, Heartbeat, saving.Files):
             state.valve_names = [valve.name for valve in model.valves]
             unit = model.unit or ""
             state.mesh_text = (
-                f"{os.path.basename(state.path)}: {counted(self._grid.n_points, 'node')}, {counted(self._grid.n_cells, 'cell')}, "
+                f"{os.path.basename(state.path)}: {counted(self._grid.n_points, 'node')}, {counted(self._grid.n_cells, 'cell')}"
+                + (f" with {model.cells_where}, " if model.cells_where else ", ")
                 + (f"in {model.unit}" if model.unit else "unit not known")
             )
             state.is_surface = valve.surface is not None

@@ -11,6 +11,7 @@ from typing import Any
 import numpy
 
 from riis import FAR_DISTANCE
+from riis.view._domains import chosen_cells, groups_of_volumes, read_once
 
 BY_VTK, BY_MESHIO = (".vtu", ".pvtu", ".vtk"), (".msh", ".xdmf", ".xmf")
 SURFACES = (".stl", ".vtp", ".obj", ".ply", ".off")
@@ -21,10 +22,11 @@ class Refusal(Exception):
     """Bad input, with a message for the page."""
 
 
-def read_mesh(path: str, progress: dict[str, float]) -> Any:
+def read_mesh(path: str, progress: dict[str, float] | None = None, *, cells_where: str | None = None) -> Any:
     """Returns a mesh of volume cells as pyvista.UnstructuredGrid. progress["part"] grows from 0 to 1.
 
-    Nodes and cells keep the file's order, and points keep its precision. So the program riis finds the same marks.
+    Nodes and cells keep the file's order, and points keep its precision. So the program riis finds the same marks. cells_where
+    chooses cells, as the program's --cells-where: "region=1,2".
     """
     import pyvista
 
@@ -41,15 +43,16 @@ def read_mesh(path: str, progress: dict[str, float]) -> Any:
         if os.path.isdir(path) or ending in BY_PROGRAM:
             text += f". The program writes what the view reads: riis mark {shlex.quote(path)} --output mesh.vtu --allow-none"
         raise Refusal(text)
+    names: dict[str, float] = {}
     if ending in BY_MESHIO:
-        grid = _by_meshio(path)
+        grid, names = _by_meshio(path)
     else:
-        grid = _by_vtk(path, progress)
+        grid = _by_vtk(path, {} if progress is None else progress)
     if not isinstance(grid, pyvista.UnstructuredGrid):
         raise Refusal(f"{path}: holds {type(grid).__name__}, not an unstructured grid")
     if grid.n_points == 0:
         raise Refusal(f"{path}: has no nodes, or is not a mesh")
-    return grid
+    return grid if cells_where is None else chosen_cells(grid, cells_where, names)
 
 
 def _by_vtk(path: str, progress: dict[str, float]) -> Any:
@@ -77,7 +80,8 @@ def _by_vtk(path: str, progress: dict[str, float]) -> Any:
     return grid
 
 
-def _by_meshio(path: str) -> Any:
+def _by_meshio(path: str) -> tuple[Any, dict[str, float]]:
+    """Returns the grid, and the numbers of gmsh's groups of volumes by name."""
     import pyvista
 
     try:
@@ -85,29 +89,12 @@ def _by_meshio(path: str) -> Any:
     except ImportError:
         raise Refusal(f"{path}: this format needs meshio: pip install meshio") from None
     try:
-        return pyvista.from_meshio(_cells_once(meshio.read(path)))
+        mesh = read_once(meshio.read(path))
+        return pyvista.from_meshio(mesh), groups_of_volumes(mesh)
     except SystemExit:  # meshio ends the process for some files
         raise Refusal(f"{path}: is not a mesh that meshio can read") from None
     except Exception as error:
         raise Refusal(f"{path}: is not a mesh that meshio can read ({error})") from error
-
-
-def _cells_once(mesh: Any) -> Any:
-    """Leaves out cells that an earlier block has. gmsh's version 2 has a cell once for each of its physical groups."""
-    groups = mesh.cell_data.get("gmsh:physical")
-    if groups is None or len(numpy.unique(numpy.concatenate(groups))) < 2:
-        return mesh
-    before: dict[str, Any] = {}
-    for k, block in enumerate(mesh.cells):
-        rows = numpy.sort(block.data, axis=1)
-        earlier = before.get(block.type, rows[:0])
-        _, first = numpy.unique(numpy.concatenate([earlier, rows]), axis=0, return_index=True)
-        new = numpy.sort(first[first >= len(earlier)]) - len(earlier)
-        before[block.type] = numpy.concatenate([earlier, rows])
-        block.data = block.data[new]
-        for values in mesh.cell_data.values():
-            values[k] = values[k][new]
-    return mesh
 
 
 def arrays_of(grid: Any) -> dict[str, Any]:
@@ -163,8 +150,8 @@ def _triangles_of(data: Any, path: str) -> Any:
     return data.triangulate()
 
 
-def mesh_of_saved(path: str) -> str | None:
-    """Returns the path of the mesh of a saved view."""
+def mesh_of_saved(path: str) -> tuple[str | None, str | None]:
+    """Returns the path of the mesh of a saved view, and the choice of its cells."""
     from riis.view._outputs import read_session
 
     if not os.path.isfile(path):
@@ -172,7 +159,7 @@ def mesh_of_saved(path: str) -> str | None:
     root, valves = read_session(path)
     if not valves:
         raise Refusal(f"{path}: has no valves")
-    return root["mesh"]
+    return root["mesh"], root["cells_where"]
 
 
 def number_of(value: Any, name: str) -> float:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stages of a run. Each is timed, and a stage that takes longer than a second prints a line on the terminal.
+// The stages of a run. Each is timed. A stage that takes longer than a second prints a line on the terminal. In a log, where each
+// line stays, a stage is silent for half a minute.
 #pragma once
 
 #include <chrono>
@@ -11,11 +12,17 @@
 
 namespace riis::program {
 
+// How long a stage is silent if stderr is a terminal, and if not.
+struct Silence {
+  std::chrono::milliseconds on_terminal{1000}, in_log{30000};
+
+  std::chrono::milliseconds now() const;
+};
+
 class Stage {
  public:
-  // Prints `what`, such as "reading mesh.vtu", on stderr after a second. Prints nothing if `quiet`, or if stderr is not a
-  // terminal.
-  Stage(const std::string &what, bool quiet);
+  // Prints `what`, such as "reading mesh.vtu", on stderr after the silence. Prints nothing if `quiet`.
+  Stage(const std::string &what, bool quiet, Silence silence = {});
   ~Stage();
   Stage(const Stage &) = delete;
   Stage &operator=(const Stage &) = delete;
@@ -30,11 +37,11 @@ class Stage {
   std::thread watcher_;
 };
 
-// Counts the steps of a long stage in one line on the terminal. The line appears after one second.
+// Counts the steps of a long stage: on the terminal in one line, in a log by a line after each silence.
 class StepProgress {
  public:
-  // Prints `what`, such as "writing", before "step 12 of 81". Prints nothing if `quiet`, or if stderr is not a terminal.
-  StepProgress(const std::string &what, std::size_t n_steps, bool quiet);
+  // Prints `what`, such as "writing", before "step 12 of 81". Prints nothing if `quiet`.
+  StepProgress(const std::string &what, std::size_t n_steps, bool quiet, Silence silence = {});
   ~StepProgress();
   StepProgress(const StepProgress &) = delete;
   StepProgress &operator=(const StepProgress &) = delete;
@@ -44,7 +51,8 @@ class StepProgress {
  private:
   std::string what_;
   std::size_t n_steps_;
-  bool is_shown_, has_line_ = false;
+  bool is_shown_, is_terminal_, has_line_ = false;
+  std::chrono::milliseconds silence_;
   std::chrono::steady_clock::time_point begin_, last_;
 };
 

@@ -65,8 +65,8 @@ riis help landmarks explains the files and the report.)"},
   riis view root.vtu
   riis view root.vtu --unit mm --folder results --no-browser
   riis view --open valve.view.json
-A page in the browser has the mesh, the valve and sliders for its sizes. Other options: --port N. RIIS_PYTHON names the Python
-that has the package riis; python3 unless set.)"},
+A page in the browser has the mesh, the valve and sliders for its sizes. Other options: --port N, and --cells-where NAME=VALUES
+as in riis mark. RIIS_PYTHON names the Python that has the package riis; python3 unless set.)"},
     {"help", R"(Examples:
   riis help units)"},
     {"riis", R"(Examples:
@@ -346,8 +346,9 @@ paper's. They are slow, and serve for comparison.
 )"},
     {"running", "progress, Ctrl-C, locks",
      R"(
-On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series. --quiet
-silences this line. While a file is written, the first Ctrl-C waits until the file is complete; the second does not wait.
+On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series. If stderr
+is a file or a pipe, such a line comes after half a minute, and steps are counted each half minute. --quiet silences both.
+While a file is written, the first Ctrl-C waits until the file is complete; the second does not wait.
 During a run, an empty file .riis-NAME.lock beside each output NAME keeps other runs from writing that output. A run that is
 killed leaves the lock behind, and the next run takes it over.
 )"},

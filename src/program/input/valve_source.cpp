@@ -266,15 +266,21 @@ namespace {
 namespace fs = std::filesystem;
 
 // The endings that a tool converts. tests/cli/test_cli_conversions.c tests each ending if the tool is installed.
-const std::set<std::string> meshes_of_gmsh = {".unv", ".bdf", ".nas", ".mesh"};
-const std::set<std::string> meshes_of_meshio = {".inp", ".su2", ".med"};
+const std::set<std::string> meshes_of_gmsh = {".unv", ".bdf", ".nas"};
+// gmsh 4 leaves the prisms of a .mesh out, without a word.
+const std::set<std::string> meshes_of_meshio = {".inp", ".su2",  ".med", ".mesh", ".meshb", ".avs", ".dat", ".f3grid",
+                                                ".h5m", ".mdpa", ".vol", ".node", ".ele",   ".xml", ".post"};
 // ParaView opens these. They hold blocks, or grids that are not unstructured.
-const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".vti", ".vtr",
-                                                  ".vts",  ".pvti", ".pvtr",  ".pvts",   ".plt", ".tec"};
+const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".vti",
+                                                  ".vtr",  ".vts",  ".pvti",  ".pvtr",   ".pvts",
+                                                  ".plt",  ".tec",  ".vtmb",  ".vtpc",   ".vtpd"};
 // CAD files, which gmsh fills with cells or covers with triangles.
 const std::set<std::string> cad_files = {".step", ".stp", ".iges", ".igs", ".brep"};
-const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2"};
+const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2", ".med", ".wrl"};
 const std::set<std::string> surfaces_of_meshio = {".off"};
+// meshio writes all faces of these to a .vtu. To a .stl it writes triangles only.
+const std::set<std::string> faces_of_meshio = {".xdmf", ".xmf", ".inp", ".e", ".exo", ".avs", ".mdpa", ".vol"};
+const std::set<std::string> surfaces_of_paraview = {".vtkhdf", ".pvtp", ".vtm"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
 
 // Quotes the path, so that a shell reads it as one word and a program does not read it as an option.
@@ -299,6 +305,14 @@ std::string by_gmsh(const std::string &path, const char *format) {
          with_ending(path, format);
 }
 
+// gmsh writes elements of order 3 and more to a .vtk with their nodes in another order than VTK's.
+std::string at_order_2(const std::string &path) {
+  if (path.find_first_of("'\"\\") != std::string::npos) return "";
+  const std::string lowered = fs::path(path).replace_extension().string() + "_order2.msh";
+  return "; gmsh lowers the order: echo 'Merge \"" + path + "\"; SetOrder 2; Save \"" + lowered +
+         "\";' > order2.geo && gmsh -parse_and_exit order2.geo";
+}
+
 std::string by_meshio(const std::string &path, const char *format) {
   return "; meshio converts it: meshio convert " + shell_word(path) + " " + with_ending(path, format);
 }
@@ -313,18 +327,21 @@ std::string by_paraview(const std::string &path) {
          with_ending(path, "vtu");
 }
 
-char first_byte_of(const std::string &path) {
+std::string first_bytes_of(const std::string &path, std::size_t n) {
   std::ifstream file(path, std::ios::binary);
-  return static_cast<char>(file.get());
+  std::string bytes(n, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(n));
+  return bytes;
 }
 
 // A .msh may be of another version of gmsh, or of Ansys Fluent. A damaged one cannot be converted. SimVascular calls the
 // description of a mesh .msh, which is XML.
 std::string hint_for_msh(const std::string &path, const std::string &refusal) {
-  if (refusal.find("of gmsh's format;") != std::string::npos || refusal.find("is of gmsh's type") != std::string::npos)
-    return by_gmsh(path, "vtk");
+  if (has_text(refusal, "is of gmsh's type")) return at_order_2(path);
+  if (has_text(refusal, "of gmsh's format;")) return by_gmsh(path, "vtk");
   if (!has_text(refusal, "is not a mesh of gmsh")) return "";
-  if (first_byte_of(path) == '<')
+  if (first_bytes_of(path, 4) == "$NOD") return by_gmsh(path, "vtk");  // version 1
+  if (first_bytes_of(path, 1) == "<")
     return "; it is a description by SimVascular, whose mesh is beside it: " + with_ending(path, "vtu");
   return by_meshio(path, "vtu");
 }
@@ -341,7 +358,10 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
     // meshio 5.3 fails to write the names of MED's groups to a .vtu.
     if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, ending == ".med" ? "xdmf" : "vtu");
     if (meshes_of_paraview.count(ending) != 0) return by_paraview(path);
-    if (has_text(refusal, "holds structured_") || has_text(refusal, "holds rectilinear_grid")) return by_paraview(path);
+    if (has_text(refusal, "holds structured_") || has_text(refusal, "holds rectilinear_grid") ||
+        has_text(refusal, "holds multiblock"))
+      return by_paraview(path);
+    if (ending == ".pvd") return "; a .pvd is a list of files: give one of its meshes";
     if (cad_files.count(ending) != 0) return meshed_by_gmsh(path, 3, "vtk");
     if (ending == ".feb") return "; FEBio Studio converts it: File > Export FE Model..., " + with_ending(path, "vtk");
     if (ending == ".re2" || ending == ".rea")
@@ -356,6 +376,8 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
   // gmsh writes points and lines beside the faces. A damaged .vtk file cannot be converted.
   if (ending == ".vtk") return refusal.find("; a surface has") != std::string::npos ? by_gmsh(path, "stl") : "";
   if (surfaces_of_gmsh.count(ending) != 0) return by_gmsh(path, "stl");
+  if (faces_of_meshio.count(ending) != 0) return by_meshio(path, "vtu");
+  if (surfaces_of_paraview.count(ending) != 0) return by_paraview(path);
   if (cad_files.count(ending) != 0) return meshed_by_gmsh(path, 2, "stl");
   return surfaces_of_meshio.count(ending) != 0 ? by_meshio(path, "stl") : "";
 }

@@ -28,7 +28,7 @@ bool has_slits(const riis_orifice &orifice) {
   // The perimeter is less than that of a circle with a hundredth of the area.
   const double pi = std::acos(-1);
   const bool has_no_rim = orifice.perimeter * orifice.perimeter < 4 * pi * 0.01 * orifice.area;
-  return has_no_rim && orifice.area > 1e-3 * orifice.outline_area && orifice.effective_area > 0.5 * orifice.area;
+  return has_no_rim && orifice.area > 1e-3 * orifice.outline_area && orifice.effective_area < 0.5 * orifice.area;
 }
 
 namespace {

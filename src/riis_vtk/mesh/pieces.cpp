@@ -82,6 +82,8 @@ Declared declared_array(XmlAttributes attributes) {
   Declared array{value_of(attributes, "Name").value_or(""), value_of(attributes, "type").value_or("")};
   if (const auto n = value_of(attributes, "NumberOfComponents"); n && !read_number(*n, array.n_components))
     array.n_components = -1;
+  // dolfinx 0.5 gives scalars no components. VTK reads such arrays of a .vtu with one.
+  if (array.n_components == 0) array.n_components = 1;
   return array;
 }
 

@@ -98,18 +98,26 @@ class GmshFile {
   vtkSmartPointer<vtkUnstructuredGrid> read() {
     read_format();
     for (std::string section = next_section(); !section.empty(); section = next_section()) {
-      if (section == "Nodes") {
-        if (tags_) in_.refuse("has a second section $Nodes");
-        std::vector<std::int64_t> tags = is_new_ ? read_nodes() : read_old_nodes();
+      const bool is_parametric = section == "ParametricNodes" && !is_new_;
+      if (is_repeated(section)) {
+        skip_to_end_of(section);
+        continue;
+      }
+      const std::string_view begin = in_.rest();
+      if (section == "Nodes" || is_parametric) {
+        if (tags_) in_.refuse("has a second section $", section, ", which differs from the first");
+        std::vector<std::int64_t> tags = is_new_ ? read_nodes() : read_old_nodes(is_parametric);
         tags_.emplace(path_, std::move(tags));
+        nodes_ = begin.substr(0, begin.size() - in_.rest().size());
       } else if (section == "Elements") {
         if (!tags_) in_.refuse("has $Elements before $Nodes");
-        if (has_elements_) in_.refuse("has a second section $Elements");
+        if (has_elements_) in_.refuse("has a second section $Elements, which differs from the first");
         has_elements_ = true;
         is_new_ ? read_elements() : read_old_elements();
-      } else if (section == "Entities" && is_new_) {
+        elements_ = begin.substr(0, begin.size() - in_.rest().size());
+      } else if (section == "Entities" && is_new_ && groups_.empty()) {
         read_entities();
-      } else if (section == "PhysicalNames") {
+      } else if (section == "PhysicalNames" && names_.empty()) {
         read_names();
       } else {
         skip_to_end_of(section);
@@ -147,6 +155,13 @@ class GmshFile {
     const auto array = named_array<vtkStringArray>(region_names_array, static_cast<vtkIdType>(names_.size()));
     for (std::size_t i = 0; i < names_.size(); ++i) array->SetValue(static_cast<vtkIdType>(i), names_[i]);
     grid->GetFieldData()->AddArray(array);
+  }
+
+  // Returns whether a section has the bytes that were read before. gmsh writes the mesh again when it appends a view.
+  bool is_repeated(const std::string &section) const {
+    const std::string_view &before = section == "Elements" ? elements_ : nodes_;
+    const bool is_mesh = section == "Nodes" || section == "ParametricNodes" || section == "Elements";
+    return is_mesh && !before.empty() && in_.rest().substr(0, before.size()) == before;
   }
 
   static constexpr int int_bytes = 4, size_bytes = 8, real_bytes = 8;
@@ -233,14 +248,20 @@ class GmshFile {
     return n;
   }
 
-  // In text, a number takes at least a digit and a blank.
-  std::vector<std::int64_t> read_old_nodes() {
+  // In text, a number takes at least a digit and a blank. A parametric node also has its entity, and its parameters on a
+  // curve or a surface.
+  std::vector<std::int64_t> read_old_nodes(bool is_parametric) {
     const std::int64_t n = text_count(in_.is_binary ? int_bytes + 3 * real_bytes : 8, "nodes");
     std::vector<std::int64_t> tags(static_cast<std::size_t>(n));
     mesh_.xyz->Allocate(3 * n);
     for (std::int64_t &tag : tags) {
       tag = in_.integer(int_bytes);
       add_point();
+      if (!is_parametric) continue;
+      const std::int64_t dimension = in_.integer(int_bytes);
+      in_.integer(int_bytes);
+      const std::int64_t n_parameters = dimension == 1 || dimension == 2 ? dimension : 0;
+      for (std::int64_t k = 0; k < n_parameters; ++k) in_.real(real_bytes);
     }
     return tags;
   }
@@ -443,6 +464,7 @@ class GmshFile {
   const std::string &path_;
   Source in_;
   bool is_new_ = false, has_elements_ = false;
+  std::string_view nodes_, elements_;  // the bytes of the sections, without their first and last lines
   std::optional<NodeTags> tags_;
   std::map<std::array<std::int64_t, 2>, std::vector<std::int64_t>> groups_;  // by dimension and entity
   PlainGrid mesh_;
