@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/base/area_samples.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/array_view.hpp"

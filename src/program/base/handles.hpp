@@ -13,6 +13,7 @@
 
 #include "common/array_view.hpp"
 #include "program/base/refusal.hpp"
+#include "program/base/units.hpp"
 
 namespace riis::program {
 
@@ -39,6 +40,9 @@ inline riis_triangles triangles_of(const riis_surface *surface) {
 }
 inline riis_surface_info info_of(const riis_surface *surface) {
   return get<riis_surface_info>(riis_surface_get_info, surface);
+}
+inline Box box_of(const riis_surface_info &info) {
+  return {{info.lower[0], info.lower[1], info.lower[2]}, {info.upper[0], info.upper[1], info.upper[2]}};
 }
 inline riis_mark_list list_of(const riis_marks *marks, int32_t which) {
   return get<riis_mark_list>(riis_marks_get_list, marks, which);

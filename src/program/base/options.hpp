@@ -73,6 +73,7 @@ struct SeriesOptions {
 // Two points that the valve should separate, and their texts for messages.
 struct LeakCheck {
   const double *point(int end) const { return points.data() + 3 * end; }
+  [[noreturn]] void refuse(const std::string &why) const { throw Refusal{exit_code, subject + ": " + why}; }
 
   std::vector<double> points;  // (3, 2)
   std::string subject;

@@ -2,8 +2,6 @@
 #include "program/base/ranks.hpp"
 
 #include <cstring>
-#include <numeric>
-#include <string>
 
 #ifdef RIIS_PROGRAM_MPI
 #include <mpi.h>

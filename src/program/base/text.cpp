@@ -11,6 +11,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "common/nearest_name.hpp"
 #include "program/base/refusal.hpp"
 
 namespace riis::program {
@@ -100,6 +101,14 @@ std::string one_of(const std::vector<std::string> &names) {
   for (std::size_t i = 0; i < names.size(); ++i)
     text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + names[i];
   return text;
+}
+
+std::string did_you_mean(const std::string &word, const std::vector<std::string> &names, const char *before,
+                         const char *after) {
+  NearestName nearest(word);
+  for (const std::string &name : names) nearest.consider(name);
+  const std::string found(nearest.nearest());
+  return found.empty() ? "" : ", did you mean " + (before + found + after) + "?";
 }
 
 std::string system_text(int error) { return std::generic_category().message(error); }

@@ -48,7 +48,12 @@ struct Box {
   }
   void grow(const double *point) { grow(point, point); }
   void grow(const Box &other) { grow(other.lower, other.upper); }
+  // Returns the box with every side moved outwards.
+  Box widened(double by) const {
+    return {{lower[0] - by, lower[1] - by, lower[2] - by}, {upper[0] + by, upper[1] + by, upper[2] + by}};
+  }
   bool contains(const double *point) const { return meets(point, point); }
+  bool meets(const Box &other) const { return meets(other.lower, other.upper); }
   bool meets(const double *other_lower, const double *other_upper) const {
     for (int k = 0; k < 3; ++k)
       if (upper[k] < other_lower[k] || lower[k] > other_upper[k]) return false;

@@ -8,7 +8,6 @@
 #include <sstream>
 #include <utility>
 
-#include "common/nearest_name.hpp"
 #include "program/base/other_program.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
@@ -72,11 +71,11 @@ std::string hint_of(const CLI::App &app) {
   return name_of(app) + " --help lists the options";
 }
 
-std::string nearest_option(const CLI::App &app, const std::string &name) {
-  NearestName nearest(name);
+std::vector<std::string> names_of_options(const CLI::App &app) {
+  std::vector<std::string> names;
   for (const CLI::Option *option : app.get_options())
-    for (const std::string &known : option->get_lnames()) nearest.consider(known);
-  return std::string(nearest.nearest());
+    names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
+  return names;
 }
 
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
@@ -96,8 +95,7 @@ std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
     if (!text.empty()) text += "; ";
     const std::string name = argument.substr(0, argument.find('='));
     text += has_options ? name + " is not an option" : argument + " is one argument too many";
-    const std::string nearest = has_options && name.size() > 2 ? nearest_option(app, name.substr(2)) : "";
-    if (!nearest.empty()) text += ", did you mean --" + nearest + "?";
+    if (has_options && name.size() > 2) text += did_you_mean(name.substr(2), names_of_options(app), "--");
   }
   return text;
 }
@@ -110,14 +108,12 @@ std::vector<const CLI::App *> commands_of(const CLI::App &app) {
 const CLI::App &command_named(const CLI::App &app, const std::string &word) {
   const std::string hint = " (" + name_of(app) + " --help lists the commands)";
   if (looks_like_option(word)) refuse_usage(word + " stands before a command" + hint);
-  NearestName nearest(word);
+  std::vector<std::string> names;
   for (const CLI::App *command : commands_of(app)) {
     if (command->get_name() == word) return *command;
-    nearest.consider(command->get_name());
+    names.push_back(command->get_name());
   }
-  const std::string near(nearest.nearest());
-  refuse_usage("'" + word.substr(0, 64) + "' is not a command" + (near.empty() ? "" : ", did you mean " + near + "?") +
-               hint);
+  refuse_usage("'" + word.substr(0, 64) + "' is not a command" + did_you_mean(word, names) + hint);
 }
 
 // Refuses a command line whose first words are neither a complete command nor a request for help or the version.

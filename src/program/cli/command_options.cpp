@@ -48,17 +48,17 @@ std::int32_t parse_count(const std::string &text, const std::string &subject) {
   return n;
 }
 
-Amount parse_resistance(const std::string &text, const std::string &subject) {
-  return parse_amount(text, subject, a_resistance);
+// Returns a function that reads an amount of a quantity.
+auto amount_of(const Quantity &quantity) {
+  return [&](const std::string &text, const std::string &subject) { return parse_amount(text, subject, quantity); };
 }
 
-Amount above_zero(const Amount &amount) {
-  if (!(amount.number > 0)) refuse_usage(amount.subject + ": " + amount.text + " is not above 0");
-  return amount;
-}
-
-Amount parse_density(const std::string &text, const std::string &subject) {
-  return above_zero(parse_amount(text, subject, a_density));
+auto positive_amount_of(const Quantity &quantity) {
+  return [&](const std::string &text, const std::string &subject) {
+    Amount amount = parse_amount(text, subject, quantity);
+    if (!(amount.number > 0)) refuse_usage(subject + ": " + text + " is not above 0");
+    return amount;
+  };
 }
 
 std::optional<Unit> parse_unit(const std::string &text, const std::string &) { return unit_of(text); }
@@ -231,14 +231,14 @@ void declare_marking(Command &command, MarkOptions &options) {
   declare_half_thickness(command, options);
   CLI::Option *const resistance =
       command.parsed("--resistance", "R", "Write riis_K, R/eps times the delta function at each node; R in kg/(m s)",
-                     options.given_resistance, parse_resistance);
+                     options.given_resistance, amount_of(a_resistance));
   command
       .parsed("--k-unit", "UNIT", "Unit of riis_K (default of kg, m, s; g, cm, s; or g, mm, s)", options.chosen_K_unit,
               [](const std::string &text, const std::string &) { return text; })
       ->needs(resistance);
   command
       .parsed("--density", "RHO", "Density in kg/m3, by which OpenFOAM's fields of K are divided", options.density,
-              parse_density)
+              positive_amount_of(a_density))
       ->needs(resistance);
   command.parsed("--far-distance", "X", "riis_distance of nodes beyond the limit (default 1e30)", options.far_distance,
                  parse_number);
@@ -411,12 +411,12 @@ void declare_leaks(Command command, MarkOptions &options) {
   command
       .flag("--first-passage", "Also tell at which opening unmarked nodes first join the points", options.first_passage)
       ->needs(command.option("--between"));
-  CLI::Option *const resistance = command.parsed(
-      "--resistance", "R", "Resistance of the valve in kg/(m s), for the ideal leak", options.given_resistance,
-      [](const std::string &text, const std::string &name) { return above_zero(parse_resistance(text, name)); });
-  CLI::Option *const drop = command.parsed(
-      "--drop", "DP", "Pressure drop over the closed valve in Pa, for the ideal leak", options.given_drop,
-      [](const std::string &text, const std::string &name) { return parse_amount(text, name, a_pressure); });
+  CLI::Option *const resistance =
+      command.parsed("--resistance", "R", "Resistance of the valve in kg/(m s), for the ideal leak",
+                     options.given_resistance, positive_amount_of(a_resistance));
+  CLI::Option *const drop =
+      command.parsed("--drop", "DP", "Pressure drop over the closed valve in Pa, for the ideal leak",
+                     options.given_drop, amount_of(a_pressure));
   drop->needs(resistance);
   resistance->needs(drop);
   declare_surface_in_place(command, options);
@@ -487,7 +487,7 @@ void declare_export(Command command, ExportOptions &options) {
       ->required();
   command
       .parsed("--resistance", "R", "Resistance of the valve in kg/(m s), for the block of the solver's input",
-              options.given_resistance, parse_resistance)
+              options.given_resistance, amount_of(a_resistance))
       ->required();
   command.parsed("--opening-seconds", "T", "Open from 0 to 1 in this time, by a smooth ramp", options.opening_duration,
                  parse_positive_finite);
@@ -514,11 +514,9 @@ void declare_export(Command command, ExportOptions &options) {
   command.choice("--ring", "Ring of a bileaflet valve: face (default), scaffold, whose K is added, or none", ring_names,
                  options.ring);
   command.parsed("--density", "RHO", "Density of the fluid in kg/m3, for MESH (default that of blood, 1060)",
-                 options.given_density, parse_density);
+                 options.given_density, positive_amount_of(a_density));
   command.parsed("--viscosity", "MU", "Viscosity of the fluid in Pa s, for MESH (default that of blood, 0.004)",
-                 options.given_viscosity, [](const std::string &text, const std::string &name) {
-                   return above_zero(parse_amount(text, name, a_viscosity));
-                 });
+                 options.given_viscosity, positive_amount_of(a_viscosity));
   for (const char *name : {"--density", "--viscosity"}) command.option(name)->needs(command.option("MESH"));
   declare_loudness(command, options);
   declare_valve(command, options);

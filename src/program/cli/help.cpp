@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/cli/command_line.hpp"
 
-#include "common/nearest_name.hpp"
 #include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
 
 namespace riis::program {
 namespace {
@@ -387,13 +387,12 @@ std::string help_of(const std::string &command) {
 
 std::string text_of_topic(const std::string &name) {
   if (name.empty()) return list_of_topics();
-  NearestName nearest(name);
+  std::vector<std::string> names;
   for (const Topic &topic : topics) {
     if (name == topic.name) return topic.text + 1;  // after its first line break
-    nearest.consider(topic.name);
+    names.emplace_back(topic.name);
   }
-  const std::string near(nearest.nearest());
-  refuse_usage("'" + name.substr(0, 64) + "' is not a topic" + (near.empty() ? "" : ", did you mean " + near + "?") +
+  refuse_usage("'" + name.substr(0, 64) + "' is not a topic" + did_you_mean(name, names) +
                " (riis help lists the topics)");
 }
 

@@ -17,6 +17,10 @@ void run_states(const StatesOptions &options);
 // command takes, and as text for OpenFOAM, C and Fortran.
 void run_place(const PlaceOptions &options);
 
+// riis export. Writes a valve's opening and closing to a folder as files for svMultiPhysics, and prints the block of the solver's
+// input that names these files.
+void export_uris(const ExportOptions &options);
+
 // riis size-field. In: valves and their motion. Out: a grid of edge lengths that gmsh reads, small near the valves. The lengths
 // follow from the distances of the grid's points to the valves at all times.
 ExitCode run_size_field(const SizeFieldOptions &options);

@@ -10,7 +10,6 @@
 #include "program/mark/mesh_pieces.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/outputs.hpp"
-#include "program/svmultiphysics/uris_export.hpp"
 
 namespace riis::program {
 namespace {

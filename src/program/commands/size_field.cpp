@@ -121,13 +121,8 @@ Surface swept_surface(MovingValve &valve, double half_thickness, const Case &all
 // Returns the box around all points that are within reach of a surface.
 Box box_around(const std::vector<Surface> &surfaces, const std::vector<Edges> &edges) {
   Box box = empty_box();
-  for (std::size_t at = 0; at < surfaces.size(); ++at) {
-    const riis_surface_info info = info_of(surfaces[at]);
-    for (int k = 0; k < 3; ++k) {
-      box.lower[k] = std::min(box.lower[k], info.lower[k] - edges[at].reach());
-      box.upper[k] = std::max(box.upper[k], info.upper[k] + edges[at].reach());
-    }
-  }
+  for (std::size_t at = 0; at < surfaces.size(); ++at)
+    box.grow(box_of(info_of(surfaces[at])).widened(edges[at].reach()));
   return box;
 }
 

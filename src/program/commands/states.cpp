@@ -94,7 +94,7 @@ class Measured {
     check(riis_surface_update(surface_, valve_, nullptr), subject());
   }
 
-  bool is_valve() const { return valve_ != nullptr; }
+  const riis_valve *valve() const { return valve_; }  // null for a surface from a file
   std::string why_closed() { return valve_ ? program::why_closed(valve_, own_frame(options_)) : ""; }
 
   // Returns the openings or the times of the table.
@@ -141,18 +141,6 @@ bool is_skirt(const StatesOptions &options, const riis_leaflet &leaflet, const s
   return options.skirt && &leaflet == &leaflets.back();
 }
 
-std::vector<std::string> names_of_leaflets(const StatesOptions &options, const std::vector<riis_leaflet> &leaflets) {
-  const std::vector<std::string> known = leaflet_names(options);
-  std::vector<std::string> names;
-  for (const riis_leaflet &leaflet : leaflets) {
-    const auto at = static_cast<std::size_t>(leaflet.leaflet_id);
-    const std::string other =
-        is_skirt(options, leaflet, leaflets) ? "skirt" : "leaflet " + std::to_string(leaflet.leaflet_id);
-    names.push_back(at < known.size() ? known[at] : other);
-  }
-  return names;
-}
-
 State state_at(Measured &valve, double place, bool has_contacts) {
   valve.move_to(place);
   State state{place, valve.leaflets(), valve.orifice()};
@@ -163,19 +151,22 @@ State state_at(Measured &valve, double place, bool has_contacts) {
 
 // Returns the closed state's names, ids and disc, which all openings share.
 States frame_of(const StatesOptions &options, Measured &valve) {
-  if (valve.is_valve()) valve.move_to(0);
+  const bool is_valve = valve.valve() != nullptr;
+  if (is_valve) valve.move_to(0);
   const std::vector<riis_leaflet> leaflets = valve.leaflets();
   const riis_orifice orifice = valve.orifice();
-  States states{{}, names_of_leaflets(options, leaflets), "", "", orifice.outline_area, "", {}, ""};
-  states.is_of_file = !valve.is_valve();
+  States states{{}, {}, "", "", orifice.outline_area, "", {}, ""};
+  states.is_of_file = !is_valve;
   for (const riis_leaflet &leaflet : leaflets) {
+    const bool is_of_skirt = is_skirt(options, leaflet, leaflets);
     states.ids.push_back(leaflet.leaflet_id);
-    if (leaflet.free_edge == 0 && !is_skirt(options, leaflet, leaflets))
-      states.why_no_edges = valve.is_valve() ? "a leaflet has no side v = 1 on its rim"
-                                             : "a leaflet has no open edge besides the outline";
+    states.names.push_back(is_of_skirt ? "skirt" : name_of_leaflet(options, leaflet.leaflet_id));
+    if (leaflet.free_edge == 0 && !is_of_skirt)
+      states.why_no_edges =
+          is_valve ? "a leaflet has no side v = 1 on its rim" : "a leaflet has no open edge besides the outline";
   }
   // A rigid leaflet only turns, so its lengths do not change.
-  if (valve.is_valve() && options.valve == "bileaflet") states.why_no_edges = "the leaflets are rigid";
+  if (is_valve && options.valve == "bileaflet") states.why_no_edges = "the leaflets are rigid";
   if (orifice.outline == RIIS_OUTLINE_DISC) states.disc = "the disc of radius " + shown(orifice.radius);
   if (orifice.outline == RIIS_OUTLINE_ATTACHMENT) states.disc = "the outline of the attachment";
   if (orifice.outline == RIIS_OUTLINE_BOUNDARY) states.disc = "the outline of the open edges";
@@ -198,6 +189,7 @@ States measure_states(const StatesOptions &options) {
     states.states.push_back(state_at(valve, places[i], options.has_contacts));
     if (!states.states.back().orifice) states.disc.clear();
   }
+  if (valve.valve()) check_shape(options, valve.valve(), !options.params_open.empty());
   return states;
 }
 
@@ -394,10 +386,8 @@ std::string summary_of(const States &states, const StatesOptions &options) {
 void run_states(const StatesOptions &options) {
   const OutputLocks locks = check_outputs(options);
   const States states = measure_states(options);
-  if (!states.is_of_file) check_shape(options, make_valve(options).get(), !options.params_open.empty());
   write_text(options.output, csv_of(states));
-  if (options.quiet || options.output == "-") return;
-  write_text("-", summary_of(states, options));
+  if (!options.quiet && options.output != "-") write_text("-", summary_of(states, options));
 }
 
 }  // namespace riis::program

@@ -26,6 +26,8 @@ struct Case {
   std::vector<double> times() const;
   // Returns the name for the files and columns of one valve, or "" if it is the only valve.
   std::string part_of(std::size_t valve) const { return valves.size() == 1 ? "" : valves[valve].options.prefix; }
+  // Returns the beginning of a line about one valve, such as "mitral: ", or "" if it is the only valve.
+  std::string before(std::size_t valve) const { return valves.size() == 1 ? "" : part_of(valve) + ": "; }
   // Returns the name of a valve's surface in warnings.
   std::string surface_of(std::size_t valve) const;
 };

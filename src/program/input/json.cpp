@@ -5,9 +5,6 @@
 #include <set>
 #include <vector>
 
-#include "common/nearest_name.hpp"
-#include "program/base/refusal.hpp"
-
 namespace riis::program {
 
 namespace {
@@ -71,11 +68,8 @@ void check_keys(const std::string &path, const std::string &subject, const Json 
     refuse_file(path, subject + " must be an object with " + known + ", not of type " + value.type_name());
   for (const auto &item : value.items()) {
     if (std::find(keys.begin(), keys.end(), item.key()) != keys.end()) continue;
-    NearestName nearest(item.key());
-    for (const std::string &key : keys) nearest.consider(key);
-    const std::string meant(nearest.nearest());
-    refuse_file(path, subject + ": \"" + item.key() + "\" is unknown" +
-                          (meant.empty() ? "" : ", did you mean \"" + meant + "\"?") + "; there are: " + known);
+    refuse_file(path, subject + ": \"" + item.key() + "\" is unknown" + did_you_mean(item.key(), keys, "\"", "\"") +
+                          "; there are: " + known);
   }
 }
 

@@ -10,8 +10,6 @@
 #include <set>
 #include <utility>
 
-#include "common/nearest_name.hpp"
-#include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 
 namespace riis::program {
@@ -138,18 +136,13 @@ class Collector {
 
  private:
   [[noreturn]] void refuse_name(const std::string &name) const {
-    const std::string text = plain(name);
-    NearestName nearest(text);
-    std::string known;
-    for (const RoleWord &word : role_words) {
-      nearest.consider(word.word);
-      known += (known.empty() ? "" : ", ") + std::string(word.word);
-    }
-    for (const char *nadir : {"nadir_right", "nadir_left", "nadir_non_coronary"}) nearest.consider(nadir);
-    const std::string near(nearest.nearest());
+    std::vector<std::string> names;
+    for (const RoleWord &word : role_words) names.emplace_back(word.word);
+    const std::string known = joined_by(names, ", ");
+    names.insert(names.end(), {"nadir_right", "nadir_left", "nadir_non_coronary"});
     refuse_file(
         file_.path,
-        quoted(name) + " is not the name of a landmark" + (near.empty() ? "" : ", did you mean " + quoted(near) + "?") +
+        quoted(name) + " is not the name of a landmark" + did_you_mean(plain(name), names, "\"", "\"") +
             "; there are " + known +
             ", flow_from and flow_to; a nadir may name its cusp, as in nadir_left, a commissure its two, as in "
             "commissure_left_right, and a point of the attachment its cusp and a number, as in attachment_left_2");
@@ -160,6 +153,14 @@ class Collector {
   std::set<std::string> names_;
   std::set<std::pair<std::int32_t, std::pair<std::int32_t, std::int32_t>>> cusps_;
 };
+
+// Returns the coordinates in three cells of a row.
+std::array<double, 3> point_in_row(const std::string &path, const CsvFile::Row &row,
+                                   const std::array<std::size_t, 3> &cells) {
+  std::array<double, 3> point{};
+  for (std::size_t k = 0; k < 3; ++k) point[k] = number_in_file(path, row.cells[cells[k]], row.where);
+  return point;
+}
 
 // ---- What a file states ----
 
@@ -314,9 +315,7 @@ void read_fcsv(const std::string &text, LandmarkFile &file) {
     if (row.cells.size() <= last)
       refuse_file(path, row.where + " has " + std::to_string(row.cells.size()) + " of the " +
                             std::to_string(columns.size()) + " columns");
-    std::array<double, 3> point{};
-    for (std::size_t k = 0; k < 3; ++k) point[k] = number_in_file(path, row.cells[xyz[k]], row.where);
-    to.add(row.cells[label], point);
+    to.add(row.cells[label], point_in_row(path, row, xyz));
   }
   to.finish();
 }
@@ -332,9 +331,7 @@ void read_csv(const std::string &text, LandmarkFile &file) {
     const bool is_heading = &row == &csv.rows.front() && plain(row.cells[1]) == "x" && plain(row.cells[2]) == "y" &&
                             plain(row.cells[3]) == "z";
     if (is_heading) continue;
-    std::array<double, 3> point{};
-    for (std::size_t k = 0; k < 3; ++k) point[k] = number_in_file(path, row.cells[k + 1], row.where);
-    to.add(row.cells[0], point);
+    to.add(row.cells[0], point_in_row(path, row, {1, 2, 3}));
   }
   const auto value_of = [&](const char *key) { return stated.count(key) ? stated.at(key) : std::string(); };
   if (!stated.count("unit"))
@@ -350,10 +347,9 @@ void read_csv(const std::string &text, LandmarkFile &file) {
     if (!(*file.noise >= 0)) refuse_file(path, "noise: " + value_of("noise") + " is below 0");
   }
   if (stated.count("flow")) {
-    const std::vector<std::string> cells = csv_cells(value_of("flow"));
-    if (cells.size() != 3) refuse_file(path, "flow: " + quoted(value_of("flow")) + " is not X,Y,Z");
-    file.flow.emplace();
-    for (std::size_t k = 0; k < 3; ++k) (*file.flow)[k] = number_in_file(path, cells[k], "flow");
+    const CsvFile::Row flow{"flow", csv_cells(value_of("flow"))};
+    if (flow.cells.size() != 3) refuse_file(path, "flow: " + quoted(value_of("flow")) + " is not X,Y,Z");
+    file.flow = point_in_row(path, flow, {0, 1, 2});
   }
   to.finish();
 }

@@ -216,6 +216,12 @@ std::vector<std::string> leaflet_names(const ValveOptions &options) {
   return {};
 }
 
+std::string name_of_leaflet(const ValveOptions &options, std::int32_t leaflet, const char *word) {
+  const std::vector<std::string> names = leaflet_names(options);
+  const auto at = static_cast<std::size_t>(leaflet);
+  return at < names.size() ? names[at] : word + std::to_string(leaflet);
+}
+
 int64_t count_leaflets(const riis_surface *surface) {
   const riis_triangles triangles = triangles_of(surface);
   const std::set<int32_t> ids(triangles.leaflet_id, triangles.leaflet_id + triangles.n_triangles);

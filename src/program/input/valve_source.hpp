@@ -79,6 +79,8 @@ Surface make_surface(const ValveSource &source, FileVelocity velocity);
 // Returns the names of a valve's leaflets, or of the files if each leaflet has one. Returns no names for a single file, because
 // its leaflets only have numbers.
 std::vector<std::string> leaflet_names(const ValveOptions &options);
+// Returns the name of a leaflet, or its number after a word.
+std::string name_of_leaflet(const ValveOptions &options, std::int32_t leaflet, const char *word = "leaflet ");
 int64_t count_leaflets(const riis_surface *surface);
 
 // --surface FILE.pvd or FILE.dat: the surface of a motion given by frames.

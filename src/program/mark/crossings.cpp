@@ -29,22 +29,21 @@ riis_crossing_list crossings_of(const ValveOptions &options, const riis_surface 
 
 // Returns options that measure distances to triangles. Crossings do not depend on the method for distances, and this method is
 // the fastest to prepare.
-riis_surface_options by_triangles(const ValveOptions &options) {
+riis_surface_options by_triangles(const ValveOptions &options, std::int32_t triangulation) {
   riis_surface_options how = options.surface_options;
+  how.triangulation = triangulation;
   how.measure = RIIS_MEASURE_TRIANGLES;
   how.measure_tolerance = RIIS_AUTO;
   return how;
 }
 
 bool can_open(const ValveOptions &options, riis_valve *valve) {
-  riis_surface_options how = by_triangles(options);
-  how.triangulation = RIIS_TRIANGULATION_ADAPTED;
-  return why_closed(valve, how).empty();
+  return why_closed(valve, by_triangles(options, RIIS_TRIANGULATION_ADAPTED)).empty();
 }
 
 void sweep_openings(const ValveOptions &options, riis_valve *valve, CrossingReport &report) {
   check(riis_valve_set_scalar(valve, "opening", 0));
-  const riis_surface_options how = by_triangles(options);
+  const riis_surface_options how = by_triangles(options, options.surface_options.triangulation);
   const auto surface = create_for<Surface>(subject_of(options), riis_surface_create, valve, &how);
   StepProgress progress("looking for crossings", n_openings, options.quiet);
   for (const double opening : openings_from_0_to_1(n_openings)) {
@@ -58,22 +57,16 @@ void sweep_openings(const ValveOptions &options, riis_valve *valve, CrossingRepo
   }
 }
 
-std::string leaflet_text(const ValveOptions &options, int32_t leaflet) {
-  const std::vector<std::string> names = leaflet_names(options);
-  const auto at = static_cast<std::size_t>(leaflet);
-  return at < names.size() ? names[at] : std::to_string(leaflet);
-}
-
 // --quiet does not silence this warning, because such a valve cannot exist, and its normals contradict each other.
 void warn_of_crossings(const ValveOptions &options, const CrossingReport &report, const std::string &part,
                        const std::string &advice) {
   const riis_crossing_list &found = report.found;
   const std::string at = report.opening ? printed(" at opening %g", *report.opening) : "";
   const bool is_one_leaflet = found.deepest_leaflet_id[0] == found.deepest_leaflet_id[1];
-  const std::string first = leaflet_text(options, found.deepest_leaflet_id[0]);
-  const std::string who =
-      is_one_leaflet ? "leaflet " + first + " crosses itself"
-                     : "leaflets " + first + " and " + leaflet_text(options, found.deepest_leaflet_id[1]) + " cross";
+  const std::string first = name_of_leaflet(options, found.deepest_leaflet_id[0], "");
+  const std::string who = is_one_leaflet ? "leaflet " + first + " crosses itself"
+                                         : "leaflets " + first + " and " +
+                                               name_of_leaflet(options, found.deepest_leaflet_id[1], "") + " cross";
   // place_text rounds by an edge's length. The mean length of a pair's intersection stands for the edge length, because both are
   // about equal.
   warn((part.empty() ? "" : part + ": ") + who + at + ": " + counted(found.n_pairs, "pair") +
@@ -123,8 +116,7 @@ std::optional<CrossingReport> check_shape(const ValveOptions &options, const rii
   // Hinges reach into recesses of the housing, and the model of the housing lacks these recesses. So crossings with the housing
   // do not count.
   if (options.valve == "bileaflet") check(riis_valve_set_scalar(copy, "ring_height", 0));
-  riis_surface_options how = by_triangles(options);
-  how.triangulation = RIIS_TRIANGULATION_ADAPTED;
+  const riis_surface_options how = by_triangles(options, RIIS_TRIANGULATION_ADAPTED);
   CrossingReport report;
   for (const double opening : {0.0, 0.5, 1.0}) {
     const Surface surface = surface_at(copy, opening, how);

@@ -118,7 +118,7 @@ MeshLeaks::MeshLeaks(const MarkOptions &options, const MeshPieces &mesh, const r
 
 void MeshLeaks::add(Piece &piece, riis_marks *marks) {
   view(boxes_)[piece.number] = piece.nodes.box();
-  if (!piece.nodes.box().meets(info_.lower, info_.upper)) return;
+  if (!piece.nodes.box().meets(box_of(info_))) return;
   add(piece, surface_, marks, info_.half_thickness, stats_of(marks).complete != 0, found_);
 }
 
@@ -151,7 +151,7 @@ void MeshLeaks::judge(ValveReport &report) {
   // In a whole mesh, the keys are the nodes' numbers.
   for (const KeyedEdge &edge : edges)
     if (mesh_.is_whole())
-      for (const NodeKey &end : {edge.p, edge.q}) leaks.edges.push_back(static_cast<std::int64_t>(end.a));
+      for (const NodeKey &end : {edge.p, edge.q}) leaks.edges.push_back(static_cast<std::int64_t>(end[0]));
   if (options_.check_leaks) return;
   if (leaks.found.n_edges > 0) {
     if (report.marks.complete)
@@ -174,7 +174,7 @@ std::optional<double> MeshLeaks::left(double half_thickness) const {
     add(piece, surface, marks, half_thickness, true, found);
   };
   mesh_.for_each_own(mark_again, nullptr,
-                     [&](std::int64_t number) { return view(boxes_)[number].meets(info.lower, info.upper); });
+                     [&](std::int64_t number) { return view(boxes_)[number].meets(box_of(info)); });
   const riis_leak_list left = summary_of(gathered(found));
   return left.n_edges == 0 ? std::nullopt : std::optional(left.half_thickness);
 }
@@ -198,13 +198,6 @@ std::vector<std::int64_t> BandMeasures::add(const Piece &piece, const riis_marks
   return regions;
 }
 
-void BandMeasures::Lengths::add(const Lengths &other) {
-  n += other.n;
-  sum += other.sum;
-  shortest = std::min(shortest, other.shortest);
-  longest = std::max(longest, other.longest);
-}
-
 void BandMeasures::add_lengths(const Piece &piece, const riis_mark_list &marked) {
   const PieceNodes &nodes = piece.nodes;
   std::vector<std::uint8_t> is_marked(static_cast<std::size_t>(nodes.n()));
@@ -220,7 +213,7 @@ void BandMeasures::add_lengths(const Piece &piece, const riis_mark_list &marked)
       if (nodes.is_shared(i) && nodes.is_shared(j))
         shared_.push_back(edge_between(nodes.key(i), nodes.key(j), length));
       else
-        lengths_.add({1, length, length, length});
+        lengths_.add(length);
     });
   }
 }
@@ -228,16 +221,8 @@ void BandMeasures::add_lengths(const Piece &piece, const riis_mark_list &marked)
 void BandMeasures::judge(const MatchedNodes &matched, double half_thickness, FlowReport &report) const {
   Lengths all;
   for (const Lengths &lengths : ranks::gather(std::vector<Lengths>{lengths_})) all.add(lengths);
-  for (const KeyedEdge &edge : gathered(shared_)) all.add({1, edge.length, edge.length, edge.length});
-  riis_cells_across cells{0, 0, 0, 0, 0, 0, half_thickness, all.n};
-  if (all.n > 0) {
-    const double mean =
-        std::clamp(static_cast<double>(all.sum / static_cast<long double>(all.n)), all.shortest, all.longest);
-    const double across = 2 * half_thickness;
-    cells = {across / all.longest, across / mean, across / all.shortest, all.shortest, mean, all.longest,
-             half_thickness,       all.n};
-  }
-  report.cells = of_whole_.value_or(cells);
+  for (const KeyedEdge &edge : gathered(shared_)) all.add(edge.length);
+  report.cells = of_whole_.value_or(all.across(half_thickness));
   report.n_open_regions = ranks::sum(n_regions_) - matched.n_joins();
 }
 

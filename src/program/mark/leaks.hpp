@@ -7,12 +7,12 @@
 #include <riis/riis_vtk.h>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "common/edge_lengths.hpp"
 #include "program/base/options.hpp"
 #include "program/mark/mesh_pieces.hpp"
 #include "program/output/report.hpp"
@@ -76,14 +76,6 @@ struct PieceEnd {
   std::int64_t piece, node, id;
 };
 
-struct FoundPassage {
-  riis_passage found;
-  bool is_end;  // whether the node is one of the ends
-};
-// Finds the widest passage in a mesh in pieces, as riis_find_passage does in a whole mesh.
-FoundPassage find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
-                          const PieceEnd (&ends)[2]);
-
 // Whether unmarked nodes of all pieces join the two points of options.check_leaks. Without points, it does nothing.
 class PassageCheck {
  public:
@@ -98,7 +90,7 @@ class PassageCheck {
  private:
   // Returns the node of all pieces that is nearest to an end. Its longest edge may be in another piece.
   std::optional<PieceEnd> nearest(int end, bool has_ids) const;
-  FoundPassage find(const riis_surface *surface) const;
+  PassageReport find(const riis_surface *surface) const;
   double longest_edge_at(const riis_passage &found, const MeshCounts &counts) const;
   // Finds the opening at which unmarked nodes first join the ends. Each opening reads all pieces.
   riis_first_passage first_of(const riis_valve *valve) const;
@@ -119,14 +111,8 @@ class BandMeasures {
   void judge(const MatchedNodes &matched, double half_thickness, FlowReport &report) const;
 
  private:
-  // Lengths of the edges with a marked node.
-  struct Lengths {
-    std::int64_t n = 0;
-    long double sum = 0;  // so that the mean hardly depends on the pieces
-    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
-
-    void add(const Lengths &other);
-  };
+  // Lengths of the edges with a marked node. The sum is long, so that the mean hardly depends on the pieces.
+  using Lengths = EdgeLengths<long double>;
   void add_lengths(const Piece &piece, const riis_mark_list &marked);
 
   std::optional<riis_cells_across> of_whole_;

@@ -2,7 +2,6 @@
 #include "program/mark/marking.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -29,10 +28,9 @@ Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valv
   for (const MovingValve &valve : valves) {
     const double half_thickness = info_of(valve.surface()).half_thickness;
     if (half_thickness != together.half_thickness)
-      throw Refusal{all.options.check_leaks->exit_code,
-                    all.options.check_leaks->subject + ": the valves must have one half thickness; that of " +
-                        first.options().prefix + " is " + shown(together.half_thickness) + ", that of " +
-                        valve.options().prefix + " " + shown(half_thickness)};
+      all.options.check_leaks->refuse("the valves must have one half thickness; that of " + first.options().prefix +
+                                      " is " + shown(together.half_thickness) + ", that of " + valve.options().prefix +
+                                      " " + shown(half_thickness));
   }
   return joined_surface(valves, &together);
 }
@@ -71,6 +69,27 @@ ResistanceReport report_of_resistance(const MarkOptions &own, const MarkOptions 
   report.K_unit = own.K_unit;
   if (own.density) report.density = own.density->number;
   return report;
+}
+
+// Refuses to replace an array of the mesh unless the user gave --replace.
+void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh) {
+  if (options.output.empty() || options.replace) return;
+  for (const std::string &name : names) {
+    int32_t has = 0;
+    check(riis_vtk_mesh_has_point_array(mesh, name.c_str(), &has));
+    if (!has) continue;
+    refuse_usage(options.mesh + " already has an array " + name +
+                 ": write --replace to replace it, or --prefix NAME for other arrays beside it");
+  }
+}
+
+// Returns PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and the names of the arrays of the given fields.
+std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields) {
+  std::vector<std::string> names = {prefix + "_marked", prefix + "_distance", prefix + "_leaflet"};
+  if (fields & RIIS_FIELD_NORMAL) names.push_back(prefix + "_normal");
+  if (fields & RIIS_FIELD_SIDE) names.push_back(prefix + "_side");
+  if (fields & RIIS_FIELD_VELOCITY) names.push_back(prefix + "_velocity");
+  return names;
 }
 
 // Moves each valve to the first of the times whose opening is the first in an order.
@@ -242,9 +261,7 @@ void Marking::mark_at_all_times(Piece &piece) {
       if (!all_.is_series()) continue;
       const riis_mark_list within = list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT);
       for (std::int64_t k = 0; k < within.n_nodes; ++k) view(is_near)[within.node_id[k]] = 1;
-      if (options().series.movie.empty()) continue;
-      const riis_surface_info info = info_of(valves_[i].surface());
-      swept_.grow(info.lower, info.upper);
+      if (!options().series.movie.empty()) swept_.grow(box_of(info_of(valves_[i].surface())));
     }
   }
   near_.clear();
@@ -341,8 +358,7 @@ void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
     compare_units(i, units_left_open(situation));
     if (!warning) continue;
     if (warning->cause == Cause::units) all_.options.has_doubted_unit = all_.valves[i].options.has_doubted_unit = true;
-    const std::string part = all_.part_of(i);
-    warning->text.insert(0, part.empty() ? "" : part + ": ");
+    warning->text.insert(0, all_.before(i));
     warnings.push_back(*warning);
   }
   if (!are_complete)
@@ -404,9 +420,7 @@ void Marking::compare_units(std::size_t i, const std::vector<PossibleUnit> &unit
   const std::vector<std::int64_t> n_marked = counts.sums();
   for (std::size_t k = 0; k < units.size(); ++k)
     text += (k == 0 ? "" : ", ") + units[k].write + " marks " + counted(n_marked[k], "node");
-  const std::string part = all_.part_of(i);
-  if (ranks::is_first())
-    std::fprintf(stderr, "riis: %sthe unit is not sure: %s\n", part.empty() ? "" : (part + ": ").c_str(), text.c_str());
+  print_line(all_.before(i) + "the unit is not sure: " + text);
 }
 
 // Measures the orifices. In a series, each valve is measured where it is most open.

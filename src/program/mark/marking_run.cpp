@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/mark/marking.hpp"
 
-#include <cstdio>
+#include <algorithm>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -58,10 +58,54 @@ MeshFile part_of(const riis_vtk_mesh *file, const std::vector<std::int64_t> &nod
   return create<MeshFile>(riis_vtk_mesh_extract, file, view(node_ids).size(), node_ids.data());
 }
 
-MeshFile copy_of(const riis_vtk_mesh *file, std::int64_t n_nodes) {
+MeshFile copy_of_mesh(const riis_vtk_mesh *file, std::int64_t n_nodes) {
   std::vector<std::int64_t> all(static_cast<std::size_t>(n_nodes));
   std::iota(all.begin(), all.end(), 0);
   return part_of(file, all);
+}
+
+// The times of the first steps do not count, because these steps sort the mesh's nodes and allocate memory that later steps
+// reuse.
+constexpr int n_first_steps = 2;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Measures for --steps what a time step of a moving valve costs in a mesh prepared for many markings. It moves the opening
+// of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step. Throws a Refusal
+// for a valve that cannot move.
+StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file) {
+  const Stage stage("timing " + std::to_string(options.n_steps) + " steps", options.quiet);
+  const riis_mark_options &how = options.mark_options;
+  FileNodes nodes(file, options.mesh);
+  std::optional<FileNodes::Lent> lent;
+  if (needs_adjacency(how.search)) {
+    nodes.find_neighbors(how.n_threads);
+    lent.emplace(nodes);
+  }
+  const Valve moved = copy_of(valve);
+  const auto surface = create<Surface>(riis_surface_create, moved, &options.surface_options);
+  const Marks result = new_result();
+  std::vector<double> of_surface, of_marking;
+  // The opening goes up to 1, then down to 0, and so on.
+  double opening = opening_of(valve), change = opening_of_step;
+  for (int i = 0; i < n_first_steps + options.n_steps; ++i) {
+    if (opening + change > 1 || opening + change < 0) change = -change;
+    opening = std::clamp(opening + change, 0.0, 1.0);
+    const Stage step("", true);
+    check(riis_valve_set_scalar(moved, "opening", opening), "--steps");
+    check(riis_surface_update(surface, moved, nullptr), "--steps");
+    const double updated = step.seconds();
+    check(riis_mark_nodes(surface, nodes.mesh(), &how, result), options.mesh);
+    const double marked = step.seconds();
+    if (i < n_first_steps) continue;
+    of_surface.push_back(updated);
+    of_marking.push_back(marked - updated);
+  }
+  return {options.n_steps, stats_of(result).search, median(of_surface), median(of_marking)};
 }
 
 void write_stats(const MarkOptions &options, const Report &report) {
@@ -177,7 +221,8 @@ class MarkingRun {
     std::optional<RunPictures> pictures;
     // Pictures get a mesh of their own, because they show the whole mesh and store other arrays in it.
     if (RunPictures::are_wanted(all_.options))
-      pictures.emplace(all_, piece.file ? std::move(piece.file) : copy_of(file.get(), n_of_piece), marking_.swept());
+      pictures.emplace(all_, piece.file ? std::move(piece.file) : copy_of_mesh(file.get(), n_of_piece),
+                       marking_.swept());
     piece.file.reset();
     FileNodes nodes(file.get(), piece.path);
     if (mesh_.is_whole()) {
@@ -224,10 +269,9 @@ class MarkingRun {
     std::int64_t n_bytes = 0;
     check(riis_vtk_mesh_get_file_size(file, &n_bytes));
     const auto n = static_cast<double>(times_.size());
-    std::fprintf(stderr, "riis: writing %s with %s of %s nodes, %s in all, to %s\n",
-                 counted(view(times_).size(), "file").c_str(), grouped(nodes.n()).c_str(),
-                 grouped(n_nodes_of_mesh).c_str(), bytes_text(n * static_cast<double>(n_bytes)).c_str(),
-                 files_.folder().c_str());
+    print_line("writing " + counted(view(times_).size(), "file") + " with " + grouped(nodes.n()) + " of " +
+               grouped(n_nodes_of_mesh) + " nodes, " + bytes_text(n * static_cast<double>(n_bytes)) + " in all, to " +
+               files_.folder());
   }
 
   // Writes the surfaces of a step, at which the valves are, and notes that the step is complete.
@@ -338,11 +382,10 @@ ExitCode run_case(Case &all) {
   MarkingRun run(all, mesh);
   if (run.run()) {
     write_report(options, run.report());
-  } else if (ranks::is_first()) {
-    if (mesh.is_whole())
-      std::fprintf(stderr, "riis: interrupted: %zu of %zu written\n", run.n_done(), all.times().size());
-    else
-      std::fprintf(stderr, "riis: interrupted: not all pieces are written\n");
+  } else {
+    print_line("interrupted: " + (mesh.is_whole() ? std::to_string(run.n_done()) + " of " +
+                                                        std::to_string(all.times().size()) + " written"
+                                                  : "not all pieces are written"));
   }
   return options.mesh.empty() || options.allow_none || run.has_marks() ? exit_fine : exit_none_marked;
 }

@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "program/base/handles.hpp"
-#include "program/base/progress.hpp"
 #include "program/base/refusal.hpp"
-#include "program/input/valve_source.hpp"
 
 namespace riis::program {
 
@@ -32,38 +29,6 @@ riis_mark_options how_to_mark_again(const MarkOptions &options, double limit) {
 }
 
 bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
-
-void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
-  const double origin[3] = {0, 0, 0};
-  const auto mesh = create<Mesh>(riis_mesh_create, 1, origin, origin + 1, origin + 2, 3);
-  riis_mark_options mark_options = options.mark_options;
-  if (needs_adjacency(mark_options.search)) mark_options.search = RIIS_SEARCH_EXHAUSTIVE;
-  const Marks result = marks_of(surface, mesh, mark_options);
-  auto dense = defaults<riis_dense_arrays>();
-  dense.n_nodes = 1;
-  dense.far_distance = options.far_distance;
-  check(riis_marks_get_dense(result, &dense));
-  ResistanceSum(1, ResistanceSum::WithVelocity::no).add(options, result);
-}
-
-void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh) {
-  if (options.output.empty() || options.replace) return;
-  for (const std::string &name : names) {
-    int32_t has = 0;
-    check(riis_vtk_mesh_has_point_array(mesh, name.c_str(), &has));
-    if (!has) continue;
-    refuse_usage(options.mesh + " already has an array " + name +
-                 ": write --replace to replace it, or --prefix NAME for other arrays beside it");
-  }
-}
-
-std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields) {
-  std::vector<std::string> names = {prefix + "_marked", prefix + "_distance", prefix + "_leaflet"};
-  if (fields & RIIS_FIELD_NORMAL) names.push_back(prefix + "_normal");
-  if (fields & RIIS_FIELD_SIDE) names.push_back(prefix + "_side");
-  if (fields & RIIS_FIELD_VELOCITY) names.push_back(prefix + "_velocity");
-  return names;
-}
 
 ResistanceSum::ResistanceSum(int64_t n_nodes, WithVelocity with_velocity)
     : n_nodes_(n_nodes),
@@ -94,53 +59,6 @@ void ResistanceSum::set_arrays(const std::string &prefix, riis_vtk_mesh *file) c
   };
   set(prefix + "_K", 1, K_, K_unit_);
   if (!K_u_surface_.empty()) set(prefix + "_K_u_surface", 3, K_u_surface_, K_u_surface_unit_);
-}
-
-// ---- Steps ----
-
-namespace {
-
-// The times of the first steps do not count, because these steps sort the mesh's nodes and allocate memory that later steps
-// reuse.
-constexpr int n_first_steps = 2;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
-
-StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file) {
-  const Stage stage("timing " + std::to_string(options.n_steps) + " steps", options.quiet);
-  const riis_mark_options &how = options.mark_options;
-  FileNodes nodes(file, options.mesh);
-  std::optional<FileNodes::Lent> lent;
-  if (needs_adjacency(how.search)) {
-    nodes.find_neighbors(how.n_threads);
-    lent.emplace(nodes);
-  }
-  const Valve moved = copy_of(valve);
-  const auto surface = create<Surface>(riis_surface_create, moved, &options.surface_options);
-  const Marks result = new_result();
-  std::vector<double> of_surface, of_marking;
-  // The opening goes up to 1, then down to 0, and so on.
-  double opening = opening_of(valve), change = opening_of_step;
-  for (int i = 0; i < n_first_steps + options.n_steps; ++i) {
-    if (opening + change > 1 || opening + change < 0) change = -change;
-    opening = std::clamp(opening + change, 0.0, 1.0);
-    const Stage step("", true);
-    check(riis_valve_set_scalar(moved, "opening", opening), "--steps");
-    check(riis_surface_update(surface, moved, nullptr), "--steps");
-    const double updated = step.seconds();
-    check(riis_mark_nodes(surface, nodes.mesh(), &how, result), options.mesh);
-    const double marked = step.seconds();
-    if (i < n_first_steps) continue;
-    of_surface.push_back(updated);
-    of_marking.push_back(marked - updated);
-  }
-  return {options.n_steps, stats_of(result).search, median(of_surface), median(of_marking)};
 }
 
 double distance_between(const double *p, const double *q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }

@@ -9,7 +9,6 @@
 
 #include "program/base/handles.hpp"
 #include "program/base/options.hpp"
-#include "program/output/report.hpp"
 
 namespace riis::program {
 
@@ -19,15 +18,7 @@ Marks marks_of(const riis_surface *surface, riis_mesh *mesh, const riis_mark_opt
 // Returns the options for a surface other than that of the user's marks: any search, up to a limit.
 riis_mark_options how_to_mark_again(const MarkOptions &options, double limit = RIIS_AUTO);
 
-// Marks a single node. So the library refuses bad options before a large mesh is read and marked.
-void rehearse_marking(const MarkOptions &options, const riis_surface *surface);
 bool needs_adjacency(int32_t search);
-
-// Refuses to replace an array of the mesh unless the user gave --replace.
-void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh);
-
-// Returns PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and the names of the arrays of the given fields.
-std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields);
 
 // K and K u_surface at every node, summed over the valves that have a resistance.
 class ResistanceSum {
@@ -44,11 +35,6 @@ class ResistanceSum {
   std::string K_unit_, K_u_surface_unit_;  // "" if not known
   bool has_any_ = false;
 };
-
-// Measures for --steps what a time step of a moving valve costs in a mesh prepared for many markings. It moves the opening
-// of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step. Throws a Refusal
-// for a valve that cannot move.
-StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file);
 
 double distance_between(const double *p, const double *q);
 

@@ -35,18 +35,12 @@ MeshPieces::MeshPieces(const MarkOptions &options) : options_(options), is_whole
 MeshPieces::~MeshPieces() = default;
 
 MeshFile MeshPieces::read(std::int64_t piece) const {
-  if (is_whole_) {
-    MeshFile mesh = read_mesh_file(path(), cells_where());
-    if (cells_where().empty()) regions_ = text_of_regions(path(), mesh.get());
-    if (options_.at_cells) check(riis_vtk_mesh_use_centers(mesh), path());
-    return mesh;
-  }
-  auto mesh = create<MeshFile>(riis_vtk_pieces_read_mesh, list_, piece);
-  std::int64_t n_chosen = 0;
-  if (!cells_where().empty())
-    check(riis_vtk_mesh_choose_cells(mesh, cells_where().c_str(), &n_chosen));
-  else if (regions_.empty())
-    regions_ = text_of_regions(path(), mesh.get());
+  MeshFile mesh =
+      is_whole_ ? read_mesh_file(path(), cells_where()) : create<MeshFile>(riis_vtk_pieces_read_mesh, list_, piece);
+  std::int64_t n_chosen = 0;  // a piece may have no cell of the chosen ones
+  if (!is_whole_ && !cells_where().empty()) check(riis_vtk_mesh_choose_cells(mesh, cells_where().c_str(), &n_chosen));
+  if (cells_where().empty() && regions_.empty()) regions_ = text_of_regions(path(), mesh.get());
+  if (options_.at_cells) check(riis_vtk_mesh_use_centers(mesh), path());
   return mesh;
 }
 
@@ -162,19 +156,15 @@ Piece::Piece(std::int64_t its_number, std::string its_path, MeshFile its_file, c
 
 void MeshCounts::add(const Piece &piece) {
   const PieceNodes &nodes = piece.nodes;
-  n_cells += nodes.counts().n_cells;
-  n_volume_cells += nodes.counts().n_volume_cells;
-  n_cells_left_out += nodes.counts().n_cells_left_out;
-  if (nodes.n() == 0) return;
-  ++n_with_nodes;
-  n_with_ids += nodes.has_ids();
-  for (std::int64_t i = 0; i < nodes.n(); ++i) n_nodes += nodes.is_inside(i);
-  box.grow(nodes.box());
-  moments.add(nodes.moments());
-  MeshCounts edges;
-  check(riis_vtk_mesh_get_median_edge(piece.file.get(), &edges.median_edge));
-  if (edges.median_edge > 0) edges.n_edge_cells = static_cast<double>(nodes.counts().n_cells);
-  add(edges);
+  const riis_vtk_sharing &cells = nodes.counts();
+  MeshCounts own{
+      0, cells.n_cells, cells.n_volume_cells, cells.n_cells_left_out, nodes.n() > 0, nodes.n() > 0 && nodes.has_ids()};
+  for (std::int64_t i = 0; i < nodes.n(); ++i) own.n_nodes += nodes.is_inside(i);
+  own.box = nodes.box();
+  own.moments = nodes.moments();
+  if (nodes.n() > 0) check(riis_vtk_mesh_get_median_edge(piece.file.get(), &own.median_edge));
+  if (own.median_edge > 0) own.n_edge_cells = static_cast<double>(cells.n_cells);
+  add(own);
 }
 
 void MeshCounts::add(const MeshCounts &other) {
@@ -246,7 +236,7 @@ std::vector<SharedNode> in_one_list(std::vector<std::vector<SharedNode>> by_piec
 template <class Node>
 std::vector<Node> shared_out(std::vector<Node> nodes) {
   const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
-  return ranks::exchange(std::move(nodes), [=](const Node &node) { return mixed(node.key.a) % n_ranks; });
+  return ranks::exchange(std::move(nodes), [=](const Node &node) { return mixed(node.key[0]) % n_ranks; });
 }
 
 template <class T>
@@ -277,8 +267,8 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
       const JoinedRegions joined{p, q};
       if (!(p == q) && (own.joined.empty() || !(own.joined.back() == joined))) own.joined.push_back(joined);
     }
-    if (has_ids && end < nodes.size() && nodes[end].key.a == first.key.a)
-      refuse_data("the node with the global id " + std::to_string(static_cast<std::int64_t>(first.key.a)) +
+    if (has_ids && end < nodes.size() && nodes[end].key[0] == first.key[0])
+      refuse_data("the node with the global id " + std::to_string(static_cast<std::int64_t>(first.key[0])) +
                   " is at one place in " + view(files)[first.piece] + " and at another in " +
                   view(files)[nodes[end].piece]);
     ++own.n_nodes;

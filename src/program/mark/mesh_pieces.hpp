@@ -6,6 +6,7 @@
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -68,11 +69,7 @@ class MeshPieces {
   mutable std::string regions_;          // about the first piece with domains that touch
 };
 
-struct NodeKey {
-  std::uint64_t a, b;
-  bool operator<(const NodeKey &other) const { return std::tie(a, b) < std::tie(other.a, other.b); }
-  bool operator==(const NodeKey &other) const { return a == other.a && b == other.b; }
-};
+using NodeKey = std::array<std::uint64_t, 2>;
 
 // The nodes of one piece. In a whole mesh, all nodes are inside, and a key is the node's number. In a piece with global ids, a
 // key is the id and a hash of the coordinates. Without, a key is a hash of 128 bits of the coordinates. The probability that two
@@ -134,7 +131,7 @@ struct MeshCounts {
   std::int64_t n_with_nodes = 0, n_with_ids = 0;  // pieces
   double median_edge = 0, n_edge_cells = 0;       // the mean of the pieces' median edges, weighted by cells
   Box box = empty_box();
-  Moments moments;
+  Moments moments{};
 
   void add(const Piece &piece);
   void add(const MeshCounts &other);
@@ -180,12 +177,8 @@ struct PieceRegion {
   bool operator==(const PieceRegion &other) const { return piece == other.piece && region == other.region; }
 };
 
-// Regions of different pieces with a common node.
-struct JoinedRegions {
-  PieceRegion p, q;
-  bool operator<(const JoinedRegions &other) const { return std::tie(p, q) < std::tie(other.p, other.q); }
-  bool operator==(const JoinedRegions &other) const { return p == other.p && q == other.q; }
-};
+// Regions of two pieces with a common node.
+using JoinedRegions = std::array<PieceRegion, 2>;
 
 // The shared nodes of all pieces, each counted once.
 struct MatchedNodes {

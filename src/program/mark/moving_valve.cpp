@@ -70,6 +70,24 @@ double MovingValve::largest_speed() const {
   return largest;
 }
 
+namespace {
+
+// Marks a single node. So the library refuses bad options before a large mesh is read and marked.
+void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
+  const double origin[3] = {0, 0, 0};
+  const auto mesh = create<Mesh>(riis_mesh_create, 1, origin, origin + 1, origin + 2, 3);
+  riis_mark_options mark_options = options.mark_options;
+  if (needs_adjacency(mark_options.search)) mark_options.search = RIIS_SEARCH_EXHAUSTIVE;
+  const Marks result = marks_of(surface, mesh, mark_options);
+  auto dense = defaults<riis_dense_arrays>();
+  dense.n_nodes = 1;
+  dense.far_distance = options.far_distance;
+  check(riis_marks_get_dense(result, &dense));
+  ResistanceSum(1, ResistanceSum::WithVelocity::no).add(options, result);
+}
+
+}  // namespace
+
 std::vector<MovingValve> moving_valves(Case &all) {
   std::vector<MovingValve> valves;
   valves.reserve(all.valves.size());
@@ -85,7 +103,7 @@ std::vector<MovingValve> moving_valves(Case &all) {
       if (!all.options.mesh.empty())
         rehearse_marking(source.options, made.surface());
       else if (auto warning = warning_of_thickness(source.options, info_of(made.surface())))
-        warn((part.empty() ? "" : part + ": ") + warning->text + warning->advice);
+        warn(all.before(valves.size() - 1) + warning->text + warning->advice);
     } catch (Refusal &refusal) {
       if (!source.subject.empty() && refusal.text.rfind(source.subject, 0) != 0)
         refusal = {exit_bad_data, source.subject + ": " + refusal.text};

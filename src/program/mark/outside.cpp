@@ -30,11 +30,6 @@ std::int32_t n_leaflets_without_skirt(const MovingValve &valve) {
   return has_skirt(shape) ? n - 1 : n;
 }
 
-std::string leaflet_text(const std::vector<std::string> &names, std::int32_t leaflet) {
-  const auto at = static_cast<std::size_t>(leaflet);
-  return at < names.size() ? names[at] : "leaflet " + std::to_string(leaflet);
-}
-
 std::string percent(double share) { return printed(share < 0.1 ? "%.2g %%" : "%.0f %%", 100 * share); }
 
 }  // namespace
@@ -47,13 +42,8 @@ LeafletsOutside::LeafletsOutside(const MovingValve &valve)
       is_outside_(samples_.area.size(), 1) {}
 
 void LeafletsOutside::add(const Piece &piece) {
-  double lower[3], upper[3];
-  for (int k = 0; k < 3; ++k) {
-    lower[k] = info_.lower[k] - info_.half_thickness;
-    upper[k] = info_.upper[k] + info_.half_thickness;
-  }
   // Cells reach beyond the box of their centres.
-  if (options_.at_cells || piece.nodes.box().meets(lower, upper))
+  if (options_.at_cells || piece.nodes.box().meets(box_of(info_).widened(info_.half_thickness)))
     check(riis_vtk_mesh_find_outside(piece.file, view(is_outside_).size(), samples_.xyz.data(), info_.half_thickness,
                                      is_outside_.data()),
           piece.path);
@@ -78,9 +68,8 @@ OutsideReport LeafletsOutside::report() const {
   OutsideReport made;
   if (sum.all > 0) made.share = sum.outside / sum.all;
   made.opening = opening_;
-  const std::vector<std::string> names = leaflet_names(options_);
   for (const auto &[leaflet, area] : by_leaflet)
-    if (area.outside > 0) made.leaflets.push_back({leaflet_text(names, leaflet), area.outside / area.all});
+    if (area.outside > 0) made.leaflets.push_back({name_of_leaflet(options_, leaflet), area.outside / area.all});
   return made;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "program/base/handles.hpp"
 #include "program/base/ranks.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_file.hpp"
@@ -206,12 +207,10 @@ std::optional<Warning> warning_of_half_thickness(const Situation &s) {
 std::string shown(double number) { return printed("%.3g", number); }
 
 Situation::Situation(const MarkOptions &marking, const riis_surface_info &info, const MeshCounts &counts)
-    : Sizes{sides_of(counts.box, counts.moments), {}, counts.median_edge, info.half_thickness},
+    : Sizes{sides_of(counts.box, counts.moments), box_of(info), counts.median_edge, info.half_thickness},
       options(marking),
       mesh(counts.box),
       area(info.area) {
-  std::copy_n(info.lower, 3, surface.lower);
-  std::copy_n(info.upper, 3, surface.upper);
   is_unit_known = (options.unit && !options.takes_placed_unit) || options.has_scale;
   has_usual_half = is_parametric(options) && !options.has_half_thickness;
 }
@@ -250,9 +249,13 @@ std::vector<PossibleUnit> units_left_open(const Situation &s) {
   return open;
 }
 
+void print_line(const std::string &text) {
+  if (ranks::is_first()) std::fprintf(stderr, "riis: %s\n", text.c_str());
+}
+
 void warn(const std::string &text) {
   ++n_printed;
-  if (ranks::is_first()) std::fprintf(stderr, "riis: %s\n", text.c_str());
+  print_line(text);
 }
 
 void warn(std::vector<Warning> warnings) {

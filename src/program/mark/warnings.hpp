@@ -55,7 +55,9 @@ struct PossibleUnit {
 // first. A run without a unit advises the same units.
 std::vector<PossibleUnit> units_left_open(const Situation &situation);
 
-// Prints the line on stderr, and counts it for --strict. --quiet does not silence it, because wrong marks look like right ones.
+// Prints the line on stderr, on the first rank.
+void print_line(const std::string &text);
+// Prints the line, and counts it for --strict. --quiet does not silence it, because wrong marks look like right ones.
 void warn(const std::string &text);
 // Prints the texts of all warnings, but advice only for the first cause. Later calls omit the advice for later causes. The
 // first advice may correct everything, and a second one could contradict it.

@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
+#include <regex>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -22,10 +24,65 @@ namespace riis::program {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+// The line that begins the lists that riis writes. Only what such a list names was written by riis.
+const std::string list_of_riis =
+    "<?xml version=\"1.0\"?>\n<!-- written by riis -->\n"
+    "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n";
+
 // Returns a number with zeros before it.
 std::string padded(std::size_t number, std::size_t n_digits) {
   const std::string digits = std::to_string(number);
   return std::string(std::max(n_digits, digits.size()) - digits.size(), '0') + digits;
+}
+
+// The name STEM_PART_0012.vtu of a step's file, or STEM_0012.vtu.
+struct StepName {
+  std::string part, digits, ending;
+
+  // Returns whether the part is that of a piece of a mesh, such as p0012.
+  bool is_of_piece() const {
+    return part.size() >= 5 && part[0] == 'p' && part.find_first_not_of("0123456789", 1) == std::string::npos;
+  }
+};
+
+// Returns the values of all attributes "file" of a list, as they stand in the file.
+std::set<std::string> files_named_in(const std::string &text) {
+  static const std::string begin = " file=\"";
+  std::set<std::string> names;
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at)) {
+    at += begin.size();
+    names.insert(text.substr(at, text.find('"', at) - at));
+  }
+  return names;
+}
+
+std::optional<StepName> step_name_of(const std::string &stem, const std::string &file) {
+  static const std::regex form("_(?:(.*)_)?([0-9]{4,})(\\.vtu|\\.vtp|\\.pvtu)");
+  const std::string rest = file.rfind(stem + "_", 0) == 0 ? file.substr(stem.size()) : "";
+  std::smatch found;
+  if (!std::regex_match(rest, found, form)) return std::nullopt;
+  return StepName{found[1], found[2], found[3]};
+}
+
+bool is_file(const fs::path &path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+// Refuses to remove files that a list of another name has.
+void check_other_lists(const fs::path &list, const std::set<std::string> &removed) {
+  std::error_code error;
+  const fs::path folder = list.has_parent_path() ? list.parent_path() : fs::path(".");
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const fs::path &other = at->path();
+    if (other.extension() != ".pvd" || other.filename() == list.filename() || !is_file(other)) continue;
+    for (const std::string &name : files_named_in(text_of_file(other.string())))
+      if (removed.count(name) != 0)
+        refuse_data(other.string() + " names " + name + ", a step of an earlier " + list.string() +
+                    " that this run would remove: name another output");
+  }
 }
 
 }  // namespace
@@ -35,16 +92,15 @@ SeriesFiles::SeriesFiles(const std::string &pvd, const std::string &ending, std:
       ending_(ending),
       n_times_(n_times),
       n_digits_(std::max<std::size_t>(4, std::to_string(n_times - 1).size())) {
-  const std::filesystem::path path(pvd);
+  const fs::path path(pvd);
   stem_ = path.stem().string();
   folder_ = (path.parent_path() / stem_).string();
 }
 
 void SeriesFiles::check_folder() const {
   std::error_code error;
-  if (!std::filesystem::exists(folder_, error)) return;
-  if (!std::filesystem::is_directory(folder_, error))
-    refuse_data(folder_ + ": the folder cannot be made: a file has its name");
+  if (!fs::exists(folder_, error)) return;
+  if (!fs::is_directory(folder_, error)) refuse_data(folder_ + ": the folder cannot be made: a file has its name");
   if (access(folder_.c_str(), W_OK | X_OK) != 0) {
     refuse_data(folder_ + ": the folder cannot be written to: " + system_text(errno));
   }
@@ -52,24 +108,46 @@ void SeriesFiles::check_folder() const {
 
 void SeriesFiles::find_earlier(const std::vector<std::string> &parts, bool has_pieces) {
   if (!is_wanted()) return;
-  earlier_.emplace(pvd_, [&](const StepName &name) {
-    const bool is_piece = has_pieces && name.ending == ".vtu" && name.is_of_piece();
-    if (!is_piece && (name.ending != ending_ || std::find(parts.begin(), parts.end(), name.part) == parts.end()))
-      return StepKind::other;
-    const auto step = number_in(name.digits);
-    const bool is_written = step && *step < static_cast<double>(n_times_) &&
-                            name.digits == padded(static_cast<std::size_t>(*step), n_digits_);
-    return is_written ? StepKind::written : StepKind::further;
-  });
+  std::set<std::string> listed, removed, listed_digits;
+  if (is_file(pvd_)) {
+    const std::string text = text_of_file(pvd_);
+    if (text.compare(0, list_of_riis.size(), list_of_riis) == 0) listed = files_named_in(text);
+  }
+  for (const std::string &name : listed)
+    if (const auto step = step_name_of(stem_, fs::path(name).filename().string())) listed_digits.insert(step->digits);
+  std::error_code error;
+  for (fs::directory_iterator at(folder_, error), end; !error && at != end; at.increment(error)) {
+    const std::string path = at->path().string(), name = at->path().filename().string();
+    const auto step = step_name_of(stem_, name);
+    if (!step) continue;
+    const bool has_my_form = (has_pieces && step->ending == ".vtu" && step->is_of_piece()) ||
+                             (step->ending == ending_ && std::count(parts.begin(), parts.end(), step->part) > 0);
+    const auto number = number_in(step->digits);
+    const bool will_be_written = has_my_form && number && *number < static_cast<double>(n_times_) &&
+                                 step->digits == padded(static_cast<std::size_t>(*number), n_digits_);
+    if (will_be_written) continue;
+    const std::string in_list = in_xml(stem_ + "/" + name);
+    if (listed.count(in_list) != 0 || (step->is_of_piece() && listed_digits.count(step->digits) != 0)) {
+      earlier_.push_back(path);
+      removed.insert(in_list);
+    } else if (has_my_form) {
+      refuse_data(path + " would be taken for a step of " + pvd_ +
+                  ", and no list of riis names it: remove it, or name another output");
+    }
+  }
+  if (!removed.empty()) check_other_lists(pvd_, removed);
 }
 
 void SeriesFiles::make_folder() const {
   if (!is_wanted()) return;
   check_folder();
   std::error_code error;
-  std::filesystem::create_directory(folder_, error);
+  fs::create_directory(folder_, error);
   if (error) refuse_data(folder_ + ": the folder cannot be made: " + error.message());
-  if (earlier_) earlier_->remove();
+  for (const std::string &path : earlier_) {
+    fs::remove(path, error);
+    if (error) refuse_data(path + ": a file of an earlier run cannot be removed: " + error.message());
+  }
 }
 
 std::string SeriesFiles::path_of(std::size_t step, const std::string &part) const {
@@ -77,7 +155,7 @@ std::string SeriesFiles::path_of(std::size_t step, const std::string &part) cons
 }
 
 void SeriesFiles::add(double time, std::size_t part_number, const std::string &path) {
-  entries_.push_back({time, part_number, stem_ + "/" + std::filesystem::path(path).filename().string()});
+  entries_.push_back({time, part_number, stem_ + "/" + fs::path(path).filename().string()});
 }
 
 void SeriesFiles::write_list() const {
@@ -92,7 +170,7 @@ void SeriesFiles::write_list() const {
 
 void SeriesFiles::report(Report &report) const {
   if (!is_wanted()) return;
-  const std::int64_t n_removed = earlier_ ? static_cast<std::int64_t>(earlier_->n()) : 0;
+  const std::int64_t n_removed = view(earlier_).size();
   report.written.push_back(pvd_ + ", " + counted(view(entries_).size(), "file") + " in " + folder_ +
                            (n_removed > 0 ? "; " + counted(n_removed, "file") + " of an earlier run removed" : ""));
 }

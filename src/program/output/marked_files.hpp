@@ -8,14 +8,12 @@
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "program/input/case.hpp"
 #include "program/mark/mesh_pieces.hpp"
-#include "program/output/earlier_files.hpp"
 #include "program/output/report.hpp"
 
 namespace riis::program {
@@ -31,8 +29,10 @@ class SeriesFiles {
   bool is_wanted() const { return !pvd_.empty(); }
   // Refuses a folder that cannot be written to, and a path that is a file.
   void check_folder() const;
-  // Finds the files that an earlier run left (earlier_files.hpp). `parts` are those of path_of, and `has_pieces` says whether
-  // each step also has files of pieces, whose parts are p0000 and so on.
+  // Finds the files that an earlier run left, which would be taken for further steps of this run's series: files of steps that
+  // this run does not write, if the earlier list is by riis and names them. Refuses further steps that it does not name, and
+  // files that another list names. `parts` are those of path_of, and `has_pieces` says whether each step also has files of
+  // pieces, whose parts are p0000 and so on.
   void find_earlier(const std::vector<std::string> &parts, bool has_pieces);
   // Makes the folder if it is wanted and does not exist, and removes the files of an earlier run.
   void make_folder() const;
@@ -56,7 +56,7 @@ class SeriesFiles {
   std::string pvd_, folder_, stem_, ending_;
   std::size_t n_times_, n_digits_;
   std::vector<Entry> entries_;
-  std::optional<EarlierFiles> earlier_;
+  std::vector<std::string> earlier_;  // files of an earlier run
 };
 
 // Writes the lists of a series within half a second after its files, even during a long step. So a killed process leaves lists

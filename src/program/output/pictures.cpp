@@ -19,7 +19,6 @@
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_file.hpp"
-#include "program/mark/mesh_marking.hpp"
 #include "program/mark/moving_valve.hpp"
 #include "program/output/outputs.hpp"
 
@@ -132,13 +131,10 @@ std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<Mov
     return leaflet_names(valves[0].options());
   }
   for (std::size_t valve = 0; valve < valves.size(); ++valve) {
-    const std::vector<std::string> names = leaflet_names(valves[valve].options());
     const std::string part = all.part_of(valve), prefix = part.empty() ? "" : part + " ";
     const int32_t n = n_leaflets_of(valves[valve].surface());
-    for (int32_t leaflet = 0; leaflet < n; ++leaflet) {
-      const bool named = leaflet < view(names).size();
-      texts.push_back(prefix + (named ? view(names)[leaflet] : "leaflet " + std::to_string(leaflet)));
-    }
+    for (int32_t leaflet = 0; leaflet < n; ++leaflet)
+      texts.push_back(prefix + name_of_leaflet(valves[valve].options(), leaflet));
   }
   return texts;
 }

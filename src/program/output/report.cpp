@@ -45,6 +45,14 @@ std::string line(std::string label, const std::string &name) {
   return label + (name.empty() ? "" : name + ": ");
 }
 
+// The same for a valve at an opening, unless that is the opening of the marks.
+std::string line(const std::string &label, const ValveReport &valve, const std::optional<double> &opening) {
+  std::ostringstream state = table_stream();
+  state << valve.name;
+  if (opening) state << (valve.name.empty() ? "" : ", ") << "opening " << *opening;
+  return line(label, state.str());
+}
+
 void add_surface(const ValveReport &valve, std::ostringstream &out) {
   out << line("surface", valve.name) << surface_title(valve) << ": " << counted(valve.surface.n_triangles, "triangle");
   if (valve.n_leaflets > 0) out << ", " << counted(valve.n_leaflets, "leaflet");
@@ -115,10 +123,7 @@ void add_leaks(const ValveReport &valve, std::ostringstream &out) {
 void add_outside(const ValveReport &valve, std::ostringstream &out) {
   constexpr double least_said = 0.0005;
   if (!valve.outside || valve.outside->share < least_said) return;
-  std::ostringstream state = table_stream();
-  state << valve.name;
-  if (valve.outside->opening) state << (valve.name.empty() ? "" : ", ") << "opening " << *valve.outside->opening;
-  out << line("outside", state.str()) << outside_text(*valve.outside)
+  out << line("outside", valve, valve.outside->opening) << outside_text(*valve.outside)
       << " is farther than the half thickness outside the mesh\n";
 }
 
@@ -171,15 +176,12 @@ void add_flow(const ValveReport &valve, std::ostringstream &out) {
   if (flow.cells && flow.cells->n_edges > 0)
     out << line("across", valve.name) << flow.cells->mean << " mesh edges of mean length in the band, "
         << flow.cells->least << " to " << flow.cells->most << " by " << counted(flow.cells->n_edges, "edge") << "\n";
-  if (flow.orifice) {
-    std::ostringstream state = table_stream();
-    state << valve.name;
-    if (flow.orifice_opening) state << (valve.name.empty() ? "" : ", ") << "opening " << *flow.orifice_opening;
-    out << line("orifice", state.str()) << flow.orifice->area << " open, " << flow.orifice->effective_area
-        << " effective: the band takes " << flow.orifice->rim_reach << " half thicknesses along a perimeter of "
-        << flow.orifice->perimeter << (has_slits(*flow.orifice) ? slits_text : "")
+  if (flow.orifice)
+    out << line("orifice", valve, flow.orifice_opening) << flow.orifice->area << " open, "
+        << flow.orifice->effective_area << " effective: the band takes " << flow.orifice->rim_reach
+        << " half thicknesses along a perimeter of " << flow.orifice->perimeter
+        << (has_slits(*flow.orifice) ? slits_text : "")
         << (flow.orifice->outline == RIIS_OUTLINE_BOUNDARY ? "; the outline is that of the open edges" : "") << "\n";
-  }
   if (flow.first) {
     out << line("opens", valve.name);
     if (flow.first->state == RIIS_FIRST_PASSAGE_FOUND)

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "program/base/options.hpp"
-#include "program/svmultiphysics/uris_export.hpp"
 #include "program/svmultiphysics/uris_leaflets.hpp"
 #include "program/svmultiphysics/uris_solver.hpp"
 

@@ -179,7 +179,7 @@ void UrisLeaflets::turn_ring(double opening) {
     if (leaflet != housing_) continue;
     const Point off = difference(middle_of(corners), centre),
                 area = twice_area(vertex_of(xyz, corners[0]), vertex_of(xyz, corners[1]), vertex_of(xyz, corners[2]));
-    if (off[0] * area[0] + off[1] * area[1] + off[2] * area[2] < 0) net_.turn(i);
+    if (product(off, area) < 0) net_.turn(i);
   }
 }
 

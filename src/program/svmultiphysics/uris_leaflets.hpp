@@ -13,7 +13,6 @@
 #include "common/array_view.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/options.hpp"
-#include "program/svmultiphysics/uris_export.hpp"
 
 namespace riis::program {
 
@@ -26,6 +25,7 @@ inline Point vertex_of(const std::vector<double> &xyz, std::int64_t vertex) {
   return {view(xyz)[3 * vertex], view(xyz)[3 * vertex + 1], view(xyz)[3 * vertex + 2]};
 }
 inline Point difference(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline double product(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 // Returns twice the area of a triangle, times its normal.
 inline Point twice_area(const Point &a, const Point &b, const Point &c) {
   const Point u = difference(b, a), v = difference(c, a);
@@ -102,6 +102,13 @@ class UrisBox {
   std::vector<Corners> triangles_;
   double half_thickness_, grid_;
   std::array<std::size_t, 3> chosen_{};
+};
+
+// The openings of the frames. The solver plays the first list when the valve begins to open, and the second when it begins to
+// close. Each time step plays one frame.
+struct UrisMotion {
+  std::vector<double> opening, closing;
+  bool starts_closed = true;
 };
 
 struct UrisLeaflet {

@@ -20,11 +20,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity(), pi = 3.1415
 // outside it.
 constexpr double widening = 0.1, far_in_half_thicknesses = 1e6;
 
-double squared_distance(const Point &a, const Point &b) {
-  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-  return x * x + y * y + z * z;
-}
-
 // ---- The nearest middle of a triangle ----
 
 // A tree over points. It finds the nearest point, and of equally near ones the first.
@@ -62,15 +57,15 @@ class PointTree {
   void visit(std::size_t begin, std::size_t end, std::size_t axis, Search &search) const {
     if (begin == end) return;
     const std::size_t middle = (begin + end) / 2, point = order_[middle], next = (axis + 1) % 3;
-    const double squared = squared_distance(search.to, points_[point]);
+    const Point away = difference(search.to, points_[point]);
+    const double squared = product(away, away);
     if (squared < search.squared || (squared == search.squared && point < search.found)) {
       search.squared = squared;
       search.found = point;
     }
-    const double off = search.to[axis] - points_[point][axis];
-    const bool is_below = off < 0;
+    const bool is_below = away[axis] < 0;
     is_below ? visit(begin, middle, next, search) : visit(middle + 1, end, next, search);
-    if (off * off <= search.squared)
+    if (away[axis] * away[axis] <= search.squared)
       is_below ? visit(middle + 1, end, next, search) : visit(begin, middle, next, search);
   }
 
@@ -109,8 +104,6 @@ FrameTriangles triangles_of(const UrisLeaflets &leaflets, const std::vector<doub
   }
   return frame;
 }
-
-double product(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // ---- The mesh ----
 
@@ -205,10 +198,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
   SolverDistances distances;
   const double far = far_in_half_thicknesses * half_thickness;
   const FrameTriangles frame = triangles_of(leaflets, xyz, false);
-  for (std::size_t k = 0; k < 3; ++k) {
-    distances.box.lower[k] = frame.box.lower[k] - margin;
-    distances.box.upper[k] = frame.box.upper[k] + margin;
-  }
+  distances.box = frame.box.widened(margin);
   distances.to_leaflets.assign(static_cast<std::size_t>(mesh.n_nodes), far);
   distances.nearest.assign(static_cast<std::size_t>(mesh.n_nodes), -1);
   const PointTree middles(frame.middles);

@@ -12,6 +12,7 @@
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 #include "common/array_view.hpp"
+#include "common/first_passage.hpp"
 #include "measures/measures.hpp"
 
 using riis::check_range;
@@ -80,7 +81,6 @@ class PassageTrials {
   PassageTrials &operator=(const PassageTrials &) = delete;
 
   riis_passage at(double opening) {
-    ++n;
     valve_.set("opening", 1, &opening);
     const riis_valve moved{{}, valve_};
     check(surface_ ? riis_surface_update(surface_, &moved, nullptr)
@@ -90,8 +90,6 @@ class PassageTrials {
     check(riis_find_passage(surface_, mesh_, ends_, options_.marking, &passage, sizeof passage), "", opening);
     return passage;
   }
-
-  std::int32_t n = 0;
 
  private:
   static void check(riis_status status, const char *argument, double opening) {
@@ -104,40 +102,6 @@ class PassageTrials {
   const riis_first_passage_options &options_;
   riis_surface *surface_ = nullptr;
 };
-
-riis_first_passage found_at(double opening, double closed_opening, const riis_passage &passage, std::int32_t state) {
-  return {opening,
-          closed_opening,
-          passage.node_id,
-          passage.distance,
-          {passage.point[0], passage.point[1], passage.point[2]},
-          0,
-          0,
-          state};
-}
-
-riis_first_passage first_passage(PassageTrials &trials, double tolerance) {
-  constexpr int n_coarse = 8;
-  riis_passage passage = trials.at(0);
-  if (passage.state == RIIS_PASSAGE_NONE) return found_at(0, 0, passage, RIIS_FIRST_PASSAGE_NONE);
-  if (passage.state == RIIS_PASSAGE_OPEN) return found_at(0, 0, passage, RIIS_FIRST_PASSAGE_ALWAYS);
-  double closed = 0, open = 0;
-  for (int i = 1; i <= n_coarse && passage.state != RIIS_PASSAGE_OPEN; ++i) {
-    closed = open;
-    open = static_cast<double>(i) / n_coarse;
-    passage = trials.at(open);
-  }
-  if (passage.state != RIIS_PASSAGE_OPEN) return found_at(1, 1, passage, RIIS_FIRST_PASSAGE_NEVER);
-  while (open - closed > tolerance) {
-    const double middle = 0.5 * (closed + open);
-    const riis_passage tried = trials.at(middle);
-    if (tried.state == RIIS_PASSAGE_OPEN)
-      open = middle, passage = tried;
-    else
-      closed = middle;
-  }
-  return found_at(open, closed, passage, RIIS_FIRST_PASSAGE_FOUND);
-}
 
 // Returns the volume of one leaflet after the placement, or the sum of all leaflets without the skirt. `skirt` is -1 without a
 // skirt.
@@ -267,10 +231,10 @@ riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *me
     if (!valve->valve.can_open())
       riis::fail(RIIS_INVALID_PARAMETER, "valve has only one state: set its open state with riis_valve_set_open_state");
     PassageTrials trials(valve, mesh, ends, whole);
-    riis_first_passage found = first_passage(trials, whole.tolerance);
+    riis_first_passage found =
+        riis::first_passage(whole.tolerance, [&trials](double opening) { return trials.at(opening); });
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     found.seconds = elapsed.count();
-    found.n_openings = trials.n;
     riis::write_struct(first, struct_size, "first", found);
   });
 }
