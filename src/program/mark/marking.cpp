@@ -146,7 +146,7 @@ ValveReport Marking::report_of(std::size_t i) {
   if (!all_.is_series()) report.time = own.time;
   if (!own.leaflets.empty() || own.surface_files.size() > 1) report.n_leaflets = count_leaflets(valve.surface());
   report.surface = info_of(valve.surface());
-  if (valve.opening() && !own.wall.empty()) report.gap = gap_to_wall(own, valve.surface());
+  if (own.skirt && !own.wall.empty()) report.gap = gap_to_wall(own, valve.surface());
   report.crossings = valve.crossings;
   if (own.given_resistance) report.resistance = report_of_resistance(own, options());
   report_.seconds.surface += report.surface.seconds_triangles;
