@@ -118,7 +118,7 @@ typedef struct riis_surface_arrays {
   int32_t real_bits;         /* of vertices and velocities */
   double skirt_length;       /* the length of a skirt before placement: a strip from the attachment outwards. It is 1e-4 to
                                 10 times the mean distance of the attachment from its axis. 0, the default: no skirt */
-  const int32_t *attached;   /* (n_vertices): not 0 for the vertices of the attachment. The attachment consists of the open
+  const uint8_t *attached;   /* (n_vertices): not 0 for the vertices of the attachment. The attachment consists of the open
                                 edges between two such vertices. NULL: with a skirt, the call chooses the attachment */
   const double *skirt_lengths; /* (n_vertices): the skirt's lengths at the attached vertices, at most skirt_length.
                                   Lengths below the least one count as the least one. NULL: skirt_length everywhere */

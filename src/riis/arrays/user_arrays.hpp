@@ -17,7 +17,7 @@ namespace riis {
 // The skirt of the caller's faces, as the caller gave it, and the edges from which it leads.
 struct UserSkirt {
   double length = 0;                   // before placement; 0: no skirt
-  std::vector<std::int32_t> attached;  // (n_vertices), or empty
+  std::vector<std::uint8_t> attached;  // (n_vertices), or empty
   std::vector<double> lengths;         // (n_vertices), or empty
   std::vector<AttachedEdge> edges;     // pipeline/skirt_of_arrays.hpp finds them
   bool has_attachment() const { return length != 0 || !attached.empty(); }

@@ -149,7 +149,7 @@ std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet
 }
 
 // Returns for each point whether it is attached, or nothing if the array is missing.
-std::vector<std::int32_t> attached_points(const std::string &path, vtkPointSet *data) {
+std::vector<std::uint8_t> attached_points(const std::string &path, vtkPointSet *data) {
   const std::string name = std::string("point array ") + attached_array;
   vtkAbstractArray *abstract = data->GetPointData()->GetAbstractArray(attached_array);
   if (!abstract) return {};
@@ -157,7 +157,7 @@ std::vector<std::int32_t> attached_points(const std::string &path, vtkPointSet *
   if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name, " must hold one number a point");
   if (array->GetNumberOfTuples() != data->GetNumberOfPoints())
     fail_file(path, name, " has ", array->GetNumberOfTuples(), " values for ", data->GetNumberOfPoints(), " points");
-  std::vector<std::int32_t> attached;
+  std::vector<std::uint8_t> attached;
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) attached.push_back(array->GetTuple1(i) != 0 ? 1 : 0);
   return attached;
 }

@@ -26,7 +26,7 @@ struct Faces {
   // (corners_per_face, n_faces); the diagonal from a quad's first corner to its third lies inside the quad
   std::vector<std::int64_t> vertex_ids;
   std::vector<std::int32_t> leaflet_id;  // (n_faces); empty if the data set has no leaflet ids
-  std::vector<std::int32_t> attached;    // (n_vertices), 1 at the attachment; empty if the data set does not tell
+  std::vector<std::uint8_t> attached;    // (n_vertices), 1 at the attachment; empty if the data set does not tell
   std::int32_t corners_per_face = 3;
   std::int32_t n_joined = 1;  // the number of surfaces that append_faces has joined
 };
