@@ -15,9 +15,9 @@ namespace riis {
 // Later vertices of the same faces keep these edges. Fails with RIIS_INVALID_SURFACE if the edges do not follow from the faces.
 void find_attachment(UserFaces &faces, const riis_surface_arrays &arrays);
 
-// Gives the placed triangles of these faces their attachment and their skirt. The outer vertices follow the caller's vertices, and
-// have velocities if those do. `scale` is the scale of the placement. Fails with RIIS_INVALID_SURFACE if nothing tells which way
-// is outwards, with RIIS_INVALID_ARGUMENT for a length that does not fit the attachment, and with RIIS_LIMIT_EXCEEDED.
+// Gives the placed triangles of these faces their attachment and their skirt. The outer vertices follow the caller's vertices.
+// They have velocities if the caller's have. `scale` is the scale of the placement. Fails with RIIS_INVALID_SURFACE if nothing
+// tells which way is outwards, with RIIS_INVALID_ARGUMENT for a length that does not fit, and with RIIS_LIMIT_EXCEEDED.
 void add_skirt_of_arrays(const UserFaces &faces, double scale, bool flip_normals, TriangleSet &set);
 
 }  // namespace riis
