@@ -16,8 +16,7 @@ enum { n_across = 27, n_along = 32 };
 static const double radius = 1.6, lowest = -1.5, highest = 2.5;
 
 /* Writes a vessel of hexahedra: squares that became discs. */
-static int write_vessel(void **state) {
-  (void)state;
+static int write_vessel(void) {
   FILE *file = fopen(scratch_path("vessel.vtk"), "w");
   assert_non_null(file);
   const int n_cells = (n_across - 1) * (n_across - 1) * (n_along - 1);
@@ -50,7 +49,7 @@ static char vessel[256], plain[256];
 
 /* Writes the closed valve without a skirt, which leaks in the vessel. */
 static int write_valve(void **state) {
-  if (write_vessel(state) != 0) return 1;
+  if (scratch_setup(state) != 0 || write_vessel() != 0) return 1;
   snprintf(vessel, sizeof vessel, "%s", scratch_path("vessel.vtk"));
   snprintf(plain, sizeof plain, "%s", scratch_path("plain.vtp"));
   RUN_FINE("surface", "--valve", "coapting", "--opening", "0", "--output", plain);
@@ -217,4 +216,4 @@ TEST(refusals) {
   }
 }
 
-int main(void) { return run_cases(write_valve, NULL); }
+int main(void) { return run_cases(write_valve, scratch_teardown); }
