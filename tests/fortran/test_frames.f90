@@ -424,6 +424,7 @@ contains
     character(len=*), intent(in) :: what
     real(c_double), pointer :: xyz(:, :)
     logical :: is_same
+    integer :: i
     call of%get_triangles(all_triangles)
     xyz => all_triangles%xyz
     is_same = size(xyz, 2) == 8
