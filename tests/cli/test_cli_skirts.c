@@ -167,8 +167,6 @@ TEST(other_files_of_the_same_valve) {
       "{\"mesh\": \"vessel.vtk\", \"valves\": [{\"surface\": [\"right.stl\", \"left.stl\", \"non.stl\"], "
       "\"skirt\": 0.6}]}");
   RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("marked.vtu"));
-  RUN_REFUSED(1, "the largest closed line of open edges encloses 1 of the outline", "surface", "--surface", leaflets[0],
-              "--skirt", "0.0001", "--output", scratch_path("one.vtp"));
 }
 
 TEST(a_motion_carries_its_skirt) {
