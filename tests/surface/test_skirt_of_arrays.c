@@ -493,7 +493,7 @@ TEST(refusals) {
   assert_int_equal(check_strip(surface_from(&tube, NULL), 24, 0.1, 1e-15), 24);
   for (int i = 0; i < 3; ++i) chain[2 * i] = 1; /* an open chain is enough if it encloses an area with its ends */
   tube.attached = chain;
-  assert_int_equal(check_strip(surface_from(&tube, NULL), 24, 0.05, 1e-14), 4);
+  assert_int_equal(check_strip(surface_from(&tube, NULL), 24, 0.1, 1e-14), 4);
   riis_surface_arrays bileaflet = given_back(surface_of_kind("bileaflet", NULL), 0);
   bileaflet.skirt_length = 0.1;
   refuse(&bileaflet, RIIS_INVALID_SURFACE, "open edges");

@@ -62,14 +62,14 @@ std::vector<OpenEdge> chosen_edges(const TriangleSet &set) {
   }
   if (best.empty())
     fail(RIIS_INVALID_SURFACE, "no closed line of open edges encloses an area, so the attachment is not known", cure);
-  if (second >= ambiguous_share * largest)
-    fail(RIIS_INVALID_SURFACE, "two closed lines of open edges enclose the same area, ", rounded(largest, 4),
-         ", so the attachment is not known", cure);
   const std::optional<SeenOutline> outline = outline_of_leaflets(boundary_of_leaflets(set), std::nullopt);
   const double share = outline ? std::abs(dot(of_best, outline->seen.axis())) / area_of(outline->outline) : 0;
   if (share < least_share)
     fail(RIIS_INVALID_SURFACE, "the largest closed line of open edges encloses ", rounded(share, 2),
          " of the outline of the leaflets, so it is not the attachment of them all", cure);
+  if (second >= ambiguous_share * largest)
+    fail(RIIS_INVALID_SURFACE, "two closed lines of open edges enclose the same area, ", rounded(largest, 4),
+         ", so the attachment is not known", cure);
   return best;
 }
 
