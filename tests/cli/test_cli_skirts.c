@@ -214,4 +214,37 @@ TEST(refusals) {
   }
 }
 
+/* A square of two triangles, with an array of the attachment. */
+static const char *write_square(const char *array) {
+  char text[1024];
+  snprintf(text, sizeof text,
+           "# vtk DataFile Version 3.0\nsquare\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n0 0 0 1 0 0 1 1 0 0 1 0\n"
+           "POLYGONS 2 8\n3 0 1 2\n3 0 2 3\nPOINT_DATA 4\n%s\n",
+           array);
+  scratch_write_text("square.vtk", text);
+  return scratch_path("square.vtk");
+}
+
+TEST(arrays_of_the_attachment) {
+  static char out[256];
+  snprintf(out, sizeof out, "%s", scratch_path("out.vtp"));
+  RUN_FINE("surface", "--surface", write_square("SCALARS riis_attached double 1\nLOOKUP_TABLE default\n1 1 1 0"),
+           "--skirt", "0.1", "--half-thickness", "0.05", "--output", out);
+  riis_vtk_surface *file = NULL;
+  assert_int_equal(arrays_of(out, &file).n_faces, 2 + 2 * 2); /* two of the four edges are attached */
+  riis_vtk_surface_destroy(&file);
+  RUN_FINE("surface", "--surface", write_square("SCALARS other int 1\nLOOKUP_TABLE default\n1 1 1 0"), "--skirt", "0.1",
+           "--half-thickness", "0.05", "--output", out);
+  assert_int_equal(arrays_of(out, &file).n_faces, 2 + 2 * 4);
+  riis_vtk_surface_destroy(&file);
+  RUN_REFUSED(1, "point array riis_attached must hold one number a point", "surface", "--surface",
+              write_square("VECTORS riis_attached double\n1 1 1 1 1 1 1 1 1 1 1 1"), "--skirt", "0.1", "--output", out);
+  RUN_REFUSED(1, "the point array riis_attached: no open edge leads from vertex 0 to another attached vertex",
+              "surface", "--surface", write_square("SCALARS riis_attached int 1\nLOOKUP_TABLE default\n1 0 1 0"),
+              "--skirt", "0.1", "--output", out);
+  /* Without a skirt, the array has no effect. */
+  RUN_FINE("surface", "--surface", write_square("SCALARS riis_attached int 1\nLOOKUP_TABLE default\n1 0 1 0"),
+           "--half-thickness", "0.05", "--output", out);
+}
+
 int main(void) { return run_cases(write_valve, scratch_teardown); }
