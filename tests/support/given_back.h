@@ -18,7 +18,9 @@ static inline riis_surface_arrays given_back(const riis_surface *surface, int ha
   if (!has_attachment) return arrays;
   riis_attachment held;
   CHECK_OK(riis_surface_get_attachment(surface, &held, sizeof held));
-  for (int64_t i = 0; i < 2 * held.n_edges; ++i) attached[held.vertex_id[i]] = 1;
+  for (int64_t i = 0; i < 2 * held.n_edges; ++i)
+    for (int64_t id = 0; id < all.n_vertices; ++id) /* also other vertices at this place */
+      if (memcmp(xyz + 3 * id, held.edges + 3 * i, 3 * sizeof *xyz) == 0) attached[id] = 1;
   arrays.attached = attached;
   return arrays;
 }

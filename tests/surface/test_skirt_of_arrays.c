@@ -479,7 +479,8 @@ TEST(refusals) {
   for (int i = 0; i < 12; ++i) {
     for (int end = 0; end < 2; ++end) {
       double *p = rims + 6 * i + 3 * end;
-      p[0] = cos(acos(-1) * i / 6), p[1] = sin(acos(-1) * i / 6), p[2] = end;
+      const double wide = end ? 0.997 : 1, turn = acos(-1) * i / 6;
+      p[0] = wide * cos(turn), p[1] = wide * sin(turn), p[2] = end;
     }
     const int a = 2 * i, b = 2 * ((i + 1) % 12), made[6] = {a, b, b + 1, a, b + 1, a + 1};
     for (int k = 0; k < 6; ++k) faces[6 * i + k] = made[k];
@@ -494,9 +495,11 @@ TEST(refusals) {
   for (int i = 0; i < 3; ++i) chain[2 * i] = 1; /* an open chain is enough if it encloses an area with its ends */
   tube.attached = chain;
   assert_int_equal(check_strip(surface_from(&tube, NULL), 24, 0.1, 1e-14), 4);
-  riis_surface_arrays bileaflet = given_back(surface_of_kind("bileaflet", NULL), 0);
+  riis_valve *valve = new_valve("bileaflet");
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
+  riis_surface_arrays bileaflet = given_back(new_surface(valve, NULL), 0);
   bileaflet.skirt_length = 0.1;
-  refuse(&bileaflet, RIIS_INVALID_SURFACE, "open edges");
+  refuse(&bileaflet, RIIS_INVALID_SURFACE, "closed line|of open edges encloses|arrays.attached");
   int32_t largest[4] = {INT32_MAX, 0, 0, 0};
   riis_surface_arrays numbered = triangle_arrays(4, corners, 1, tetrahedron);
   numbered.skirt_length = 0.1, numbered.leaflet_id = largest;

@@ -192,13 +192,17 @@ void add_triangles(const riis_triangles &of, vtkPolyData *data) {
   data->GetCellData()->AddArray(array_of<vtkTypeInt64Array>(triangle_array, triangle_id, 1, n));
 }
 
-void add_attachment(const riis_surface *surface, int64_t n_vertices, vtkPolyData *data) {
+// Marks the attached vertices, and all vertices at the same places. Programs that merge points or drop unused points then keep
+// the attachment.
+void add_attachment(const riis_surface *surface, const riis_triangles &of, vtkPolyData *data) {
   riis_attachment attachment{};
   if (riis_surface_get_attachment(surface, &attachment, sizeof attachment) != RIIS_OK || attachment.n_edges == 0)
     return;
-  const auto array = named_array<vtkUnsignedCharArray>(attached_array, n_vertices, 1);
-  std::fill_n(array->GetPointer(0), n_vertices, static_cast<unsigned char>(0));
-  for (int64_t i = 0; i < 2 * attachment.n_edges; ++i) array->SetValue(attachment.vertex_id[i], 1);
+  const std::vector<std::int64_t> places = equal_places(of.n_vertices, of.xyz);
+  std::vector<unsigned char> is_attached(places.size(), 0);
+  for (int64_t i = 0; i < 2 * attachment.n_edges; ++i) view(is_attached)[view(places)[attachment.vertex_id[i]]] = 1;
+  const auto array = named_array<vtkUnsignedCharArray>(attached_array, of.n_vertices);
+  for (int64_t i = 0; i < of.n_vertices; ++i) array->SetValue(i, view(is_attached)[view(places)[i]]);
   data->GetPointData()->AddArray(array);
 }
 
@@ -225,7 +229,7 @@ vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface) {
   check_core(riis_surface_get_triangles(surface, &triangles, sizeof triangles));
   add_vertices(triangles, data);
   add_triangles(triangles, data);
-  add_attachment(surface, triangles.n_vertices, data);
+  add_attachment(surface, triangles, data);
   return data;
 }
 
