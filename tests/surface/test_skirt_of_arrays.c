@@ -499,7 +499,7 @@ TEST(refusals) {
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
   riis_surface_arrays bileaflet = given_back(new_surface(valve, NULL), 0);
   bileaflet.skirt_length = 0.1;
-  refuse(&bileaflet, RIIS_INVALID_SURFACE, "closed line|of open edges encloses|arrays.attached");
+  refuse(&bileaflet, RIIS_INVALID_SURFACE, "closed line|of open edges enclose|arrays.attached");
   int32_t largest[4] = {INT32_MAX, 0, 0, 0};
   riis_surface_arrays numbered = triangle_arrays(4, corners, 1, tetrahedron);
   numbered.skirt_length = 0.1, numbered.leaflet_id = largest;
