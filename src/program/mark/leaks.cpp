@@ -117,8 +117,9 @@ void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const s
       " at " + place_text(options, leaks.longest_middle, leaks.longest_length);
   std::string advice = "; ";
   if (report.closing_half_thickness > 0)
-    advice += "--half-thickness " + shortest(report.closing_half_thickness) + " closes " + (is_one ? "it" : "them") +
-              (report.closing_skirt > 0 ? ", and so does --skirt " + shortest(report.closing_skirt) : "") + "; ";
+    advice += "--half-thickness " + shortest(report.closing_half_thickness) +
+              (report.closing_skirt > 0 ? " or --skirt " + shortest(report.closing_skirt) : "") + " closes " +
+              (is_one ? "it; " : "them; ");
   warn({{Cause::leaks, text,
          advice + "edges of at most two half thicknesses (" + shortest(2 * half_thickness) + ") do not leak"}});
 }

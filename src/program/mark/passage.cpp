@@ -59,8 +59,8 @@ void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const 
          ", or it does not stand in their way: give points on both sides of it, farther away");
   else if (report.closing_half_thickness > 0 && opening == 0)
     warn({{Cause::leaks, text + "at " + report.place,
-           ", and --half-thickness " + shortest(report.closing_half_thickness) + " closes it" +
-               (report.closing_skirt > 0 ? ", and so does --skirt " + shortest(report.closing_skirt) : "")}});
+           ", and --half-thickness " + shortest(report.closing_half_thickness) +
+               (report.closing_skirt > 0 ? " or --skirt " + shortest(report.closing_skirt) : "") + " closes it"}});
   else
     warn(text + "at " + report.place + ", " + shown(found.distance) + " from the surface");
 }
