@@ -181,7 +181,7 @@ TEST(a_motion_carries_its_skirt) {
   snprintf(motion, sizeof motion, "%s", scratch_path("motion.pvd"));
   RUN_FINE("check", "leaks", vessel, "--surface", motion, "--time", "0.5", "--skirt", "0.6", BETWEEN);
   RUN_FINE("check", "leaks", vessel, "--surface", motion, "--time", "0.5", "--skirt", "1", "--wall", vessel, BETWEEN);
-  RUN_FINE("mark", vessel, "--surface", motion, "--times", "0:1:0.5", "--skirt", "0.6", "--output",
+  RUN_FINE("mark", vessel, "--surface", motion, "--times", "0:1:0.5", "--skirt", "0.6", "--quiet", "--output",
            scratch_path("series.pvd"));
   RUN_FINE("states", scratch_path("states.csv"), "--surface", motion, "--skirt", "0.6");
 }

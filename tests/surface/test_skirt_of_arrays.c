@@ -164,7 +164,7 @@ TEST(a_valve_that_is_given_back_gets_its_own_skirt) {
       check_strip(made, arrays.n_vertices, length, 1e-13);
       const double error = info_of(skirted).error_bound + info_of(bare).error_bound,
                    there = largest_distance(made, skirted, 1), back = largest_distance(skirted, made, -1);
-      if (has_attachment == 0)
+      if (has_attachment)
         printf("%s at %.2f: skirts of length %.3f differ by %.5f and %.5f\n", kinds[kind], opening, length, there,
                back);
       CHECK_AT_MOST(fmax(there, back), share_of_length[kind] * length + 2 * error);
