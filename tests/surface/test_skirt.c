@@ -371,6 +371,7 @@ TEST(skirts_seal_gaps) {
       assert_false(leaks(sealed, &nodes));
       riis_surface_arrays arrays = given_back(bare, 0); /* as if the leaflets came from a file */
       arrays.skirt_length = gaps[i];
+      options.triangulation = RIIS_TRIANGULATION_ADAPTED;
       assert_false(leaks(surface_from(&arrays, &options), &nodes));
       if (i == 3) assert_true(leaks(open, &nodes));
       free_owned_after(owned_before);
