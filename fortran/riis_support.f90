@@ -13,7 +13,7 @@ module riis_support
   public :: strided_points, points_of, describe_points, address_of, text_of
   public :: c_handle_of, handle_of, location_of
   public :: finish, fail, refuse, out_of_memory, check_created, check_not_created, refuse_copy, get_integer, check_size
-  public :: get_faces, get_mask, end_for_c
+  public :: get_faces, set_skirt, get_mask, end_for_c
 
   !> The location of points in the form of riis.h: point i is x[i * stride], y[i * stride], z[i * stride].
   type :: strided_points
@@ -173,6 +173,25 @@ contains
     code = check_size(size(leaflet_id, kind=int64), n_faces, 'leaflet_id', 'faces')
     if (size(leaflet_id, kind=int64) > 0) arrays%leaflet_id = c_loc(leaflet_id)
   end subroutine get_faces
+
+  !> Sets the skirt of a surface, whose number of vertices is set. It does nothing after an error.
+  subroutine set_skirt(skirt_length, attached, skirt_lengths, arrays, code)
+    real(c_double), intent(in), optional :: skirt_length    !< Default 0.
+    integer(int8), intent(in), contiguous, optional, target :: attached(:) !< (n_vertices).
+    real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices).
+    type(riis_surface_arrays), intent(inout) :: arrays      !< Borrows the arrays.
+    integer(riis_status), intent(inout) :: code             !< Unchanged on success.
+    if (code /= RIIS_OK) return
+    if (present(skirt_length)) arrays%skirt_length = skirt_length
+    if (present(attached)) then
+      code = check_size(size(attached, kind=int64), arrays%n_vertices, 'attached', 'vertices')
+      if (size(attached) > 0) arrays%attached = c_loc(attached)
+    end if
+    if (present(skirt_lengths) .and. code == RIIS_OK) then
+      code = check_size(size(skirt_lengths, kind=int64), arrays%n_vertices, 'skirt_lengths', 'vertices')
+      if (size(skirt_lengths) > 0) arrays%skirt_lengths = c_loc(skirt_lengths)
+    end if
+  end subroutine set_skirt
 
   !> Implements get_mask.
   subroutine get_mask_logical(mask, bytes, code)

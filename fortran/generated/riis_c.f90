@@ -235,6 +235,9 @@ module riis_c
     integer(c_int32_t) :: id_bits         !< storage_size(vertex_ids)
     integer(c_int32_t) :: index_base      !< 1 for ids that count from 1
     integer(c_int32_t) :: real_bits       !< storage_size(xyz)
+    real(c_double) :: skirt_length
+    type(c_ptr) :: attached               !< integer(c_int8_t), (n_vertices), or c_null_ptr
+    type(c_ptr) :: skirt_lengths          !< real(c_double), (n_vertices), or c_null_ptr
   end type riis_surface_arrays
 
   !> The size of a surface, and the seconds that its last create or update took.
@@ -554,8 +557,8 @@ module riis_c
 
   !> The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is
   !! the vector area of the outline's edges in space. It is on the side of a valve's z axis, or on the side to which the
-  !! normals of arrays and keyframes point. A bileaflet valve has its z axis. A valve's skirt does not count. If
-  !! leaflets of arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units
+  !! normals of arrays and keyframes point. A bileaflet valve has its z axis. A skirt does not count. If leaflets of
+  !! arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units
   !! (docs/theory/measures.md, "Outline").
   type, bind(c) :: riis_orifice
     real(c_double) :: area           !< the area of the orifice. Without an outline, all fields but axis and rim_reach

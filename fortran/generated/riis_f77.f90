@@ -1152,6 +1152,135 @@ subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per
   surface = handle_of(c_handle)
 end subroutine riisf_surface_from_arrays_64
 
+!> Makes a surface as riisf_surface_from_arrays does, with a skirt. Errors: also RIIS_INVALID_SURFACE if the attachment is not
+!! found, and RIIS_INVALID_ARGUMENT for a length of the skirt out of range.
+subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
+    attached, skirt_length, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, &
+    status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int8, int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_arrays, riis_surface_arrays_init, &
+      riis_surface_create_from_arrays, riis_surface_options, riis_surface_options_init
+  implicit none
+  integer(int32), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
+                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
+                                                          !! for others. attached(1) = -1: the attachment is chosen.
+  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement: a strip from the
+                                                          !! attachment outwards. It is 1e-4 to 10 times the mean distance of
+                                                          !! the attachment from its axis. 0: no skirt.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  integer(int64), intent(inout) :: surface                !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_arrays) :: arrays
+  type(riis_surface_options) :: options
+  type(c_ptr) :: c_handle
+  status = riis_surface_arrays_init(arrays, c_sizeof(arrays))
+  if (status == RIIS_OK) status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  arrays%n_vertices = n_vertices
+  arrays%x = location_of(x)
+  arrays%y = location_of(y)
+  arrays%z = location_of(z)
+  arrays%stride = stride
+  arrays%corners_per_face = corners_per_face
+  arrays%n_faces = n_faces
+  arrays%vertex_ids = location_of(vertex_ids)
+  arrays%index_base = index_base
+  arrays%skirt_length = skirt_length
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  arrays%id_bits = storage_size(vertex_ids)
+  if (attached(1) < 0) arrays%attached = c_null_ptr
+  c_handle = c_null_ptr
+  status = riis_surface_create_from_arrays(arrays, options, c_handle)
+  if (status /= RIIS_OK) return
+  surface = handle_of(c_handle)
+end subroutine riisf_surface_with_skirt
+
+!> Does the same as riisf_surface_with_skirt, with counts and ids of INTEGER*8.
+subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
+    attached, skirt_length, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, &
+    status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int8, int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_arrays, riis_surface_arrays_init, &
+      riis_surface_create_from_arrays, riis_surface_options, riis_surface_options_init
+  implicit none
+  integer(int64), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
+                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
+                                                          !! for others. attached(1) = -1: the attachment is chosen.
+  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement: a strip from the
+                                                          !! attachment outwards. It is 1e-4 to 10 times the mean distance of
+                                                          !! the attachment from its axis. 0: no skirt.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  integer(int64), intent(inout) :: surface                !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_arrays) :: arrays
+  type(riis_surface_options) :: options
+  type(c_ptr) :: c_handle
+  status = riis_surface_arrays_init(arrays, c_sizeof(arrays))
+  if (status == RIIS_OK) status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  arrays%n_vertices = n_vertices
+  arrays%x = location_of(x)
+  arrays%y = location_of(y)
+  arrays%z = location_of(z)
+  arrays%stride = stride
+  arrays%corners_per_face = corners_per_face
+  arrays%n_faces = n_faces
+  arrays%vertex_ids = location_of(vertex_ids)
+  arrays%index_base = index_base
+  arrays%skirt_length = skirt_length
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  arrays%id_bits = storage_size(vertex_ids)
+  if (attached(1) < 0) arrays%attached = c_null_ptr
+  c_handle = c_null_ptr
+  status = riis_surface_create_from_arrays(arrays, options, c_handle)
+  if (status /= RIIS_OK) return
+  surface = handle_of(c_handle)
+end subroutine riisf_surface_with_skirt_64
+
 !> Replaces the surface by triangles or quads that moved, with the same options and with the velocities of the vertices. The
 !! placement rotates and scales velocities, but does not translate them. Errors: as for riisf_surface_from_arrays.
 subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx, vy, vz, velocity_stride, &

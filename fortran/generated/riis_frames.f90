@@ -3,7 +3,7 @@
 !> Motion by frames: riis_keyframes_* of riis.h, as a part of module riis.
 module riis_frames
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
-  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use, intrinsic :: iso_fortran_env, only: int8, int32, int64
   use riis_c, only: riis_keyframe_arrays, riis_status, riis_surface_arrays, RIIS_OK, riis_keyframe_arrays_init, &
     riis_keyframes_create, riis_keyframes_destroy
   use riis_support
@@ -32,7 +32,8 @@ contains
 
   !> Makes keyframes from frames, which are copied. The faces are as for %create_from_arrays of a surface. Errors:
   !! RIIS_INVALID_ARGUMENT naming the key, counted from 0, and its value; RIIS_INVALID_SURFACE naming the frame, vertex or face.
-  subroutine keyframes_create_int32(this, time, xyz, vertex_ids, leaflet_id, index_base, period, interpolation, status)
+  subroutine keyframes_create_int32(this, time, xyz, vertex_ids, leaflet_id, index_base, period, interpolation, status, &
+      skirt_length, attached, skirt_lengths)
     class(riis_keyframes), intent(inout) :: this            !< Must be empty.
     real(c_double), intent(in), contiguous, target :: time(:) !< (n_keys), 1 to 1,000,000, strictly ascending, magnitude at
                                                             !! most 1e30.
@@ -48,18 +49,27 @@ contains
     class(*), intent(in), optional :: interpolation         !< integer, RIIS_INTERPOLATION_*, for every coordinate. Default
                                                             !! RIIS_INTERPOLATION_LINEAR.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
+    logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
+                                                            !! skirt, the attachment is chosen in the first frame.
+    real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
+                                                            !! attached vertices. Default skirt_length.
     type(riis_surface_arrays) :: faces
+    integer(int8), allocatable, target :: bytes(:)
     integer(riis_status) :: code
     code = check_not_created(this%handle, 'keyframes')
     call get_faces(size(xyz, 2, int64), size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, &
       index_base, faces, code)
     if (size(vertex_ids, kind=int64) > 0) faces%vertex_ids = c_loc(vertex_ids)
+    call get_mask(attached, bytes, code)
+    call set_skirt(skirt_length, bytes, skirt_lengths, faces, code)
     call create(this, time, xyz, faces, period, interpolation, code)
     call finish(code, status)
   end subroutine keyframes_create_int32
 
   !> Implements %create for integer(int64).
-  subroutine keyframes_create_int64(this, time, xyz, vertex_ids, leaflet_id, index_base, period, interpolation, status)
+  subroutine keyframes_create_int64(this, time, xyz, vertex_ids, leaflet_id, index_base, period, interpolation, status, &
+      skirt_length, attached, skirt_lengths)
     class(riis_keyframes), intent(inout) :: this            !< Must be empty.
     real(c_double), intent(in), contiguous, target :: time(:) !< (n_keys), 1 to 1,000,000, strictly ascending, magnitude at
                                                             !! most 1e30.
@@ -75,12 +85,20 @@ contains
     class(*), intent(in), optional :: interpolation         !< integer, RIIS_INTERPOLATION_*, for every coordinate. Default
                                                             !! RIIS_INTERPOLATION_LINEAR.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
+    logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
+                                                            !! skirt, the attachment is chosen in the first frame.
+    real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
+                                                            !! attached vertices. Default skirt_length.
     type(riis_surface_arrays) :: faces
+    integer(int8), allocatable, target :: bytes(:)
     integer(riis_status) :: code
     code = check_not_created(this%handle, 'keyframes')
     call get_faces(size(xyz, 2, int64), size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, &
       index_base, faces, code)
     if (size(vertex_ids, kind=int64) > 0) faces%vertex_ids = c_loc(vertex_ids)
+    call get_mask(attached, bytes, code)
+    call set_skirt(skirt_length, bytes, skirt_lengths, faces, code)
     call create(this, time, xyz, faces, period, interpolation, code)
     call finish(code, status)
   end subroutine keyframes_create_int64

@@ -266,7 +266,7 @@ contains
   !! triangles.
   subroutine surface_create_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      velocity, n_threads)
+      velocity, n_threads, skirt_length, attached, skirt_lengths)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -287,8 +287,14 @@ contains
                                                             !! The placement rotates and scales them, but does not translate them.
                                                             !! Default: none.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
+    logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
+                                                            !! skirt, the attachment is chosen.
+    real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
+                                                            !! attached vertices. Default skirt_length.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
+    integer(int8), allocatable, target :: bytes(:)
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     if (code == RIIS_OK .and. present(velocity)) then
@@ -299,6 +305,8 @@ contains
       arrays, code)
     call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call get_mask(attached, bytes, code)
+    call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, n_threads, code)
     call finish(code, status)
@@ -307,7 +315,7 @@ contains
   !> Implements %create_from_arrays for integer(int64).
   subroutine surface_create_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      velocity, n_threads)
+      velocity, n_threads, skirt_length, attached, skirt_lengths)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -328,8 +336,14 @@ contains
                                                             !! The placement rotates and scales them, but does not translate them.
                                                             !! Default: none.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
+    logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
+                                                            !! skirt, the attachment is chosen.
+    real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
+                                                            !! attached vertices. Default skirt_length.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
+    integer(int8), allocatable, target :: bytes(:)
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     if (code == RIIS_OK .and. present(velocity)) then
@@ -340,6 +354,8 @@ contains
       arrays, code)
     call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call get_mask(attached, bytes, code)
+    call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, n_threads, code)
     call finish(code, status)
@@ -348,7 +364,7 @@ contains
   !> Implements %create_from_arrays for separate arrays x, y, z.
   subroutine surface_create_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      vx, vy, vz, n_threads)
+      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -371,8 +387,14 @@ contains
     real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), like vx.
     real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), like vx.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
+    logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
+                                                            !! skirt, the attachment is chosen.
+    real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
+                                                            !! attached vertices. Default skirt_length.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
+    integer(int8), allocatable, target :: bytes(:)
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     if (code == RIIS_OK .and. present(vx) .and. present(vy) .and. present(vz)) then
@@ -385,6 +407,8 @@ contains
       arrays, code)
     call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call get_mask(attached, bytes, code)
+    call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, n_threads, code)
     call finish(code, status)
@@ -393,7 +417,7 @@ contains
   !> Implements %create_from_arrays for integer(int64) and separate arrays x, y, z.
   subroutine surface_create_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      vx, vy, vz, n_threads)
+      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -416,8 +440,14 @@ contains
     real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), like vx.
     real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), like vx.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
+    logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
+                                                            !! skirt, the attachment is chosen.
+    real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
+                                                            !! attached vertices. Default skirt_length.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
+    integer(int8), allocatable, target :: bytes(:)
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     if (code == RIIS_OK .and. present(vx) .and. present(vy) .and. present(vz)) then
@@ -430,6 +460,8 @@ contains
       arrays, code)
     call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call get_mask(attached, bytes, code)
+    call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, n_threads, code)
     call finish(code, status)
@@ -438,7 +470,7 @@ contains
   !> Replaces the surface as %update does, from arrays as in %create_from_arrays.
   subroutine surface_update_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      velocity, n_threads)
+      velocity, n_threads, skirt_length, attached, skirt_lengths)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -459,8 +491,14 @@ contains
                                                             !! The placement rotates and scales them, but does not translate them.
                                                             !! Default: none.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
+    logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
+                                                            !! skirt, the attachment is chosen.
+    real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
+                                                            !! attached vertices. Default skirt_length.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
+    integer(int8), allocatable, target :: bytes(:)
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     if (code == RIIS_OK .and. present(velocity)) then
@@ -471,6 +509,8 @@ contains
       arrays, code)
     call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call get_mask(attached, bytes, code)
+    call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, n_threads, code)
     call finish(code, status)
@@ -479,7 +519,7 @@ contains
   !> Implements %update_from_arrays for integer(int64).
   subroutine surface_update_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      velocity, n_threads)
+      velocity, n_threads, skirt_length, attached, skirt_lengths)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -500,8 +540,14 @@ contains
                                                             !! The placement rotates and scales them, but does not translate them.
                                                             !! Default: none.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
+    logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
+                                                            !! skirt, the attachment is chosen.
+    real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
+                                                            !! attached vertices. Default skirt_length.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
+    integer(int8), allocatable, target :: bytes(:)
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     if (code == RIIS_OK .and. present(velocity)) then
@@ -512,6 +558,8 @@ contains
       arrays, code)
     call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call get_mask(attached, bytes, code)
+    call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, n_threads, code)
     call finish(code, status)
@@ -520,7 +568,7 @@ contains
   !> Implements %update_from_arrays for separate arrays x, y, z.
   subroutine surface_update_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      vx, vy, vz, n_threads)
+      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -543,8 +591,14 @@ contains
     real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), like vx.
     real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), like vx.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
+    logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
+                                                            !! skirt, the attachment is chosen.
+    real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
+                                                            !! attached vertices. Default skirt_length.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
+    integer(int8), allocatable, target :: bytes(:)
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     if (code == RIIS_OK .and. present(vx) .and. present(vy) .and. present(vz)) then
@@ -557,6 +611,8 @@ contains
       arrays, code)
     call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call get_mask(attached, bytes, code)
+    call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, n_threads, code)
     call finish(code, status)
@@ -565,7 +621,7 @@ contains
   !> Implements %update_from_arrays for integer(int64) and separate arrays x, y, z.
   subroutine surface_update_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      vx, vy, vz, n_threads)
+      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -588,8 +644,14 @@ contains
     real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), like vx.
     real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), like vx.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
+    logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
+                                                            !! skirt, the attachment is chosen.
+    real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
+                                                            !! attached vertices. Default skirt_length.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
+    integer(int8), allocatable, target :: bytes(:)
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     if (code == RIIS_OK .and. present(vx) .and. present(vy) .and. present(vz)) then
@@ -602,6 +664,8 @@ contains
       arrays, code)
     call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call get_mask(attached, bytes, code)
+    call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, n_threads, code)
     call finish(code, status)

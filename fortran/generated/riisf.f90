@@ -51,6 +51,8 @@ module riisf
   public :: riisf_adjacency_destroy
   public :: riisf_surface_from_arrays
   public :: riisf_surface_from_arrays_64
+  public :: riisf_surface_with_skirt
+  public :: riisf_surface_with_skirt_64
   public :: riisf_surface_update_arrays
   public :: riisf_surface_update_arrays_64
   public :: riisf_keyframes_create
@@ -715,6 +717,62 @@ module riisf
       integer(int64), intent(inout) :: surface
       integer(riis_status), intent(out) :: status
     end subroutine riisf_surface_from_arrays_64
+
+    subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, &
+        index_base, attached, skirt_length, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+        translation, surface, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int8, int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int32), intent(in) :: n_vertices
+      real(c_double), intent(in) :: x(*)
+      real(c_double), intent(in) :: y(*)
+      real(c_double), intent(in) :: z(*)
+      integer(int32), intent(in) :: stride
+      integer(int32), intent(in) :: corners_per_face
+      integer(int32), intent(in) :: n_faces
+      integer(int32), intent(in) :: vertex_ids(*)
+      integer(int32), intent(in) :: index_base
+      integer(int8), intent(in) :: attached(*)
+      real(c_double), intent(in) :: skirt_length
+      real(c_double), intent(in) :: half_thickness
+      real(c_double), intent(in) :: tolerance
+      real(c_double), intent(in) :: scale
+      real(c_double), intent(in) :: rotation_axis(3)
+      real(c_double), intent(in) :: rotation_angle
+      real(c_double), intent(in) :: translation(3)
+      integer(int64), intent(inout) :: surface
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_with_skirt
+
+    subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, &
+        index_base, attached, skirt_length, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+        translation, surface, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int8, int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: n_vertices
+      real(c_double), intent(in) :: x(*)
+      real(c_double), intent(in) :: y(*)
+      real(c_double), intent(in) :: z(*)
+      integer(int64), intent(in) :: stride
+      integer(int32), intent(in) :: corners_per_face
+      integer(int64), intent(in) :: n_faces
+      integer(int64), intent(in) :: vertex_ids(*)
+      integer(int32), intent(in) :: index_base
+      integer(int8), intent(in) :: attached(*)
+      real(c_double), intent(in) :: skirt_length
+      real(c_double), intent(in) :: half_thickness
+      real(c_double), intent(in) :: tolerance
+      real(c_double), intent(in) :: scale
+      real(c_double), intent(in) :: rotation_axis(3)
+      real(c_double), intent(in) :: rotation_angle
+      real(c_double), intent(in) :: translation(3)
+      integer(int64), intent(inout) :: surface
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_with_skirt_64
 
     subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx, vy, vz, velocity_stride, &
         corners_per_face, n_faces, vertex_ids, index_base, status)

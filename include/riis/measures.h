@@ -42,7 +42,7 @@ enum {
 };
 /* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is the vector
  * area of the outline's edges in space. It is on the side of a valve's z axis, or on the side to which the normals of arrays and
- * keyframes point. A bileaflet valve has its z axis. A valve's skirt does not count. If leaflets of arrays do not touch at the
+ * keyframes point. A bileaflet valve has its z axis. A skirt does not count. If leaflets of arrays do not touch at the
  * commissures, straight lines join their ends. Lengths are in mesh units (docs/theory/measures.md, "Outline"). */
 typedef struct riis_orifice {
   double area;           /* the area of the orifice. Without an outline, all fields but axis and rim_reach are 0 */

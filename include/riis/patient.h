@@ -203,8 +203,7 @@ typedef struct riis_gap {
  * The gap is the distance along the skirt's direction, which is outwards from the valve's axis and perpendicular to it
  * (docs/theory/skirt.md). If the line meets the wall several times, the nearest place counts. The gap is negative if the
  * wall lies inside.
- * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, for a valve without an attachment, and for an attachment
- * that encloses no area. */
+ * Errors: RIIS_INVALID_ARGUMENT for a surface without an attachment, and for an attachment that encloses no area. */
 RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance,
                                           riis_gap *gap, int64_t struct_size);
 /* Gives a valve a skirt that just reaches a wall. It replaces the valve's skirt.

@@ -249,6 +249,7 @@ typedef struct riis_vtk_surface riis_vtk_surface;
  *             or .ply
  *   leaflets  the name of the cell array of leaflet ids, one whole number >= 0 for each cell. The array must
  *             exist. NULL stands for riis_leaflet, which may be missing
+ * The point array riis_attached, if the file has it, becomes riis_surface_arrays.attached. It has one number for each point.
  * A quad is cut from its first corner to its third. If this line runs outside a concave quad, the cut goes
  * from the second corner to the fourth, with the same winding.
  * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the arrays that exist. */
@@ -275,7 +276,8 @@ RIIS_API riis_status riis_vtk_surface_get_arrays(const riis_vtk_surface *surface
 
 /* Writes to a file exactly the triangles that answer queries, after placement. Points are Float64. Cell arrays
  * are riis_leaflet, riis_patch (Int32) and riis_triangle (Int64). Point arrays are riis_uv (2 x Float64) for
- * valves, and riis_velocity (3 x Float64) if the surface's last update gave velocities.
+ * valves, riis_velocity (3 x Float64) if the surface's last update gave velocities, and riis_attached (UInt8) if the
+ * surface has an attachment: 1 at its vertices.
  *   path  ends in .vtp */
 RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const char *path);
 
@@ -291,7 +293,7 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
  * All reading functions share these rules:
  * - Files are as for riis_vtk_surface_read, at most 1,000,000. They have the same points and cells in the same
  *   order. Polygons and quads are cut as in the first file.
- * - Leaflets come from the first file. `leaflets` names their cell array, as in riis_vtk_surface_read.
+ * - Leaflets and riis_attached come from the first file. `leaflets` names their cell array, as in riis_vtk_surface_read.
  * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly the same
  *   position in the first file become one vertex. They must also share one position in each of the other
  *   files. If leaflets touch at corners in the first file and separate later, use files with points instead.

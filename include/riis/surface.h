@@ -30,7 +30,8 @@ enum {
   RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
   RIIS_LEAFLET_HOUSING = 2,     /* bileaflet: the housing's wall, if ring_height is not 0 */
   RIIS_LEAFLET_SKIRT = 3        /* the skirt of a valve of any kind but bileaflet, if skirt_length is not 0. The skirt of
-                                   a valve from patches has this id, or the largest leaflet_id + 1 if that is larger */
+                                   a valve from patches or of arrays has this id, or the largest leaflet_id + 1 if that
+                                   is larger */
 };
 
 /* How triangles of zero area in the caller's arrays are treated. */
@@ -115,6 +116,12 @@ typedef struct riis_surface_arrays {
   int32_t id_bits;           /* of vertex_ids */
   int32_t index_base;        /* of vertex_ids */
   int32_t real_bits;         /* of vertices and velocities */
+  double skirt_length;       /* the length of a skirt before placement: a strip from the attachment outwards. It is 1e-4 to
+                                10 times the mean distance of the attachment from its axis. 0, the default: no skirt */
+  const uint8_t *attached;   /* (n_vertices): not 0 for the vertices of the attachment. The attachment consists of the open
+                                edges between two such vertices. NULL: with a skirt, the call chooses the attachment */
+  const double *skirt_lengths; /* (n_vertices): the skirt's lengths at the attached vertices, at most skirt_length.
+                                  Lengths below the least one count as the least one. NULL: skirt_length everywhere */
 } riis_surface_arrays;
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
@@ -122,7 +129,11 @@ RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64
 /* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have
  * 2 q and 2 q + 1. The id of a skipped triangle is not reused. A triangle has zero area if its longest edge is shorter
  * than 1e-60, or if its height over that edge is at most 1e-12 of the edge.
- * Errors: RIIS_LIMIT_EXCEEDED for too many; RIIS_INVALID_SURFACE naming the face or vertex and its value. */
+ * A skirt leads away from the line through the attachment's centroid along its vector area (docs/theory/skirt.md). Its
+ * vertices and triangles follow the caller's. Without `attached`, the attachment is the closed line of open edges that
+ * encloses the largest area. The line must enclose 0.8 of the leaflets' outline (RIIS_OUTLINE_BOUNDARY).
+ * Errors: RIIS_LIMIT_EXCEEDED for too many; RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying why an
+ * attachment is not found; RIIS_INVALID_ARGUMENT for a length of the skirt out of range. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options,
                                                      riis_surface **surface);
@@ -133,7 +144,8 @@ RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *
 RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
                                          const riis_surface_options *options);
 /* Replaces the surface's content from arrays.
- *   arrays   with n_faces 0, and vertex_ids and leaflet_id NULL, only the vertices move, and the faces stay
+ *   arrays   with n_faces 0, and vertex_ids and leaflet_id NULL, only the vertices move. The faces and the skirt stay:
+ *            skirt_length must be 0, and attached and skirt_lengths NULL
  *   options  as in riis_surface_update
  * Errors: as riis_surface_create_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices differs from the
  * last arrays, or if the surface was not made from arrays. */
@@ -172,7 +184,7 @@ typedef struct riis_triangles {
   const int64_t *vertex_id;   /* (3, n_triangles): their vertices */
   const int64_t *triangle_id; /* (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve */
   const int32_t *leaflet_id;  /* (n_triangles): RIIS_LEAFLET_*, or the caller's from patches and arrays */
-  const int32_t *patch_id;    /* (n_triangles). From arrays: 0. From patches: the patch's number, from 0. Aortic,
+  const int32_t *patch_id;    /* (n_triangles). From arrays: 0, skirt: 1. From patches: the patch's number, from 0. Aortic,
                                  coapting, trileaflet: 4 * leaflet, plus 0 bottom, 1 top, 2 and 3 mirrored.
                                  Mitral, anterior: 0 triangle at the posteromedial commissure, 1 side, 2 middle,
                                  3 mirrored middle, 4 mirrored side, 5 mirrored triangle. Mitral, posterior: 6 side
@@ -199,8 +211,9 @@ typedef struct riis_attachment {
  * - A mitral leaflet is attached at the annulus, v = 0.
  * - A valve from patches is attached at the sides v = 0 of only one patch.
  * - A bileaflet valve has no attachment, because pivots hold its leaflets.
- * A skirt (the parameter "skirt_length") continues the leaflets at the attachment, and changes nothing of it.
- * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, because its attached edges are not known. */
+ * - A surface from arrays has one if its arrays have `attached` or a skirt, and keyframes likewise.
+ * A skirt continues the leaflets at the attachment, and changes nothing of it.
+ * Errors: RIIS_INVALID_ARGUMENT for other surfaces from arrays, because their attached edges are not known. */
 RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment,
                                                  int64_t struct_size);
 
@@ -246,7 +259,8 @@ typedef struct riis_keyframe_arrays {
 /* Fills *frames with the defaults. */
 RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int64_t struct_size);
 /* Makes keyframes from copies of arrays and frames.
- *   arrays  as for riis_surface_create_from_arrays; its vertices and velocities are ignored, and may be NULL
+ *   arrays  as for riis_surface_create_from_arrays; its vertices and velocities are ignored, and may be NULL. The first
+ *           frame chooses the attachment of a skirt
  * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face; RIIS_LIMIT_EXCEEDED for too many. */
 RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
                                            const riis_keyframe_arrays *frames, riis_keyframes **keyframes);

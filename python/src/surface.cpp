@@ -114,19 +114,23 @@ nb::object direction(Surface &surface, nb::handle direction_id_) {
 }
 
 Surface *from_arrays(nb::handle vertices, nb::handle faces, nb::handle leaflet_id, nb::handle velocities,
-                     nb::handle index_base, const nb::kwargs &keywords) {
+                     nb::handle index_base, nb::handle skirt_length, nb::handle attached, nb::handle skirt_lengths,
+                     const nb::kwargs &keywords) {
   if (faces.is_none()) refuse_type("faces", "must be a numpy array of int32 or int64, not NoneType");
   FaceArrays of_faces(faces, leaflet_id, index_base);
   of_faces.set_vertices(vertices, velocities);
+  of_faces.set_skirt({skirt_length, attached, skirt_lengths});
   return new_surface(keywords, [&](const riis_surface_options &now, riis_surface **made) {
     return riis_surface_create_from_arrays(&of_faces.arrays, &now, made);
   });
 }
 
 void update_from_arrays(Surface &self, nb::handle vertices, nb::handle faces, nb::handle leaflet_id,
-                        nb::handle velocities, nb::handle index_base, const nb::kwargs &keywords) {
+                        nb::handle velocities, nb::handle index_base, nb::handle skirt_length, nb::handle attached,
+                        nb::handle skirt_lengths, const nb::kwargs &keywords) {
   FaceArrays of_faces(faces, leaflet_id, index_base);
   of_faces.set_vertices(vertices, velocities);
+  of_faces.set_skirt({skirt_length, attached, skirt_lengths});
   update_content(self, keywords, [&](const riis_surface_options &now) {
     return riis_surface_update_from_arrays(self.handle, &of_faces.arrays, &now);
   });
@@ -244,6 +248,18 @@ void FaceArrays::set_vertices(nb::handle given_vertices, nb::handle given_veloci
   arrays.velocity_stride = velocities.stride;
 }
 
+void FaceArrays::set_skirt(const SkirtArguments &skirt) {
+  arrays.skirt_length = number(skirt.length, "skirt_length");
+  if (!skirt.attached.is_none()) {
+    attached.emplace(Array::of<std::uint8_t>(skirt.attached, "attached")).expect({arrays.n_vertices});
+    arrays.attached = attached->data<std::uint8_t>();
+  }
+  if (!skirt.lengths.is_none()) {
+    skirt_lengths.emplace(Array::of<double>(skirt.lengths, "skirt_lengths")).expect({arrays.n_vertices});
+    arrays.skirt_lengths = skirt_lengths->data<double>();
+  }
+}
+
 void Surface::close(const char *name) {
   Handle::close(name);
   drop_copies();
@@ -274,16 +290,22 @@ An update keeps the options that it does not name. Arrays of a surface are copie
            nb::sig("def __init__(self, valve: Valve, *, " RIIS_SURFACE_OPTIONS ") -> None"))
       .def_static("from_arrays", &from_arrays, nb::arg("vertices").none(), nb::arg("faces").none(), nb::kw_only(),
                   nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(),
-                  nb::arg("index_base").none() = 0, nb::arg("options"),
+                  nb::arg("index_base").none() = 0, nb::arg("skirt_length").none() = 0.0,
+                  nb::arg("attached").none() = nb::none(), nb::arg("skirt_lengths").none() = nb::none(),
+                  nb::arg("options"),
                   nb::sig("def from_arrays(vertices: " RIIS_POINTS ", faces: " RIIS_FACES
                           ", *, leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None, velocities: " RIIS_POINTS
-                          " | None = None, index_base: int = 0, " RIIS_SURFACE_OPTIONS ") -> Surface"),
+                          " | None = None, index_base: int = 0, " RIIS_SKIRT ", " RIIS_SURFACE_OPTIONS ") -> Surface"),
                   R"(Makes a surface from triangles or quads, which are copied.
 
-vertices    (n_vertices, 3) float64 of any forward strides, before placement
-faces       (n_faces, 3 or 4) int32 or int64: vertex numbers from index_base; the normal follows the right-hand rule
-leaflet_id  (n_faces,) int32, >= 0; default 0
-velocities  (n_vertices, 3) float64, lengths divided by the caller's unit of time)")
+vertices       (n_vertices, 3) float64 of any forward strides, before placement
+faces          (n_faces, 3 or 4) int32 or int64: vertex numbers from index_base; the normal follows the right-hand rule
+leaflet_id     (n_faces,) int32, >= 0; default 0
+velocities     (n_vertices, 3) float64, lengths divided by the caller's unit of time
+skirt_length   the length of a skirt before placement, a strip from the attachment outwards; 0: no skirt
+attached       (n_vertices,) bool or uint8: the vertices of the attachment. If it is None, the skirt leads from the
+               closed line of open edges that encloses the largest area
+skirt_lengths  (n_vertices,) float64: lengths of the skirt at the attached vertices, at most skirt_length)")
       .def_static(
           "from_keyframes", &from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(),
           nb::arg("dt").none() = nb::none(), nb::arg("options"),
@@ -333,12 +355,14 @@ direction_id  0 for the first add_direction after the last update, 1 for the sec
       .def(
           "update_from_arrays", &update_from_arrays, nb::arg("vertices").none(), nb::arg("faces").none() = nb::none(),
           nb::kw_only(), nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(),
-          nb::arg("index_base").none() = 0, nb::arg("options"),
+          nb::arg("index_base").none() = 0, nb::arg("skirt_length").none() = 0.0,
+          nb::arg("attached").none() = nb::none(), nb::arg("skirt_lengths").none() = nb::none(), nb::arg("options"),
           nb::sig(
               "def update_from_arrays(self, vertices: " RIIS_POINTS ", faces: " RIIS_FACES
               " | None = None, *, leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None, velocities: " RIIS_POINTS
-              " | None = None, index_base: int = 0, " RIIS_SURFACE_OPTIONS ") -> None"),
-          "Replaces the content from arrays as in from_arrays. Without faces, only the vertices move.")
+              " | None = None, index_base: int = 0, " RIIS_SKIRT ", " RIIS_SURFACE_OPTIONS ") -> None"),
+          "Replaces the content from arrays as in from_arrays. Without faces, only the vertices move, and the "
+          "skirt stays.")
       .def("update_from_keyframes", &update_from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(),
            nb::arg("dt").none() = nb::none(), nb::arg("options"),
            nb::sig("def update_from_keyframes(self, keyframes: Keyframes, time: float, dt: float | None = None, "

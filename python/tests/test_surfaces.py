@@ -177,3 +177,24 @@ def test_crossings_are_found():
     assert numpy.allclose(found.point, [[0.0, 0.5, 0.0]]) and numpy.allclose(found.deepest_point, [0.0, 0.5, 0.0])
     none = riis.find_crossings(riis.Surface.from_arrays(CORNERS, FACES))
     assert none.n_pairs == 0 and none.triangle_id.shape == (0, 2) and none.deepest_triangle_id.tolist() == [-1, -1]
+
+
+def test_a_skirt_of_arrays_leads_outwards():
+    turns = numpy.arange(12) * numpy.pi / 6
+    rim = numpy.stack([numpy.cos(turns), numpy.sin(turns), 0 * turns], axis=1)
+    corners = numpy.concatenate([rim, [[0.0, 0.0, 0.2]]])
+    faces = numpy.array([[i, (i + 1) % 12, 12] for i in range(12)])
+    attached = numpy.arange(13) < 12
+    for named in (None, attached):
+        surface = riis.Surface.from_arrays(corners, faces, skirt_length=0.5, attached=named)
+        assert numpy.allclose(surface.vertices[13:], 1.5 * rim)
+        assert surface.info.largest_leaflet_id == 3 and surface.info.n_triangles == 36
+        assert numpy.array_equal(numpy.unique(surface.attachment.vertex_id), numpy.arange(12))
+    lengths = numpy.where(attached, 0.25, 0.0)
+    surface = riis.Surface.from_arrays(corners, faces, skirt_length=0.5, attached=attached, skirt_lengths=lengths)
+    assert numpy.allclose(surface.vertices[13:], 1.25 * rim)
+    surface.update_from_arrays(2.0 * corners)
+    assert numpy.allclose(surface.vertices[13:], 2.25 * rim)
+    frames = riis.Keyframes(numpy.array([0.0, 1.0]), numpy.stack([corners, 2.0 * corners]), faces, skirt_length=0.5)
+    surface = riis.Surface.from_keyframes(frames, 0.5)
+    assert numpy.allclose(surface.vertices[13:], 2.0 * rim) and numpy.allclose(surface.velocities[13:], rim)

@@ -69,7 +69,7 @@ TEST(test_structs) {
   FIELD(riis_surface_options, n_threads, 112, 4);
   FIELD(riis_surface_options, reserved, 116, 4);
 
-  SIZE(riis_surface_arrays, 120);
+  SIZE(riis_surface_arrays, 144);
   FIELD(riis_surface_arrays, struct_size, 0, 8);
   FIELD(riis_surface_arrays, n_vertices, 8, 8);
   FIELD(riis_surface_arrays, x, 16, 8);
@@ -87,6 +87,9 @@ TEST(test_structs) {
   FIELD(riis_surface_arrays, id_bits, 108, 4);
   FIELD(riis_surface_arrays, index_base, 112, 4);
   FIELD(riis_surface_arrays, real_bits, 116, 4);
+  FIELD(riis_surface_arrays, skirt_length, 120, 8);
+  FIELD(riis_surface_arrays, attached, 128, 8);
+  FIELD(riis_surface_arrays, skirt_lengths, 136, 8);
 
   SIZE(riis_keyframe_arrays, 56);
   FIELD(riis_keyframe_arrays, struct_size, 0, 8);

@@ -475,7 +475,6 @@ TEST(test_skirts_and_files) {
   char csv[256];
   snprintf(csv, sizeof csv, "%s", scratch_path("no.csv"));
   RUN_REFUSED(2, "--wall needs --skirt or --surface", "states", csv, "--wall", wall);
-  RUN_REFUSED(2, "--skirt excludes --surface", "states", csv, "--surface", file, "--skirt", "1");
   RUN_REFUSED(2, "--skirt: -1 is not above 0 and finite", "states", csv, "--skirt", "-1");
   RUN_REFUSED(1, "'skirt_length' is not a parameter of the bileaflet valve", "states", csv, "--valve", "bileaflet",
               "--skirt", "1");

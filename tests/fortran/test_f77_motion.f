@@ -298,8 +298,9 @@ C     the square show its height and its speed.
       DOUBLE PRECISION XYZ(3,4), X(4), Y(4), Z(4), V(3,4), ZERO(4)
       DOUBLE PRECISION AXIS(3)
       INTEGER STAT, QUAD(4,1), FLAT(3,1), I
+      INTEGER*1 HELD(4)
       DATA SURF, SURF2 /2*0/, AXIS /0D0, 0D0, 1D0/, ZERO /4*0D0/
-      DATA QUAD /0, 1, 2, 3/, FLAT /1, 2, 2/
+      DATA QUAD /0, 1, 2, 3/, FLAT /1, 2, 2/, HELD /4*1/
       CALL CORNER(XYZ, 0.1D0)
       BIG = 4
       DO 10 I = 1, 4
@@ -331,6 +332,18 @@ C     the square show its height and its speed.
      &  XYZ(3,1), 3, ZERO, ZERO, V, 1, 4, 1, QUAD, 2, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'index_base is 2')
       CALL RIISF_SURFACE_DESTROY(SURF2)
+C     Four strips around the square. The library chooses or takes them.
+      DO 20 I = -1, 1, 2
+        HELD(1) = INT(I, 1)
+        CALL RIISF_SURFACE_WITH_SKIRT(4, X, Y, Z, 1, 4, 1, QUAD, 0,
+     &    HELD, 0.2D0, 0.5D0, 0.05D0, 2D0, AXIS, 0D0, ZERO, SURF2, STAT)
+        CALL OK(STAT)
+        CALL RIISF_SURFACE_DESTROY(SURF2)
+   20 CONTINUE
+      CALL RIISF_SURFACE_WITH_SKIRT_64(BIG, X, Y, Z, BIG / 4, 4,
+     &  BIG / 4, QUADL, 1, HELD, -1D0, 0.5D0, 0.05D0, 2D0, AXIS, 0D0,
+     &  ZERO, SURF2, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'skirt_length is -1')
       CALL RIISF_SURFACE_FROM_ARRAYS(4, X, Y, Z, 1, 3, 1, FLAT, 1,
      &  0.5D0, 0.05D0, 2D0, AXIS, 0D0, ZERO, SURF2, STAT)
       CALL WANT(STAT, RIIS_INVALID_SURFACE, 'zero area')

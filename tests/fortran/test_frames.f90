@@ -27,6 +27,7 @@ program test_frames
   call test_warps()
   call test_bad_warps()
   call test_velocities_of_arrays()
+  call test_skirts()
   call test_bad_velocities()
   call make_box()
   call test_masks()
@@ -384,6 +385,53 @@ contains
     if (is_same) is_same = all(abs(velocity - expected) < 1d-13)
     call check(is_same, 'velocities by ' // what)
   end subroutine check_velocities
+
+  ! The unit square gets a skirt that leads away from its middle.
+  subroutine test_skirts()
+    type(riis_surface) :: surface
+    type(riis_keyframes) :: keys
+    real(c_double), parameter :: lengths(4) = 0.25d0
+    real(c_double) :: middle(3), moved(3, 4), outwards(3, 4)
+    integer :: i
+    middle = sum(square, dim=2) / 4
+    do i = 1, 4
+      outwards(:, i) = (square(:, i) - middle) / norm2(square(:, i) - middle)
+    end do
+    call surface%create_from_arrays(square, halves, skirt_length=0.5d0)
+    call check_outer(surface, square + 0.5d0 * outwards, 'chosen')
+    call surface%update_from_arrays(square, int(quad, int64), skirt_length=0.5d0, attached=[.true., .true., .true., .true.], &
+      skirt_lengths=lengths)
+    call check_outer(surface, square + 0.25d0 * outwards, 'named')
+    call surface%update_from_arrays(square, halves, skirt_length=0.5d0, attached=[.true., .true., .true.], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of attached is 3; there are 4 vertices')
+    call surface%update_from_arrays(square, halves, skirt_length=0.5d0, skirt_lengths=lengths(:2), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of skirt_lengths is 2; there are 4 vertices')
+    call surface%update_from_arrays(square, halves, skirt_length=-0.5d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'arrays.skirt_length is -0.5')
+    call surface%destroy()
+    moved = square + 1
+    call keys%create([0d0, 1d0], reshape([square, moved], [3, 4, 2]), halves, skirt_length=0.5d0)
+    call surface%create_from_keyframes(keys, 1d0)
+    call check_outer(surface, moved + 0.5d0 * outwards, 'of frames')
+    call surface%destroy()
+    call keys%destroy()
+  end subroutine test_skirts
+
+  subroutine check_outer(of, expected, what)
+    type(riis_triangles) :: all_triangles
+    type(riis_surface), intent(in) :: of
+    real(c_double), intent(in) :: expected(:, :)
+    character(len=*), intent(in) :: what
+    real(c_double), pointer :: xyz(:, :)
+    logical :: is_same
+    integer :: i
+    call of%get_triangles(all_triangles)
+    xyz => all_triangles%xyz
+    is_same = size(xyz, 2) == 8
+    ! The order of the outer vertices follows the attached edges.
+    if (is_same) is_same = all([(minval(norm2(expected - spread(xyz(:, i), 2, 4), dim=1)) < 1d-13, i=5, 8)])
+    call check(is_same, 'the skirt, ' // what)
+  end subroutine check_outer
 
   subroutine test_bad_velocities()
     type(riis_surface) :: surface

@@ -14,6 +14,7 @@
 #include "random_meshes.h"
 
 #include "flood_fill.h"
+#include "given_back.h"
 #include "shapes.h"
 #include "skirt_checks.h"
 
@@ -368,6 +369,10 @@ TEST(skirts_seal_gaps) {
       printf("%s, gap %.2f: %s without a skirt\n", skirted[kind], gaps[i], bare_leaks ? "leaks" : "closed");
       if (gaps[i] > 0.12) assert_true(bare_leaks); /* more than the half thickness */
       assert_false(leaks(sealed, &nodes));
+      riis_surface_arrays arrays = given_back(bare, 0); /* as if the leaflets came from a file */
+      arrays.skirt_length = gaps[i];
+      options.triangulation = RIIS_TRIANGULATION_ADAPTED;
+      assert_false(leaks(surface_from(&arrays, &options), &nodes));
       if (i == 3) assert_true(leaks(open, &nodes));
       free_owned_after(owned_before);
     }

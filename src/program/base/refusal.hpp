@@ -34,6 +34,7 @@ inline std::string with_option_named(const std::string &text) {
                                                                 {"options.search ", "--search "},
                                                                 {"options.n_threads ", "--threads "},
                                                                 {"arrays.far_distance ", "--far-distance "},
+                                                                {"arrays.skirt_length ", "--skirt: skirt_length "},
                                                                 {"resistance.R ", "--resistance "},
                                                                 {"where: ", "--cells-where: "},
                                                                 {"where is ", "--cells-where is "},

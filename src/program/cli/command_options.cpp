@@ -147,7 +147,7 @@ void declare_file(Command &command, ValveOptions &options) {
   riis_surface_options &how = options.surface_options;
   command.group("Surface");
   CLI::Option *const surface = declare_surface_files(command, options);
-  for (const char *name : {"--valve", "--opening", "--params", "--params-open", "--set", "--warp", "--skirt", "--wall"})
+  for (const char *name : {"--valve", "--opening", "--params", "--params-open", "--set", "--warp"})
     surface->excludes(command.option(name));
   declare_leaflets(command, surface, options);
   command
@@ -467,8 +467,7 @@ void declare_states(Command command, StatesOptions &options) {
   declare_shape(command, options);
   declare_tolerance(command, options);
   CLI::Option *const surface = declare_surface_files(command, options);
-  for (const char *name :
-       {"--valve", "--params", "--params-open", "--set", "--warp", "--skirt", "--tolerance", "--count"})
+  for (const char *name : {"--valve", "--params", "--params-open", "--set", "--warp", "--tolerance", "--count"})
     surface->excludes(command.option(name));
   command.option("--wall")->remove_needs(command.option("--skirt"));  // the wall of a surface bounds its orifice
   declare_leaflets(command, surface, options);

@@ -140,7 +140,8 @@ closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. --valve 
 to the wall. The parameter skirt_length is the same length in the valve's own unit. With --wall FILE, a surface in the mesh's
 frame and unit, the skirt reaches that wall, and no farther. FILE may also be a volume mesh, whose boundary is the wall. L is
 then the longest skirt to accept. The program prints the gap. A wall that is missed, or farther away at any opening, is refused.
-In a case, "skirt" and "wall" are keys of a valve.
+With --surface FILE, the skirt leads from the points whose point array riis_attached is not 0. Without this array, it leads from
+the closed line of open edges that encloses the largest area. In a case, "skirt" and "wall" are keys of a valve.
 )"},
     {"warp", "a valve that meets a patient's landmarks",
      R"(

@@ -81,7 +81,7 @@ class Measured {
       source.file = read_surface(options, seconds);
     }
     surface_ = make_surface(source, FileVelocity::none);
-    if (!options.wall.empty()) wall_ = wall_of(options);
+    if (!options.wall.empty() && !options.skirt) wall_ = wall_of(options);
     keyframes_ = std::move(source.keyframes);
   }
 
@@ -136,8 +136,8 @@ class Measured {
 
 // Tells whether a leaflet is the valve's skirt, which has the largest id.
 bool is_skirt(const StatesOptions &options, const riis_leaflet &leaflet, const std::vector<riis_leaflet> &leaflets) {
-  if (!options.surface.empty() || options.valve == "bileaflet") return false;
-  if (!is_valve_file(options.valve)) return leaflet.leaflet_id == RIIS_LEAFLET_SKIRT;
+  if (options.surface.empty() && options.valve == "bileaflet") return false;
+  if (options.surface.empty() && !is_valve_file(options.valve)) return leaflet.leaflet_id == RIIS_LEAFLET_SKIRT;
   return options.skirt && &leaflet == &leaflets.back();
 }
 

@@ -278,8 +278,7 @@ class CaseReader {
   }
 
   void make_surface_of(const CaseValues &values, ValveSource &source) {
-    for (const char *key :
-         {"parameters", "open_parameters", "opening", "tolerance", "triangulation", "warp", "skirt", "wall"})
+    for (const char *key : {"parameters", "open_parameters", "opening", "tolerance", "triangulation", "warp"})
       if (values.has(key)) values.refuse(key, "it cannot be combined with \"surface\"");
     if (is_motion(source.options)) {
       if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");

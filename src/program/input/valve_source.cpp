@@ -63,8 +63,11 @@ Surface surface_of_file(const ValveOptions &options, const riis_vtk_surface *fil
     arrays.vx = arrays.vy = arrays.vz = zeros.data();
   }
   try {
-    return create_for<Surface>(options.surface, riis_surface_create_from_arrays, &arrays, &options.surface_options);
+    const SkirtOfFile skirt(options, arrays);
+    return create_for<Surface>(options.surface, riis_surface_create_from_arrays, &skirt.arrays(),
+                               &options.surface_options);
   } catch (Refusal &refusal) {
+    refusal.text = with_attached_array(refusal.text);
     if (has_text(refusal.text, "has zero area")) refusal.text += "; --skip-zero-area leaves out such triangles";
     throw;
   }
@@ -260,9 +263,17 @@ KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds) {
   const auto arrays = get<riis_surface_arrays>(riis_vtk_motion_get_arrays, motion);
   auto frames = get<riis_keyframe_arrays>(riis_vtk_motion_get_frames, motion);
   frames.period = options.period;
-  return {create_for<Keyframes>(options.surface, riis_keyframes_create, &arrays, &frames),
-          {paths, paths + n_files},
-          {frames.time, frames.time + frames.n_keys}};
+  try {
+    const SkirtOfFile skirt(options, arrays);
+    KeyframeFiles made{create_for<Keyframes>(options.surface, riis_keyframes_create, &skirt.arrays(), &frames),
+                       {paths, paths + n_files},
+                       {frames.time, frames.time + frames.n_keys}};
+    skirt.check_times(made.keyframes, made.times);
+    return made;
+  } catch (Refusal &refusal) {
+    refusal.text = with_attached_array(refusal.text);
+    throw;
+  }
 }
 
 // ---- Conversion ----

@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "common/array_view.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
@@ -74,13 +75,12 @@ std::string axes_advice(const ValveOptions &options) {
   return std::string("place the valve by riis place --axes ") + (is_ras ? "LPS" : "RAS");
 }
 
-// Returns a hint if the skirt would reach the wall in another unit or with other axes, and "" otherwise.
-std::string hint_of_change(const ValveOptions &options, const SurfaceFile &file, const riis_valve *valve) {
+// Returns a hint if the skirt would reach the wall in another unit or with other axes, and "" otherwise. `reaches` tries a wall.
+template <class Reaches>
+std::string hint_of_change(const ValveOptions &options, const SurfaceFile &file, const Reaches &reaches) {
   for (const Change change : {Change{"1", true}, Change{"0.1", false}, Change{"10", false}, Change{"0.01", false},
                               Change{"100", false}, Change{"0.001", false}, Change{"1000", false}}) {
-    const Valve copy = copy_of(valve);
-    const Surface wall = make_wall(options, file, change);
-    if (riis_valve_set_skirt_to_wall(copy, wall, *options.skirt, &options.surface_options) != RIIS_OK) continue;
+    if (!reaches(make_wall(options, file, change))) continue;
     if (!change.is_turned)
       return std::string("; with its lengths times ") + change.factor +
              " the wall would be: save it in the mesh's unit";
@@ -122,6 +122,16 @@ void check_sizes(const ValveOptions &options, const riis_surface *wall, const ri
             ", through which a skirt may pass: close it");
 }
 
+// Refuses a wall that is farther away than --skirt. `when` is such as "at the opening 0.5 ".
+void check_gap(const ValveOptions &options, const riis_surface *surface, const riis_surface *wall,
+               const std::string &when) {
+  riis_gap gap;
+  check(riis_surface_get_gap(surface, wall, nullptr, &gap, sizeof gap), options.wall);
+  if (gap.most > (1 + most_beyond) * *options.skirt)
+    refuse_data(options.wall + ": " + when + "the wall is not within --skirt, " + shown(*options.skirt) +
+                ": the widest gap is " + shown(gap.most) + ", at " + place_text(options, gap.widest_point, 0));
+}
+
 // Checks the wall and the skirt's length for the closed valve. If the valve opens, its attachment may move. The wall is then
 // refused if it is farther away than --skirt at an opening.
 void check_all_openings(const ValveOptions &options, const riis_valve *valve, const riis_surface *wall) {
@@ -132,14 +142,25 @@ void check_all_openings(const ValveOptions &options, const riis_valve *valve, co
   };
   check_sizes(options, wall, surface_at(0));
   if (!why_closed(trial, options.surface_options).empty()) return;
-  for (const double opening : openings_from_0_to_1(n_openings)) {
-    riis_gap gap;
-    check(riis_surface_get_gap(surface_at(opening), wall, nullptr, &gap, sizeof gap), options.wall);
-    const std::string at = options.wall + ": at the opening " + shown(opening) + " the wall is ";
-    if (gap.most > (1 + most_beyond) * *options.skirt)
-      refuse_data(at + "not within --skirt, " + shown(*options.skirt) + ": the widest gap is " + shown(gap.most) +
-                  ", at " + place_text(options, gap.widest_point, 0));
-  }
+  for (const double opening : openings_from_0_to_1(n_openings))
+    check_gap(options, surface_at(opening), wall, "at the opening " + shown(opening) + " ");
+}
+
+// The gap at each end of each attached edge.
+struct Gaps {
+  std::vector<double> distance;
+  riis_gap measures;
+};
+
+Gaps gaps_of(const riis_surface *surface, const riis_surface *wall) {
+  const auto attachment = get<riis_attachment>(riis_surface_get_attachment, surface);
+  Gaps made{std::vector<double>(static_cast<std::size_t>(2 * attachment.n_edges)), {}};
+  check(riis_surface_get_gap(surface, wall, made.distance.data(), &made.measures, sizeof made.measures));
+  return made;
+}
+
+bool is_reached(const Gaps &gaps, double longest) {
+  return gaps.measures.n_without_wall == 0 && gaps.measures.most <= longest;
 }
 
 }  // namespace
@@ -155,10 +176,59 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   const riis_status status = riis_valve_set_skirt_to_wall(valve, wall, *options.skirt, &options.surface_options);
   if (status == RIIS_INVALID_ARGUMENT) {
     const std::string reason = options.wall + ": " + riis_last_error();
-    refuse_data(reason + hint_of_change(options, file, valve));
+    refuse_data(reason + hint_of_change(options, file, [&](const riis_surface *other) {
+                  const Valve copy = copy_of(valve);
+                  return riis_valve_set_skirt_to_wall(copy, other, *options.skirt, &options.surface_options) == RIIS_OK;
+                }));
   }
   check(status, subject);
   check_all_openings(options, valve, wall);
+}
+
+SkirtOfFile::SkirtOfFile(const ValveOptions &options, riis_surface_arrays arrays) : options_(options), arrays_(arrays) {
+  if (!options.skirt) {
+    arrays_.attached = nullptr;
+    return;
+  }
+  const double scale = options.surface_options.scale, longest = *options.skirt;
+  arrays_.skirt_length = longest / scale;
+  if (options.wall.empty()) return;
+  const SurfaceFile file = read_wall(options.wall);
+  const Surface wall = make_wall(options, file);
+  const auto surface =
+      create_for<Surface>(options.surface, riis_surface_create_from_arrays, &arrays_, &options.surface_options);
+  const Gaps gaps = gaps_of(surface, wall);
+  if (!is_reached(gaps, longest))
+    refuse_data(options.wall + ": wall is not within --skirt, " + shown(longest) + ", of the attachment: " +
+                (gaps.measures.n_without_wall > 0 ? "it is missed at " + std::to_string(gaps.measures.n_without_wall) +
+                                                        " of " + std::to_string(gaps.measures.n_ends) + " ends of edges"
+                                                  : "the widest gap is " + shown(gaps.measures.most) + ", at " +
+                                                        place_text(options, gaps.measures.widest_point, 0)) +
+                hint_of_change(options, file, [&](const riis_surface *other) {
+                  return is_reached(gaps_of(surface, other), longest);
+                }));
+  check_sizes(options, wall, surface);
+  const auto attachment = get<riis_attachment>(riis_surface_get_attachment, surface);
+  resize(lengths_, arrays.n_vertices);
+  for (std::int64_t i = 0; i < 2 * attachment.n_edges; ++i)
+    view(lengths_)[attachment.vertex_id[i]] = view(gaps.distance)[i] / scale;
+  arrays_.skirt_lengths = lengths_.data();
+}
+
+void SkirtOfFile::check_times(const riis_keyframes *keyframes, const std::vector<double> &times) const {
+  if (!options_.skirt || options_.wall.empty()) return;
+  const Surface wall = wall_of(options_);
+  for (const double time : times)
+    check_gap(options_,
+              create_for<Surface>(options_.surface, riis_surface_create_from_keyframes, keyframes, time, 0.0,
+                                  &options_.surface_options),
+              wall, "at the time " + shown(time) + " ");
+}
+
+std::string with_attached_array(std::string text) {
+  const std::string field = "arrays.attached";
+  const std::size_t at = text.find(field);
+  return at == std::string::npos ? text : text.replace(at, field.size(), "the point array riis_attached");
 }
 
 Surface wall_of(const ValveOptions &options) { return make_wall(options, read_wall(options.wall)); }

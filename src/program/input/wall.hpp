@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: --skirt and --wall. Out: the skirt of a valve, up to a wall, and the gap between the valve and the wall.
+// In: --skirt and --wall. Out: the skirt of a valve or of a surface from a file, up to a wall, and the gap between the valve and
+// the wall.
 #pragma once
 
 #include <riis/riis.h>
 
 #include <string>
+#include <vector>
 
 #include "program/base/handles.hpp"
 #include "program/base/options.hpp"
@@ -14,6 +16,25 @@ namespace riis::program {
 // Gives the valve the skirt of --skirt and --wall. Does nothing without --skirt. `subject` begins refusals that are not about the
 // wall. Refuses a wall that is farther away than --skirt at any opening. Warns of holes in the wall.
 void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string &subject);
+
+// The arrays of a surface from a file, with the skirt of --skirt and --wall.
+class SkirtOfFile {
+ public:
+  // Without --skirt, the arrays get no skirt and no attachment. With --wall, the vertices of the arrays must be those of the
+  // closed valve. Refuses a wall that is farther away than --skirt. Warns of holes in the wall.
+  SkirtOfFile(const ValveOptions &options, riis_surface_arrays arrays);
+  const riis_surface_arrays &arrays() const { return arrays_; }
+  // Refuses a wall that is farther away than --skirt at any of the times.
+  void check_times(const riis_keyframes *keyframes, const std::vector<double> &times) const;
+
+ private:
+  const ValveOptions &options_;
+  riis_surface_arrays arrays_;
+  std::vector<double> lengths_;  // which arrays_ borrows
+};
+// Adds to a refusal of arrays how a file names the attached vertices.
+std::string with_attached_array(std::string text);
+
 // Makes the surface of --wall.
 Surface wall_of(const ValveOptions &options);
 // Measures the gap between a valve's surface and the wall of --wall.

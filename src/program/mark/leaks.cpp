@@ -12,6 +12,7 @@
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/mark/mesh_marking.hpp"
+#include "program/mark/moving_valve.hpp"
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {
@@ -68,6 +69,25 @@ double closing_half_thickness(const riis_valve *valve, double half_thickness, co
   return 0;
 }
 
+double closing_skirt(const MarkOptions &options, const riis_surface *surface, double half_thickness,
+                     const std::function<bool(const riis_surface *)> &closes) {
+  if (options.surface.empty() || options.skirt || half_thickness <= 0) return 0;
+  JoinedTriangles triangles;
+  triangles.add(triangles_of(surface), 0);
+  riis_surface_arrays arrays = triangles.arrays();
+  auto how = defaults<riis_surface_options>();
+  how.half_thickness = info_of(surface).half_thickness;
+  for (const double factor : {1.0, 1.5, 2.0}) {
+    arrays.skirt_length = rounded_up(factor * half_thickness);
+    try {
+      if (closes(create<Surface>(riis_surface_create_from_arrays, &arrays, &how))) return arrays.skirt_length;
+    } catch (const Refusal &) {
+      return 0;  // there is no advice if the attachment is not known, or if the surface is too small for such a skirt
+    }
+  }
+  return 0;
+}
+
 namespace {
 
 // Returns the numbers of a list of leaks. Its pointers are null.
@@ -97,7 +117,9 @@ void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const s
       " at " + place_text(options, leaks.longest_middle, leaks.longest_length);
   std::string advice = "; ";
   if (report.closing_half_thickness > 0)
-    advice += "--half-thickness " + shortest(report.closing_half_thickness) + " closes " + (is_one ? "it; " : "them; ");
+    advice += "--half-thickness " + shortest(report.closing_half_thickness) +
+              (report.closing_skirt > 0 ? " or --skirt " + shortest(report.closing_skirt) : "") + " closes " +
+              (is_one ? "it; " : "them; ");
   warn({{Cause::leaks, text,
          advice + "edges of at most two half thicknesses (" + shortest(2 * half_thickness) + ") do not leak"}});
 }
@@ -154,9 +176,14 @@ void MeshLeaks::judge(ValveReport &report) {
       for (const NodeKey &end : {edge.p, edge.q}) leaks.edges.push_back(static_cast<std::int64_t>(end[0]));
   if (options_.check_leaks) return;
   if (leaks.found.n_edges > 0) {
-    if (report.marks.complete)
-      leaks.closing_half_thickness =
-          closing_half_thickness(valve_, leaks.found.half_thickness, [&](double wanted) { return left(wanted); });
+    if (report.marks.complete) {
+      leaks.closing_half_thickness = closing_half_thickness(valve_, leaks.found.half_thickness, [&](double wanted) {
+        return left(with_half_thickness(options_, valve_, wanted), wanted);
+      });
+      leaks.closing_skirt =
+          closing_skirt(options_, surface_, leaks.closing_half_thickness,
+                        [&](const riis_surface *surface) { return !left(surface, info_.half_thickness); });
+    }
     warn_of_leaks(options_, leaks, name_, report.surface.half_thickness);
   }
   if (!leaks.has_all_edges())
@@ -165,8 +192,7 @@ void MeshLeaks::judge(ValveReport &report) {
 }
 
 // Marks the pieces near the surface again with another half thickness.
-std::optional<double> MeshLeaks::left(double half_thickness) const {
-  const Surface surface = with_half_thickness(options_, valve_, half_thickness);
+std::optional<double> MeshLeaks::left(const riis_surface *surface, double half_thickness) const {
   const riis_surface_info info = info_of(surface);
   std::vector<KeyedEdge> found;
   const auto mark_again = [&](Piece &piece) {

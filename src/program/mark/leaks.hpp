@@ -38,6 +38,12 @@ double closing_half_thickness(const riis_valve *valve, double half_thickness, co
 // Makes the surface of a valve with another half thickness.
 Surface with_half_thickness(const MarkOptions &options, const riis_valve *valve, double half_thickness);
 
+// Returns the length of a skirt that closes a surface from a file, or 0 if none of the tried lengths does. The given half
+// thickness closes the surface, and is about as large as the gaps to the wall. `closes` tells whether a surface has no leak.
+// Without a file or with a skirt, the call returns 0.
+double closing_skirt(const MarkOptions &options, const riis_surface *surface, double half_thickness,
+                     const std::function<bool(const riis_surface *)> &closes);
+
 // The leaks of one surface. The surface must be the same in each call.
 class MeshLeaks {
  public:
@@ -54,7 +60,7 @@ class MeshLeaks {
   // Adds the leaks of a marking with a half thickness.
   void add(Piece &piece, const riis_surface *surface, riis_marks *marks, double half_thickness, bool is_complete,
            std::vector<KeyedEdge> &to) const;
-  std::optional<double> left(double half_thickness) const;
+  std::optional<double> left(const riis_surface *surface, double half_thickness) const;
 
   const MarkOptions &options_;
   const MeshPieces &mesh_;

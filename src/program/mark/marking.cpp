@@ -163,9 +163,10 @@ ValveReport Marking::report_of(std::size_t i) {
   report.surface_name = own.surface.empty() ? own.valve : own.surface;
   report.opening = valve.opening();
   if (!all_.is_series()) report.time = own.time;
-  if (!own.leaflets.empty() || own.surface_files.size() > 1) report.n_leaflets = count_leaflets(valve.surface());
+  if (!own.leaflets.empty() || own.surface_files.size() > 1)
+    report.n_leaflets = count_leaflets(valve.surface()) - (own.skirt ? 1 : 0);
   report.surface = info_of(valve.surface());
-  if (valve.opening() && !own.wall.empty()) report.gap = gap_to_wall(own, valve.surface());
+  if (own.skirt && !own.wall.empty()) report.gap = gap_to_wall(own, valve.surface());
   report.crossings = valve.crossings;
   if (own.given_resistance) report.resistance = report_of_resistance(own, options());
   report_.seconds.surface += report.surface.seconds_triangles;

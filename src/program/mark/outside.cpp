@@ -25,7 +25,7 @@ bool has_skirt(const riis_valve *valve) {
 std::int32_t n_leaflets_without_skirt(const MovingValve &valve) {
   const std::int32_t n = n_leaflets_of(valve.surface());
   const riis_valve *const shape = valve.source().valve.get();
-  if (!shape) return n;
+  if (!shape) return valve.options().skirt ? n - 1 : n;
   if (valve.options().valve == "bileaflet") return RIIS_LEAFLET_HOUSING;
   return has_skirt(shape) ? n - 1 : n;
 }

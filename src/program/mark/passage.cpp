@@ -61,7 +61,8 @@ void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const 
          ", or it does not stand in their way: give points on both sides of it, farther away");
   else if (report.closing_half_thickness > 0 && opening == 0)
     warn({{Cause::leaks, text + "at " + report.place,
-           ", and --half-thickness " + shortest(report.closing_half_thickness) + " closes it"}});
+           ", and --half-thickness " + shortest(report.closing_half_thickness) +
+               (report.closing_skirt > 0 ? " or --skirt " + shortest(report.closing_skirt) : "") + " closes it"}});
   else
     warn(text + "at " + report.place + ", " + shown(found.distance) + " from the surface");
 }
@@ -367,11 +368,15 @@ void PassageCheck::judge(const riis_surface *surface, const riis_valve *valve, c
   const riis_passage &found = passage.found;
   // Unknown edges cannot close an open path, but may make one where the known edges have none.
   passage.is_unknown = found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
-  if (found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty())
+  if (found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty()) {
     passage.closing_half_thickness = closing_half_thickness(valve, found.distance, [&](double wanted) {
       const riis_passage left = find(with_half_thickness(options_, valve, wanted).get()).found;
       return left.state == RIIS_PASSAGE_CLOSED ? std::nullopt : std::optional(left.distance);
     });
+    passage.closing_skirt =
+        closing_skirt(options_, surface, passage.closing_half_thickness,
+                      [&](const riis_surface *with) { return find(with).found.state == RIIS_PASSAGE_CLOSED; });
+  }
   if (found.node_id >= 0) passage.place = place_text(options_, found.point, longest_edge_at(found, counts));
   warn_of_passage(*options_.check_leaks, passage, name, valve ? opening_of(valve) : 0, unknown);
   report.passage = passage;

@@ -3,6 +3,7 @@
 #include "api/handles.hpp"
 #include "api/structs.hpp"
 #include "base/errors.hpp"
+#include "pipeline/skirt_of_arrays.hpp"
 
 using riis::guarded;
 using riis::require;
@@ -30,7 +31,9 @@ riis_status riis_keyframes_create(const riis_surface_arrays *arrays, const riis_
     require(keyframes, "keyframes");
     const riis_surface_arrays whole_arrays = riis::completed(require(arrays, "arrays"), "arrays", default_arrays());
     const riis_keyframe_arrays whole = riis::completed(require(frames, "frames"), "frames", default_frames);
-    *keyframes = new riis_keyframes(riis::Keyframes(whole_arrays, whole));
+    riis::Keyframes made(whole_arrays, whole);
+    riis::find_attachment(made.faces(), made.first_frame());
+    *keyframes = new riis_keyframes(std::move(made));
   });
 }
 

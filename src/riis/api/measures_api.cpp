@@ -172,9 +172,8 @@ riis_status riis_surface_get_coaptation(const riis_surface *surface, double reac
     if (leaflet_id != RIIS_ALL_LEAFLETS && std::find(ids.begin(), ids.end(), leaflet_id) == ids.end())
       riis::fail(RIIS_INVALID_ARGUMENT, "leaflet_id is ", leaflet_id,
                  ", which the surface lacks; RIIS_ALL_LEAFLETS, -1, stands for all");
-    std::vector<std::int32_t> omitted;
-    if (content.source()) omitted = {content.source()->housing, content.source()->skirt};
     const riis::TriangleSet &triangles = content.triangles();
+    const std::vector<std::int32_t> omitted{content.source() ? content.source()->housing : -1, triangles.skirt};
     const auto contacts = riis::contacts_of(triangles, riis::free_edge_parts(triangles), whole, leaflet_id, omitted,
                                             riis::threads_for(0, triangles.n_triangles(), riis::triangles_per_thread));
     riis_coaptation made{0, 0, whole};
@@ -190,9 +189,11 @@ riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface
     const riis::Surface &of_wall = require_handle(wall, "wall")->updatable.surface();
     riis::check_struct_size<riis_gap>(struct_size, "gap");
     require(gap, "gap");
-    if (!content.triangles().is_of_patches())
-      riis::fail(RIIS_INVALID_ARGUMENT,
-                 "surface was made from arrays, which do not tell attached edges from free ones: a gap needs a valve");
+    if (!content.has_attachment())
+      riis::fail(
+          RIIS_INVALID_ARGUMENT,
+          "surface was made from arrays, which do not tell attached edges from free ones: a gap needs a valve, a "
+          "skirt or arrays.attached");
     const riis::Gap made = riis::gap_of(content.attachment(), {of_wall.triangles(), of_wall.scene()},
                                         riis::threads_for(0, content.attachment().n_edges(), 2048));
     if (distance) std::copy(made.distance.begin(), made.distance.end(), distance);

@@ -34,7 +34,10 @@ const riis_surface_arrays default_arrays{sizeof(riis_surface_arrays),
                                          3,
                                          32,
                                          0,
-                                         64};
+                                         64,
+                                         0,
+                                         nullptr,
+                                         nullptr};
 
 // Returns measure_tolerance * half_thickness. If measure_tolerance is RIIS_AUTO, uses tolerance instead.
 double distance_error_of(const riis_surface_options &options) {
@@ -295,10 +298,10 @@ riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangl
 riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment, int64_t struct_size) {
   return guarded([&] {
     const riis::Surface &content = riis::content_of(surface);
-    if (content.triangles().uv.empty())
-      riis::fail(
-          RIIS_INVALID_ARGUMENT,
-          "surface was made from arrays, which do not tell attached edges from free ones: give edges of your own");
+    if (!content.has_attachment())
+      riis::fail(RIIS_INVALID_ARGUMENT,
+                 "surface was made from arrays, which do not tell attached edges from free ones: give edges of your "
+                 "own, or name the attached vertices by arrays.attached");
     const riis::Attachment &made = content.attachment();
     const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
     riis::write_struct(attachment, struct_size, "attachment",

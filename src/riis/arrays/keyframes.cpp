@@ -47,15 +47,19 @@ Keyframes::Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arra
              view(axes)[i % 3], " ", xyz[(frames.n_keys - 1) * n + i], "; it must equal that of the first, ", xyz[i]);
   // Checks the faces once, with the vertices of the first frame.
   faces_ = faces_from_arrays(arrays);
-  riis_surface_arrays first = arrays;
-  first.x = xyz, first.y = xyz + 1, first.z = xyz + 2;
-  first.stride = 3;
-  first.real_bits = 64;
-  first.vx = first.vy = first.vz = nullptr;
-  triangles_from_arrays(faces_, first, {1, no_rotation, {0, 0, 0}}, true, false);
+  triangles_from_arrays(faces_, first_frame(), {1, no_rotation, {0, 0, 0}}, true, false);
 
   time_.assign(frames.time, frames.time + frames.n_keys);
   keys_ = {"frames", frames.n_keys, time_.data(), frames.period, frames.interpolation};
+}
+
+riis_surface_arrays Keyframes::first_frame() const {
+  riis_surface_arrays first{};
+  first.n_vertices = faces_.n_vertices;
+  first.x = xyz_.data(), first.y = xyz_.data() + 1, first.z = xyz_.data() + 2;
+  first.stride = 3;
+  first.real_bits = 64;
+  return first;
 }
 
 void Keyframes::at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const {

@@ -38,6 +38,22 @@ void check_faces(const riis_surface_arrays &arrays) {
     fail(RIIS_LIMIT_EXCEEDED, "arrays.n_faces is ", arrays.n_faces, "; it must be at most ", max_faces);
 }
 
+UserSkirt skirt_from_arrays(const riis_surface_arrays &arrays, UserSkirt memory) {
+  constexpr double longest = 1e50;
+  if (!(arrays.skirt_length >= 0 && arrays.skirt_length <= longest))
+    fail(RIIS_INVALID_ARGUMENT, "arrays.skirt_length is ", arrays.skirt_length, "; it must be from 0 to ", longest);
+  if (arrays.skirt_lengths && arrays.skirt_length == 0)
+    fail(RIIS_INVALID_ARGUMENT, "arrays.skirt_lengths is given, but arrays.skirt_length, the longest length, is 0");
+  UserSkirt skirt = std::move(memory);
+  skirt.length = arrays.skirt_length;
+  skirt.edges.clear();
+  skirt.attached.clear();
+  skirt.lengths.clear();
+  if (arrays.attached) skirt.attached.assign(arrays.attached, arrays.attached + arrays.n_vertices);
+  if (arrays.skirt_lengths) skirt.lengths.assign(arrays.skirt_lengths, arrays.skirt_lengths + arrays.n_vertices);
+  return skirt;
+}
+
 std::int64_t vertex_id_at(const riis_surface_arrays &arrays, std::int64_t i) {
   const std::int64_t number = IntegerArray{arrays.vertex_ids, arrays.id_bits == 64}[i];
   const std::int64_t base = arrays.index_base;
@@ -103,6 +119,7 @@ UserFaces faces_from_arrays(const riis_surface_arrays &arrays, UserFaces memory)
   faces.n_vertices = arrays.n_vertices;
   faces.corners_per_face = arrays.corners_per_face;
   faces.index_base = arrays.index_base;
+  faces.skirt = skirt_from_arrays(arrays, std::move(faces.skirt));
   const std::int64_t n_ids = arrays.n_faces * arrays.corners_per_face;
   resize(faces.vertex_id, n_ids);
   resize(faces.leaflet_id, arrays.n_faces);

@@ -14,12 +14,22 @@
 
 namespace riis {
 
+// The skirt of the caller's faces, as the caller gave it, and the edges from which it leads.
+struct UserSkirt {
+  double length = 0;                   // before placement; 0: no skirt
+  std::vector<std::uint8_t> attached;  // (n_vertices), or empty
+  std::vector<double> lengths;         // (n_vertices), or empty
+  std::vector<AttachedEdge> edges;     // pipeline/skirt_of_arrays.hpp finds them
+  bool has_attachment() const { return length != 0 || !attached.empty(); }
+};
+
 // The caller's faces, checked and renumbered from 0.
 struct UserFaces {
   std::int64_t n_vertices = 0, corners_per_face = 3;
   std::int64_t index_base = 0;           // the caller's base, for messages
   std::vector<std::int64_t> vertex_id;   // (corners_per_face, n_faces)
   std::vector<std::int32_t> leaflet_id;  // (n_faces)
+  UserSkirt skirt;
 };
 
 // Copies the faces. `memory` is an object whose memory is reused. Both functions fail with RIIS_INVALID_ARGUMENT,
@@ -46,6 +56,9 @@ class Keyframes {
   void at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
   const UserFaces &faces() const { return faces_; }
+  // Lets the edges of the skirt be found in the first frame, whose vertices first_frame returns.
+  UserFaces &faces() { return faces_; }
+  riis_surface_arrays first_frame() const;
 
  private:
   std::vector<double> time_, xyz_;

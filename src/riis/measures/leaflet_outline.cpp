@@ -84,7 +84,9 @@ std::pair<std::vector<std::int64_t>, std::int64_t> numbered(const std::vector<Va
 
 }  // namespace
 
-LeafletBoundary boundary_of_leaflets(const TriangleSet &set, std::int32_t skirt) {
+LeafletBoundary boundary_of_leaflets(const TriangleSet &set) {
+  if (!set.is_of_patches() && set.skirt >= 0) return boundary_of_leaflets(without_skirt(set));
+  const std::int32_t skirt = set.skirt;
   LeafletBoundary boundary;
   auto [piece, n_pieces] = set.is_of_patches() ? numbered(set.leaflet_id) : numbered(pieces_of(set));
   std::map<std::int32_t, std::int64_t> piece_of_leaflet;

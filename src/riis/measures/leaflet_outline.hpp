@@ -49,8 +49,8 @@ struct LeafletBoundary {
   Vec3 normal;                  // the sum of the triangles' areas times their normals
 };
 
-// Returns the sides of the patches that bound leaflets, without the leaflet `skirt`, or the open edges of triangles from arrays.
-LeafletBoundary boundary_of_leaflets(const TriangleSet &set, std::int32_t skirt);
+// Returns the sides of the patches that bound leaflets, or the open edges of triangles from arrays. A skirt does not count.
+LeafletBoundary boundary_of_leaflets(const TriangleSet &set);
 
 // Returns the longest connected line of open edges of a wall, as a boundary without centroids and normal.
 LeafletBoundary boundary_of_wall(const TriangleSet &wall);

@@ -28,12 +28,11 @@ std::vector<std::int64_t> without_leaflet(const TriangleSet &set, std::int32_t l
   return kept;
 }
 
-Orifice measured(const TriangleSet &set, const SeenOutline &from, std::int32_t kind, std::int32_t skirt,
-                 const OrificeLimits &limits) {
+Orifice measured(const TriangleSet &set, const SeenOutline &from, std::int32_t kind, const OrificeLimits &limits) {
   std::vector<PlanePoint> vertices;
   vertices.reserve(set.xyz.size() / 3);
   for (std::int64_t i = 0; i < set.n_vertices(); ++i) vertices.push_back(from.seen(set.vertex(i)));
-  const Cover cover = cover_of(vertices, skirt < 0 ? set.vertex_id : without_leaflet(set, skirt));
+  const Cover cover = cover_of(vertices, set.skirt < 0 ? set.vertex_id : without_leaflet(set, set.skirt));
   const double whole = area_of(from.outline);
   // A closed valve leaves nothing but rounding between its triangles and its outline.
   const auto above_rounding = [&](double area) { return area > 1e-12 * whole ? area : 0; };
@@ -48,24 +47,22 @@ Orifice measured(const TriangleSet &set, const SeenOutline &from, std::int32_t k
 }  // namespace
 
 Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const OrificeLimits &limits) {
-  const std::int32_t skirt = source ? source->skirt : -1;
-  if (source && source->disc.radius > 0) return measured(set, disc_of(*source), RIIS_OUTLINE_DISC, skirt, limits);
+  if (source && source->disc.radius > 0) return measured(set, disc_of(*source), RIIS_OUTLINE_DISC, limits);
   std::optional<ValveDirections> valve;
   if (source) valve = {source->placement.rotation * source->disc.axis, source->placement.rotation * Vec3{1, 0, 0}};
-  const std::optional<SeenOutline> seen = outline_of_leaflets(boundary_of_leaflets(set, skirt), valve);
+  const std::optional<SeenOutline> seen = outline_of_leaflets(boundary_of_leaflets(set), valve);
   if (!seen) return {0, 0, 0, 0, valve ? valve->axis : Vec3{0, 0, 0}, RIIS_OUTLINE_NONE};
-  return measured(set, *seen, source ? RIIS_OUTLINE_ATTACHMENT : RIIS_OUTLINE_BOUNDARY, skirt, limits);
+  return measured(set, *seen, source ? RIIS_OUTLINE_ATTACHMENT : RIIS_OUTLINE_BOUNDARY, limits);
 }
 
 Orifice measure_orifice_in_wall(const TriangleSet &set, const SourceValve *source, const TriangleSet &wall,
                                 const OrificeLimits &limits) {
-  const std::int32_t skirt = source ? source->skirt : -1;
   LeafletBoundary boundary = boundary_of_wall(wall);
   // The wall's normals say nothing about the side of the valve.
-  boundary.normal = source ? source->placement.rotation * source->disc.axis : boundary_of_leaflets(set, skirt).normal;
+  boundary.normal = source ? source->placement.rotation * source->disc.axis : boundary_of_leaflets(set).normal;
   const std::optional<SeenOutline> seen = outline_of_leaflets(boundary, std::nullopt);
   if (!seen) return {0, 0, 0, 0, {0, 0, 0}, RIIS_OUTLINE_NONE};
-  return measured(set, *seen, RIIS_OUTLINE_WALL, skirt, limits);
+  return measured(set, *seen, RIIS_OUTLINE_WALL, limits);
 }
 
 }  // namespace riis

@@ -11,6 +11,7 @@
 #include "base/log.hpp"
 #include "base/recycled.hpp"
 #include "paper_distances/patch_distance.hpp"
+#include "pipeline/skirt_of_arrays.hpp"
 #include "triangulate/triangulate.hpp"
 
 namespace riis {
@@ -60,6 +61,7 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
   TriangleSet triangles = fixed ? triangulate_fixed(patches, how, fixed->plan(), surface.take_triangles())
                                 : triangulate_adapted(patches, how, surface.take_triangles());
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
+  triangles.skirt = valve.skirt_leaflet();
   const double seconds_triangles = stopwatch.lap();
   // If another method measures distances, makes it first, because the library may refuse it.
   std::unique_ptr<const PatchDistance> distance;
@@ -67,8 +69,7 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
   // Turns triangles into the scene that answers queries for closest points.
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
-  surface.is_of_valve(
-      {placement, valve.disc(), valve.kind().housing, valve.skirt_leaflet(), &valve.kind(), valve.is_warped()});
+  surface.is_of_valve({placement, valve.disc(), valve.kind().housing, &valve.kind(), valve.is_warped()});
   surface.is_of_patches(std::move(patches));
   if (distance) {
     const double difference = largest_difference(accuracy.triangle_error, *distance);
@@ -82,6 +83,7 @@ SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &a
   Stopwatch stopwatch;
   TriangleSet triangles = triangles_from_arrays(faces, arrays, request.placement, skip_zero_area, request.flip_normals,
                                                 surface.take_triangles());
+  add_skirt_of_arrays(faces, request.placement.scale, request.flip_normals, triangles);
   const double seconds_triangles = stopwatch.lap();
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
   return logged(surface, {seconds_triangles, stopwatch.lap()});

@@ -10,6 +10,7 @@
 #include "common/array_view.hpp"
 #include "measures/measures.hpp"
 #include "parallel/parallel_for.hpp"
+#include "pipeline/skirt_of_arrays.hpp"
 
 namespace riis {
 namespace {
@@ -73,6 +74,7 @@ void UpdatableSurface::update_from_arrays(const riis_surface_arrays &arrays, boo
                                           const SurfaceRequest &request) {
   if (arrays.vertex_ids || arrays.n_faces != 0 || !surface_) {
     UserFaces faces = faces_from_arrays(arrays, std::move(faces_memory_));
+    find_attachment(faces, arrays);
     replace_by_faces(faces, arrays, skip_zero_area, request);
     faces_memory_ = std::exchange(faces_, std::move(faces));
     return;
@@ -81,6 +83,11 @@ void UpdatableSurface::update_from_arrays(const riis_surface_arrays &arrays, boo
     fail(RIIS_INVALID_ARGUMENT,
          "arrays.vertex_ids is NULL, but the surface was not made from arrays last: it has no faces to keep");
   if (arrays.leaflet_id) fail(RIIS_INVALID_ARGUMENT, "arrays.leaflet_id is given without faces: it must be NULL");
+  if (arrays.skirt_length != 0 || arrays.attached || arrays.skirt_lengths)
+    fail(RIIS_INVALID_ARGUMENT,
+         "arrays.skirt_length, arrays.attached or arrays.skirt_lengths is given without faces: the skirt stays, and "
+         "they "
+         "must be 0 and NULL");
   replace_by_faces(faces_, arrays, skip_zero_area, request);
 }
 

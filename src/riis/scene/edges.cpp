@@ -231,13 +231,12 @@ std::vector<OpenEdge> open_edges(const TriangleSet &set, bool by_leaflet) {
   return made;
 }
 
-std::vector<OpenEdge> longest_boundary(const TriangleSet &set) {
+std::vector<std::vector<OpenEdge>> closed_boundaries(const TriangleSet &set) {
   const std::vector<std::int64_t> place = first_with_place(set);
   const std::vector<OpenEdge> edges = Cancelling(set, edges_of_one_triangle(set, place, false)).left();
   const std::vector<std::optional<std::size_t>> next = next_edges(set, place, edges);
   std::vector<bool> is_done(edges.size(), false);
-  std::vector<OpenEdge> longest;
-  double longest_length = 0;
+  std::vector<std::vector<OpenEdge>> closed;
   for (std::size_t first = 0; first < edges.size(); ++first) {
     std::vector<OpenEdge> line;
     std::size_t at = first;
@@ -247,7 +246,15 @@ std::vector<OpenEdge> longest_boundary(const TriangleSet &set) {
       if (!next[at]) break;
       at = *next[at];
     }
-    if (line.empty() || at != first || !next[at]) continue;  // not closed
+    if (!line.empty() && at == first && next[at]) closed.push_back(std::move(line));
+  }
+  return closed;
+}
+
+std::vector<OpenEdge> longest_boundary(const TriangleSet &set) {
+  std::vector<OpenEdge> longest;
+  double longest_length = 0;
+  for (std::vector<OpenEdge> &line : closed_boundaries(set)) {
     const double length = length_of(set, line);
     if (length > longest_length) longest = std::move(line), longest_length = length;
   }
@@ -325,29 +332,33 @@ std::vector<SideLine> boundary_sides(const TriangleSet &set, std::int32_t skirt)
 
 Attachment attachment_of(const TriangleSet &set) {
   Attachment made;
-  for (const SideLine &side : attached_sides(set))
-    for (std::size_t k = 1; k < side.vertex_id.size(); ++k) {
-      const std::int64_t from = side.vertex_id[k - 1], to = side.vertex_id[k];
-      const Vec3 a = set.vertex(from), b = set.vertex(to);
-      if (a == b) continue;
-      for (const Vec3 end : {a, b}) {
-        const bool is_aimed = !(side.axis.direction == Vec3{0, 0, 0});
-        const Vec3 out = is_aimed ? outwards(side.axis, end) : Vec3{0, 0, 0};
-        for (const double x : {end.x, end.y, end.z}) made.edges.push_back(x);
-        for (const double x : {out.x, out.y, out.z}) made.outwards.push_back(x);
-      }
-      made.vertex_id.push_back(from);
-      made.vertex_id.push_back(to);
-      made.leaflet_id.push_back(side.leaflet_id);
-      made.patch_id.push_back(side.patch_id);
+  const auto add = [&](const AttachedEdge &edge, std::int32_t patch_id, const AxisLine &axis) {
+    const Vec3 a = set.vertex(edge.from), b = set.vertex(edge.to);
+    if (a == b) return;
+    for (const Vec3 end : {a, b}) {
+      const bool is_aimed = !(axis.direction == Vec3{0, 0, 0});
+      const Vec3 out = is_aimed ? outwards(axis, end) : Vec3{0, 0, 0};
+      for (const double x : {end.x, end.y, end.z}) made.edges.push_back(x);
+      for (const double x : {out.x, out.y, out.z}) made.outwards.push_back(x);
     }
+    made.vertex_id.push_back(edge.from);
+    made.vertex_id.push_back(edge.to);
+    made.leaflet_id.push_back(edge.leaflet_id);
+    made.patch_id.push_back(patch_id);
+  };
+  for (const SideLine &side : attached_sides(set))
+    for (std::size_t k = 1; k < side.vertex_id.size(); ++k)
+      add({side.vertex_id[k - 1], side.vertex_id[k], side.leaflet_id}, side.patch_id, side.axis);
+  for (const AttachedEdge &edge : set.attached) add(edge, 0, set.attached_axis);
   return made;
 }
 
 namespace {
 
 // Returns the open edges of each leaflet that are not on the outline of the orifice. Edges between two leaflets are open.
-std::vector<EdgePart> free_edges_of_arrays(const TriangleSet &set) {
+std::vector<EdgePart> free_edges_of_arrays(const TriangleSet &given) {
+  const std::optional<TriangleSet> leaflets = given.skirt < 0 ? std::nullopt : std::optional(without_skirt(given));
+  const TriangleSet &set = leaflets ? *leaflets : given;
   std::set<std::pair<std::int64_t, std::int64_t>> on_outline;
   for (const OpenEdge &edge : longest_boundary(set)) on_outline.emplace(edge.from, edge.to);
   std::vector<EdgePart> parts;

@@ -23,9 +23,11 @@ struct OpenEdge {
 // leaflet count. A vertex inside an edge of a neighbour opens no edge, because the edges on both sides cancel.
 std::vector<OpenEdge> open_edges(const TriangleSet &set, bool by_leaflet);
 
-// Returns the edges of the longest closed line of open edges, in order. Returns nothing if there is none. If several lines meet
-// in one vertex, each line continues along triangles that it has not met before. So the attachments of cusps that meet at
-// commissures make one line, and their free edges make another.
+// Returns the closed lines of open edges, each in order. If several lines meet in one vertex, each line continues along triangles
+// that it has not met before. So the attachments of cusps that meet at commissures make one line, and their free edges make
+// another.
+std::vector<std::vector<OpenEdge>> closed_boundaries(const TriangleSet &set);
+// Returns the edges of the longest closed line of open edges, or nothing if there is none.
 std::vector<OpenEdge> longest_boundary(const TriangleSet &set);
 
 // One side of one patch. Its length is above 0.

@@ -22,12 +22,11 @@
 
 namespace riis {
 
-// The placement, the disc, the housing, the skirt and the kind of the valve that a surface was made from.
+// The placement, the disc, the housing and the kind of the valve that a surface was made from.
 struct SourceValve {
   Placement placement;
   Valve::Disc disc;      // before placement
   std::int32_t housing;  // the leaflet_id of the housing, or -1 if the valve has no housing
-  std::int32_t skirt;    // the leaflet_id of the skirt, or -1 if the valve has no skirt
   const ValveKind *kind;
   bool is_warped;
 };
@@ -66,7 +65,9 @@ class Surface {
   // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
   double area() const;
 
-  // Returns the sides at which leaflets are attached. A surface from arrays has none. The first call makes them. Several threads
+  // Tells whether the attachment is known. For arrays, the caller has to name it or to give them a skirt.
+  bool has_attachment() const { return triangles_.is_of_patches() || !triangles_.attached.empty(); }
+  // Returns the sides at which leaflets are attached, or the attached edges of arrays. The first call makes them. Several threads
   // may call this function at once.
   const Attachment &attachment() const {
     return attachment_.get([this](Attachment &made) { made = attachment_of(triangles_); });

@@ -43,6 +43,18 @@ void for_each_group(Centroid *centroids, std::int64_t n, const Visit &visit) {
 
 }  // namespace
 
+TriangleSet without_skirt(const TriangleSet &set) {
+  TriangleSet made = set;
+  while (set.skirt >= 0 && !made.leaflet_id.empty() && made.leaflet_id.back() == set.skirt) {
+    made.leaflet_id.pop_back();
+    made.patch_id.pop_back();
+    made.triangle_id.pop_back();
+    made.vertex_id.resize(made.vertex_id.size() - 3);
+  }
+  made.skirt = -1;
+  return made;
+}
+
 void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping) {
   Vector<Centroid> centroids;
   centroids.reserve(static_cast<std::size_t>(end - begin));

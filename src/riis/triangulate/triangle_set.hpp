@@ -29,6 +29,12 @@ struct VerticesOfPatch {
   AxisLine axis;  // placed
 };
 
+// An edge of the attachment of triangles from arrays, in its direction round its triangle.
+struct AttachedEdge {
+  std::int64_t from, to;
+  std::int32_t leaflet_id;
+};
+
 struct TriangleSet {
   std::vector<double> xyz;                // (3, n_vertices), placed
   std::vector<double> uv;                 // (2, n_vertices), empty for surfaces from arrays
@@ -44,6 +50,9 @@ struct TriangleSet {
   std::uint64_t connectivity = 0;   // the number of the triangles' plan, or 0 (triangulate/triangulate_fixed.cpp)
   Grouping grouping;                // empty if the triangles were made without groups
   Vector<LevelledGrid> grids;       // the grids of the patches, with their lines; empty for surfaces from arrays
+  std::int32_t skirt = -1;          // the leaflet_id of the skirt, or -1. The skirt of arrays has the last triangles
+  Vector<AttachedEdge> attached;    // the attachment of arrays; empty for surfaces of valves
+  AxisLine attached_axis{};         // the line from which a skirt of arrays leads away; its direction may be 0
 
   // Empties the set and keeps its memory for the next triangles.
   void clear() {
@@ -54,6 +63,8 @@ struct TriangleSet {
     rim_sides.clear();
     patches.clear();
     grids.clear();
+    skirt = -1;
+    attached.clear();
     n_zero_area = 0;
     error_bound = 0;
     connectivity = 0;
@@ -75,6 +86,9 @@ struct TriangleSet {
   // Tells whether the triangles come from the patches of a valve. Otherwise they come from arrays.
   bool is_of_patches() const { return !uv.empty(); }
 };
+
+// Returns triangles from arrays without their skirt, for measures of the leaflets.
+TriangleSet without_skirt(const TriangleSet &set);
 
 // Groups the triangles from begin to end - 1 of a set by position, and adds the groups to `grouping`.
 void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping);

@@ -28,6 +28,7 @@ inline constexpr const char *patch_array = "riis_patch";
 inline constexpr const char *triangle_array = "riis_triangle";
 inline constexpr const char *uv_array = "riis_uv";
 inline constexpr const char *velocity_array = "riis_velocity";
+inline constexpr const char *attached_array = "riis_attached";
 inline constexpr const char *node_id_array = "riis_node_id";
 inline constexpr const char *cell_id_array = "riis_cell_id";
 // The field array in which VTK's filters store times.

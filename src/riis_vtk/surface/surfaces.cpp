@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <map>
 
@@ -20,6 +21,7 @@
 #include <vtkPolygon.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
 
 #include "common/array_view.hpp"
 #include "common/sets.hpp"
@@ -146,6 +148,20 @@ std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet
   return leaflets;
 }
 
+// Returns for each point whether it is attached, or nothing if the array is missing.
+std::vector<std::uint8_t> attached_points(const std::string &path, vtkPointSet *data) {
+  const std::string name = std::string("point array ") + attached_array;
+  vtkAbstractArray *abstract = data->GetPointData()->GetAbstractArray(attached_array);
+  if (!abstract) return {};
+  vtkDataArray *array = vtkDataArray::SafeDownCast(abstract);
+  if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name, " must hold one number a point");
+  if (array->GetNumberOfTuples() != data->GetNumberOfPoints())
+    fail_file(path, name, " has ", array->GetNumberOfTuples(), " values for ", data->GetNumberOfPoints(), " points");
+  std::vector<std::uint8_t> attached;
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) attached.push_back(array->GetTuple1(i) != 0 ? 1 : 0);
+  return attached;
+}
+
 template <class Array, class Value>
 vtkSmartPointer<Array> array_of(const char *name, const Value *values, int n_components, int64_t n_tuples) {
   const auto array = named_array<Array>(name, n_tuples, n_components);
@@ -176,6 +192,20 @@ void add_triangles(const riis_triangles &of, vtkPolyData *data) {
   data->GetCellData()->AddArray(array_of<vtkTypeInt64Array>(triangle_array, triangle_id, 1, n));
 }
 
+// Marks the attached vertices, and all vertices at the same places. Programs that merge points or drop unused points then keep
+// the attachment.
+void add_attachment(const riis_surface *surface, const riis_triangles &of, vtkPolyData *data) {
+  riis_attachment attachment{};
+  if (riis_surface_get_attachment(surface, &attachment, sizeof attachment) != RIIS_OK || attachment.n_edges == 0)
+    return;
+  const std::vector<std::int64_t> places = equal_places(of.n_vertices, of.xyz);
+  std::vector<unsigned char> is_attached(places.size(), 0);
+  for (int64_t i = 0; i < 2 * attachment.n_edges; ++i) view(is_attached)[view(places)[attachment.vertex_id[i]]] = 1;
+  const auto array = named_array<vtkUnsignedCharArray>(attached_array, of.n_vertices);
+  for (int64_t i = 0; i < of.n_vertices; ++i) array->SetValue(i, view(is_attached)[view(places)[i]]);
+  data->GetPointData()->AddArray(array);
+}
+
 // Cuts quads as the core does, from the first corner to the third.
 void cut_quads(Faces &faces) {
   if (faces.corners_per_face != 4) return;
@@ -199,6 +229,7 @@ vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface) {
   check_core(riis_surface_get_triangles(surface, &triangles, sizeof triangles));
   add_vertices(triangles, data);
   add_triangles(triangles, data);
+  add_attachment(surface, triangles, data);
   return data;
 }
 
@@ -214,6 +245,7 @@ Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &w
   const std::vector<std::int32_t> leaflets = leaflets_of_cells(path, data, wanted);
   Faces faces;
   faces.xyz = coordinates_of(data);
+  faces.attached = attached_points(path, data);
   faces.corners_per_face = holds_quads_only(data) ? 4 : 3;
   vtkNew<vtkIdList> ids;
   for (vtkIdType cell_id = 0; cell_id < data->GetNumberOfCells(); ++cell_id) {
@@ -241,6 +273,10 @@ void append_faces(Faces &faces, const Faces &other) {
   const auto n_vertices = static_cast<std::int64_t>(joined.xyz.size() / 3);
   for (const std::int64_t id : added.vertex_ids) joined.vertex_ids.push_back(n_vertices + id);
   joined.xyz.insert(joined.xyz.end(), added.xyz.begin(), added.xyz.end());
+  if (joined.attached.empty() || added.attached.empty())
+    joined.attached.clear();
+  else
+    joined.attached.insert(joined.attached.end(), added.attached.begin(), added.attached.end());
   joined.leaflet_id.resize(joined.vertex_ids.size() / n_corners, joined.n_joined++);
   faces = std::move(joined);
 }
@@ -267,18 +303,24 @@ std::vector<std::int32_t> pieces_of(const Faces &faces) {
 }
 
 void give_arrays(const Faces &faces, riis_surface_arrays *arrays, std::int64_t struct_size) {
-  check_core(riis_surface_arrays_init(arrays, struct_size));
+  riis_surface_arrays whole;
+  check_core(riis_surface_arrays_init(&whole, sizeof whole));
   const double *const xyz = faces.xyz.data();
-  arrays->n_vertices = static_cast<int64_t>(faces.xyz.size() / 3);
-  arrays->x = xyz;
-  arrays->y = xyz + 1;
-  arrays->z = xyz + 2;
-  arrays->stride = 3;
-  arrays->n_faces = static_cast<int64_t>(faces.vertex_ids.size()) / faces.corners_per_face;
-  arrays->vertex_ids = faces.vertex_ids.data();
-  arrays->id_bits = 64;
-  arrays->corners_per_face = faces.corners_per_face;
-  arrays->leaflet_id = faces.leaflet_id.empty() ? nullptr : faces.leaflet_id.data();
+  whole.n_vertices = static_cast<int64_t>(faces.xyz.size() / 3);
+  whole.x = xyz;
+  whole.y = xyz + 1;
+  whole.z = xyz + 2;
+  whole.stride = 3;
+  whole.n_faces = static_cast<int64_t>(faces.vertex_ids.size()) / faces.corners_per_face;
+  whole.vertex_ids = faces.vertex_ids.data();
+  whole.id_bits = 64;
+  whole.corners_per_face = faces.corners_per_face;
+  whole.leaflet_id = faces.leaflet_id.empty() ? nullptr : faces.leaflet_id.data();
+  whole.attached = faces.attached.empty() ? nullptr : faces.attached.data();
+  // The struct of an older caller ends before the last fields.
+  check_core(riis_surface_arrays_init(arrays, struct_size));
+  whole.struct_size = struct_size;
+  std::memcpy(arrays, &whole, static_cast<std::size_t>(struct_size));
 }
 
 }  // namespace riis::vtk

@@ -26,6 +26,7 @@ struct Faces {
   // (corners_per_face, n_faces); the diagonal from a quad's first corner to its third lies inside the quad
   std::vector<std::int64_t> vertex_ids;
   std::vector<std::int32_t> leaflet_id;  // (n_faces); empty if the data set has no leaflet ids
+  std::vector<std::uint8_t> attached;    // (n_vertices), 1 at the attachment; empty if the data set does not tell
   std::int32_t corners_per_face = 3;
   std::int32_t n_joined = 1;  // the number of surfaces that append_faces has joined
 };
@@ -47,7 +48,7 @@ struct LeafletArray {
 Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted);
 
 // Appends the faces of another surface with their vertices. Each of the joined surfaces becomes a leaflet. Quads are cut if only
-// one of the two has quads.
+// one of the two has quads. The attachment is lost if only one of the two has it.
 void append_faces(Faces &faces, const Faces &other);
 
 // Returns a number for each vertex, from 0 to the number of vertices minus 1. Two vertices have the same number if and only if
