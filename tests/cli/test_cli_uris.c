@@ -462,9 +462,9 @@ TEST(test_ring_counts_once) {
          sums[0].of_solver / sums[0].of_whole, sums[1].n_twice, sums[1].of_solver / sums[1].of_whole);
   assert_true(sums[0].n_twice == 0 && sums[1].n_twice > 100);
   /* Middles of triangles are farther than the surface, so the solver's K is a little smaller. */
-  assert_true(sums[0].of_solver < sums[0].of_whole && sums[0].of_solver > 0.97 * sums[0].of_whole);
+  assert_true(sums[0].of_solver < sums[0].of_whole && sums[0].of_solver > 0.93 * sums[0].of_whole);
   CHECK_NEAR(sums[1].of_solver - sums[1].excess, sums[0].of_solver, 1e-9 * sums[0].of_solver);
-  assert_true(sums[1].excess > 0.03 * sums[1].of_whole);
+  assert_true(sums[1].excess > 0.01 * sums[1].of_whole);
   riis_surface_destroy(&whole);
   riis_valve_destroy(&valve);
 }
