@@ -449,8 +449,12 @@ TEST(test_ring_counts_once) {
   riis_surface *whole = surface_at(&places[0], valve);
   ring_sums sums[2];
   for (int is_scaffold = 0; is_scaffold < 2; ++is_scaffold) {
-    EXPORT(is_scaffold ? "once_scaffold" : "once_face", RAMPS, "--valve", "bileaflet", "--set", "ring_height=0.6",
-           "--largest-edge", "0.04", "--ring", is_scaffold ? "scaffold" : "face");
+    /* The files are large, so they are announced. */
+    run_program("export", scratch_path(is_scaffold ? "once_scaffold" : "once_face"), "--resistance", "12500", RAMPS,
+                "--valve", "bileaflet", "--set", "ring_height=0.6", "--largest-edge", "0.05", "--ring",
+                is_scaffold ? "scaffold" : "face", NULL);
+    assert_int_equal(program_exit_code, 0);
+    exported = uris_read(program_out);
     sums[is_scaffold] = sums_with_ring(whole);
     uris_free(&exported);
   }
@@ -458,9 +462,9 @@ TEST(test_ring_counts_once) {
          sums[0].of_solver / sums[0].of_whole, sums[1].n_twice, sums[1].of_solver / sums[1].of_whole);
   assert_true(sums[0].n_twice == 0 && sums[1].n_twice > 100);
   /* Middles of triangles are farther than the surface, so the solver's K is a little smaller. */
-  assert_true(sums[0].of_solver < sums[0].of_whole && sums[0].of_solver > 0.97 * sums[0].of_whole);
+  assert_true(sums[0].of_solver < sums[0].of_whole && sums[0].of_solver > 0.93 * sums[0].of_whole);
   CHECK_NEAR(sums[1].of_solver - sums[1].excess, sums[0].of_solver, 1e-9 * sums[0].of_solver);
-  assert_true(sums[1].excess > 0.03 * sums[1].of_whole);
+  assert_true(sums[1].excess > 0.01 * sums[1].of_whole);
   riis_surface_destroy(&whole);
   riis_valve_destroy(&valve);
 }
