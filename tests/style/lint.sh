@@ -91,25 +91,39 @@ python() {
 }
 
 tidy() {
-  local status=0 said
+  local status=0 faults
   mapfile -t found < <(sed -nE 's/^ *"file": "(.*)",?$/\1/p' build-lint/compile_commands.json | sort -u)
   # In a unity build a batch file includes the sources, so clang-tidy treats them as headers.
-  said=$(printf '%s\0' "${found[@]}" |
+  faults=$(printf '%s\0' "${found[@]}" |
     xargs -0 -P "$(nproc)" -n 1 clang-tidy-14 -p build-lint --quiet --header-filter="^$PWD/(src|include)/" 2>/dev/null) ||
     status=$?
-  [[ ! $said ]] || awk '!seen[$0]++' <<<"$said" >&2
+  [[ ! $faults ]] || awk '!seen[$0]++' <<<"$faults" >&2
   return "$status"
 }
 
+# check PART: runs the part and says how it ended.
+check() {
+  local part=$1 start=$SECONDS found=()
+  if ! "$part"; then
+    echo "$part: faults, see above" >&2
+    return 1
+  fi
+  [[ $part != tools ]] || return 0
+  ((${#found[@]})) || { echo "$part: there are no files" >&2; return 1; }
+  echo "$part: fine, ${#found[@]} files, $((SECONDS - start)) s"
+}
+
+# All parts run at the same time, because some of them use only one processor. What they say is printed in turn.
+said=$(mktemp -d)
+trap 'rm -rf "$said"' EXIT
+declare -A running=()
+for part; do
+  check "$part" >"$said/$part" 2>&1 &
+  running[$part]=$!
+done
 failed=0
 for part; do
-  start=$SECONDS found=()
-  if "$part"; then
-    [[ $part == tools ]] || ((${#found[@]})) || { echo "$part: there are no files" >&2; exit 1; }
-    [[ $part == tools ]] || echo "$part: fine, ${#found[@]} files, $((SECONDS - start)) s"
-  else
-    echo "$part: faults, see above" >&2
-    failed=1
-  fi
+  wait "${running[$part]}" || failed=$?
+  cat "$said/$part"
 done
-exit $failed
+exit "$failed"

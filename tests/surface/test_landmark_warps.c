@@ -8,6 +8,7 @@
 
 #include "handles.h"
 #include "moving_surfaces.h"
+#include "sanitized.h"
 #include "searches.h"
 
 #include "shapes.h"
@@ -18,6 +19,11 @@ static double between(double low, double high) { return random_between(&rng, low
 
 enum { aortic, trileaflet, coapting, mitral, of_patches, n_kinds, most_landmarks = 120 };
 static const char *const kinds[n_kinds] = {"aortic", "trileaflet", "coapting", "mitral", "patches"};
+
+/* Ten trials have each kind with both triangulations. Under a sanitizer, every third of 15 trials is made. They still have each
+ * kind, both triangulations, and even and odd numbers. */
+static int n_trials(void) { return is_long_test() ? 60 : is_sanitized() ? 15 : 10; }
+static int trial_step(void) { return is_sanitized() ? 3 : 1; }
 
 static double distance(const double *p, const double *q) {
   return sqrt(pow(p[0] - q[0], 2) + pow(p[1] - q[1], 2) + pow(p[2] - q[2], 2));
@@ -148,7 +154,7 @@ static void point_on(riis_valve *valve, const on_side *at, double *point) {
 TEST(warped_curves_pass_through_mapped_landmarks) {
   double worst = 0;
   int n_warps = 0;
-  for (int trial = 0; trial < (is_long_test() ? 60 : 10); ++trial) {
+  for (int trial = 0; trial < n_trials(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_kinds;
     riis_valve *valve = random_valve(kind);
     riis_surface_options options =
@@ -297,10 +303,11 @@ static riis_valve *warped_to(const patient *at, int kind, riis_surface_options *
 TEST(valves_meet_the_landmarks_of_patients) {
   for (int kind = aortic; kind <= mitral; ++kind)
     for (int n = 8; n <= 24; n += is_long_test() ? 4 : 16) {
+      if (is_sanitized() && (n == 8) == kind % 2) continue;
       double worst = 0;
       int n_warped = 0;
-      const int n_trials = is_long_test() ? 12 : 1;
-      for (int trial = 0; trial < n_trials; ++trial) {
+      const int n_patients = is_long_test() ? 12 : 1;
+      for (int trial = 0; trial < n_patients; ++trial) {
         const int owned_before = n_owned();
         const double noise = trial % 2 && n <= 12 ? 0.1 : 0; /* the noise of dense landmarks folds */
         const patient at = kind == mitral ? random_annulus(n, noise) : random_root(kind, n, noise);
@@ -319,9 +326,9 @@ TEST(valves_meet_the_landmarks_of_patients) {
         free_owned_after(owned_before);
       }
       printf("%s, %d points: %d of %d valves are warped, landmarks are at most %.4f mm away\n", kinds[kind], n,
-             n_warped, n_trials, worst);
+             n_warped, n_patients, worst);
       CHECK_AT_MOST(worst, 0.02);
-      assert_int_equal(n_warped, n_trials);
+      assert_int_equal(n_warped, n_patients);
     }
 }
 
@@ -345,7 +352,7 @@ static riis_attachment attachment_of(const riis_surface *surface) {
 
 TEST(an_identity_moves_no_skirt) {
   double worst = 0, worst_near = 0;
-  for (int trial = 0; trial < (is_long_test() ? 60 : 10); ++trial) {
+  for (int trial = 0; trial < n_trials(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_kinds;
     riis_valve *valve = random_valve(kind), *warped = NULL;
     CHECK_OK(riis_valve_set_scalar(valve, "opening", between(0, 1)));
@@ -379,7 +386,7 @@ TEST(an_identity_moves_no_skirt) {
 /* A rigid warp, or one that also scales, does the same as a placement. Landmarks lie on the attachment in every other trial. */
 TEST(a_rigid_warp_turns_orifice_and_skirt) {
   double worst_area = 0, worst_axis = 0;
-  for (int trial = 0; trial < (is_long_test() ? 60 : 10); ++trial) {
+  for (int trial = 0; trial < n_trials(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_kinds;
     riis_valve *valve = random_valve(kind);
     riis_surface_options placed =
