@@ -37,8 +37,8 @@ typedef struct riis_loads {
 RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /* the defaults */
 /* Adds the sums over nodes of tissue that riis_loads_add_forces needs.
  *   loads   radius, edges and n_leaflets; the forces are not read
- *   nodes   the nodes of a surface or a volume of tissue, in the frame of the edges. Other nodes than those near the edges do
- *           no harm
+ *   nodes   the nodes of a surface or a volume of tissue, in the frame of the edges. Nodes beyond the radius count in no
+ *           sum, and get no force
  *   weight  (n_points), 0 to 1e60: the area or volume around a node, 0 for nodes of other ranks. NULL: 1 for each node
  *   sums    (11, n_leaflets): sums are added
  * A bileaflet valve and a surface from arrays have no attachment, so the caller gives edges: the pivots, or the edges at
