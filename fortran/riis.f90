@@ -93,6 +93,7 @@ module riis
     riis_get_leak, riis_get_cells_across, &
     riis_get_swept_volume, riis_find_first_passage
   use riis_placing, only: riis_place
+  use riis_loading, only: riis_loads_add_sums, riis_loads_add_forces
   use riis_laws, only: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, &
     riis_opening_angle_state, riis_opening_from_table, riis_opening_from_times, riis_opening_advance
   implicit none
@@ -112,6 +113,7 @@ module riis
     RIIS_LANDMARK_ANTEROLATERAL, RIIS_LANDMARK_HINGE, RIIS_LANDMARK_ATTACHMENT, RIIS_SIZE_KEPT, RIIS_SIZE_DETERMINED, &
     RIIS_SIZE_TIED, &
     RIIS_SIZE_UNDETERMINED
+  public :: riis_loads_add_sums, riis_loads_add_forces
   public :: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, riis_opening_angle_state, &
     riis_opening_from_table, riis_opening_from_times, riis_opening_advance
   public :: riis_error_message, riis_status_name, riis_version_string, riis_set_log, riis_log_procedure

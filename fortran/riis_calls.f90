@@ -8,7 +8,7 @@ module riis_calls
   use riis_support, only: location_of
   implicit none
   private
-  public :: write_dense, add_resistance_to, add_reaction_to, band_sums_of, describe_ends
+  public :: write_dense, add_resistance_to, add_reaction_to, add_vertex_reaction_to, band_sums_of, describe_ends
 
 contains
 
@@ -67,6 +67,32 @@ contains
     type(riis_reaction), intent(in) :: reaction             !< The init function fills it, and the call adds to its sums.
     integer(riis_status) :: code                            !< RIIS_OK or the error.
     type(riis_flow_arrays) :: flow
+    code = describe_flow(n_nodes, velocity, weight, flow)
+    if (code == RIIS_OK) code = riis_marks_add_reaction(marks, resistance, flow, reaction)
+  end function add_reaction_to
+
+  !> Calls riis_marks_add_vertex_reaction.
+  function add_vertex_reaction_to(marks, surface, resistance, n_nodes, velocity, weight, n_vertices, vertex_force) result(code)
+    type(c_ptr), intent(in) :: marks                        !< A handle.
+    type(c_ptr), intent(in) :: surface                      !< A handle.
+    type(riis_resistance), intent(in) :: resistance         !< From its init function.
+    integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
+    real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes).
+    real(c_double), intent(in) :: weight(*)                 !< (n_nodes).
+    integer(int64), intent(in) :: n_vertices                !< The surface's number of vertices.
+    real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): forces are added.
+    integer(riis_status) :: code                            !< RIIS_OK or the error.
+    type(riis_flow_arrays) :: flow
+    code = describe_flow(n_nodes, velocity, weight, flow)
+    if (code == RIIS_OK) code = riis_marks_add_vertex_reaction(marks, surface, resistance, flow, n_vertices, vertex_force)
+  end function add_vertex_reaction_to
+
+  ! Describes the flow at the nodes for C, without a copy.
+  function describe_flow(n_nodes, velocity, weight, flow) result(code)
+    integer(int64), intent(in) :: n_nodes
+    real(c_double), intent(in) :: velocity(3, *), weight(*)
+    type(riis_flow_arrays), intent(inout) :: flow
+    integer(riis_status) :: code
     integer :: i
     code = riis_flow_arrays_init(flow, c_sizeof(flow))
     if (code /= RIIS_OK) return
@@ -76,8 +102,7 @@ contains
     end do
     flow%velocity_stride = 3
     flow%weight = location_of(weight)
-    code = riis_marks_add_reaction(marks, resistance, flow, reaction)
-  end function add_reaction_to
+  end function describe_flow
 
   !> Calls riis_marks_get_band_sums.
   function band_sums_of(marks, inner, outer, n_nodes, value, weight, sums) result(code)

@@ -91,6 +91,8 @@ run_flow() {
   fi
   say "check the solver against closed forms"
   "$flow_build/solver/flow_checks"
+  say "a cusp of springs, a toy"
+  "$flow_build/solver/membrane"
   say "one heartbeat"
   rm -rf "$out"
   mkdir -p "$out/frames"

@@ -509,6 +509,20 @@ module riis_c
     type(c_ptr) :: weight !< real(c_double), (n_nodes)
   end type riis_band
 
+  type, bind(c) :: riis_loads
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: radius
+    real(c_double) :: about(3)
+    integer(c_int64_t) :: n_leaflets
+    type(c_ptr) :: leaflet_force   !< real(c_double), (3, n_leaflets)
+    type(c_ptr) :: leaflet_moment  !< real(c_double), (3, n_leaflets)
+    integer(c_int64_t) :: n_edges
+    type(c_ptr) :: edges           !< real(c_double), (3, 2, n_edges)
+    type(c_ptr) :: edge_leaflet_id !< integer(c_int32_t), (n_edges), or c_null_ptr
+    integer(c_int32_t) :: n_threads
+    integer(c_int32_t) :: reserved
+  end type riis_loads
+
   !> c_null_ptr for arrays without edges
   type, bind(c) :: riis_leak_list
     integer(c_int64_t) :: n_edges
@@ -1495,6 +1509,20 @@ module riis_c
       integer(riis_status) :: status
     end function riis_marks_add_reaction
 
+    !>   vertex_force  (3, n_vertices); values are added
+    function riis_marks_add_vertex_reaction(marks, surface, resistance, flow, n_vertices, vertex_force) result(status) &
+        bind(c, name='riis_marks_add_vertex_reaction')
+      import :: c_double, c_int64_t, c_ptr, riis_flow_arrays, riis_resistance, riis_status
+      implicit none
+      type(c_ptr), value :: marks
+      type(c_ptr), value :: surface
+      type(riis_resistance), intent(in) :: resistance
+      type(riis_flow_arrays), intent(in) :: flow
+      integer(c_int64_t), value :: n_vertices
+      real(c_double), intent(inout) :: vertex_force(*)
+      integer(riis_status) :: status
+    end function riis_marks_add_vertex_reaction
+
     !>   struct_size  c_sizeof(band)
     function riis_band_init(band, struct_size) result(status) bind(c, name='riis_band_init')
       import :: c_int64_t, riis_band, riis_status
@@ -1515,6 +1543,46 @@ module riis_c
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
     end function riis_marks_get_band_sums
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Loads
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   struct_size  c_sizeof(loads)
+    function riis_loads_init(loads, struct_size) result(status) bind(c, name='riis_loads_init')
+      import :: c_int64_t, riis_loads, riis_status
+      implicit none
+      type(riis_loads), intent(inout) :: loads
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_loads_init
+
+    !>   weight  (n_points)
+    !!   sums    (11, n_leaflets); values are added
+    function riis_loads_add_sums(loads, nodes, weight, sums) result(status) bind(c, name='riis_loads_add_sums')
+      import :: c_double, riis_loads, riis_points, riis_status
+      implicit none
+      type(riis_loads), intent(in) :: loads
+      type(riis_points), intent(in) :: nodes
+      real(c_double), intent(in), optional :: weight(*)
+      real(c_double), intent(inout) :: sums(*)
+      integer(riis_status) :: status
+    end function riis_loads_add_sums
+
+    !>   weight      (n_points)
+    !!   sums        (11, n_leaflets)
+    !!   node_force  (3, n_points); values are added
+    function riis_loads_add_forces(loads, nodes, weight, sums, node_force) result(status) &
+        bind(c, name='riis_loads_add_forces')
+      import :: c_double, riis_loads, riis_points, riis_status
+      implicit none
+      type(riis_loads), intent(in) :: loads
+      type(riis_points), intent(in) :: nodes
+      real(c_double), intent(in), optional :: weight(*)
+      real(c_double), intent(in) :: sums(*)
+      real(c_double), intent(inout) :: node_force(*)
+      integer(riis_status) :: status
+    end function riis_loads_add_forces
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Leaks

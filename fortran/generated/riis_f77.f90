@@ -3412,6 +3412,86 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
 end subroutine riisf_add_edge_reaction_64
 
+!> Adds the force of the flow on each vertex of the surface. The force of a node goes to the vertices of its closest triangle.
+!! Ranks add their forces by a reduction. Errors: as for riisf_add_reaction; RIIS_INVALID_ARGUMENT also for another number of
+!! vertices, and for a surface that is not that of the marking.
+subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_nodes, velocity, weight, n_vertices, &
+    vertex_force, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_vertex_reaction, riis_resistance, &
+      riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
+  integer(int64), intent(in) :: surface                   !< The surface of the marking.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  integer(int32), intent(in) :: n_vertices                !< The surface's number of vertices.
+  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): forces are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(velocity(1, 1))
+  flow%velocity(2) = location_of(velocity(2, 1))
+  flow%velocity(3) = location_of(velocity(3, 1))
+  flow%velocity_stride = 3
+  flow%weight = location_of(weight)
+  status = riis_marks_add_vertex_reaction(c_handle_of(marks), c_handle_of(surface), resistance, flow, int(n_vertices, &
+      int64), vertex_force)
+end subroutine riisf_add_vertex_reaction
+
+!> Does the same as riisf_add_vertex_reaction, with counts and ids of INTEGER*8.
+subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, n_nodes, velocity, weight, n_vertices, &
+    vertex_force, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_vertex_reaction, riis_resistance, &
+      riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
+  integer(int64), intent(in) :: surface                   !< The surface of the marking.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  integer(int64), intent(in) :: n_vertices                !< The surface's number of vertices.
+  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): forces are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(velocity(1, 1))
+  flow%velocity(2) = location_of(velocity(2, 1))
+  flow%velocity(3) = location_of(velocity(3, 1))
+  flow%velocity_stride = 3
+  flow%weight = location_of(weight)
+  status = riis_marks_add_vertex_reaction(c_handle_of(marks), c_handle_of(surface), resistance, flow, n_vertices, &
+      vertex_force)
+end subroutine riisf_add_vertex_reaction_64
+
 !> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side. Nodes whose
 !! closest point is on the rim, or that are on neither side, are left out. If the valve is open, the two sides have no meaning.
 !! Errors: RIIS_INVALID_ARGUMENT for a distance out of range, another number of nodes, or a field that the marks lack.
@@ -3481,6 +3561,197 @@ subroutine riisf_band_sums_64(marks, inner, outer, n_nodes, value, weight, sum_o
   sum_of_weights = sums%weight
   n_in_band = sums%n_nodes
 end subroutine riisf_band_sums_64
+
+! -----------------------------------------------------------------------------------------------------------------
+! Loads of tissue
+! -----------------------------------------------------------------------------------------------------------------
+
+!> Adds the sums over nodes of tissue that riisf_loads_forces needs. Ranks add their sums by a reduction. Errors:
+!! RIIS_INVALID_ARGUMENT naming the argument, or the edge, node or weight, counted from 0.
+subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, sums, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32
+  use riis_support, only: location_of
+  use riis_c, only: RIIS_OK, riis_loads, riis_loads_add_sums, riis_loads_init, riis_points, riis_points_init, &
+      riis_status
+  implicit none
+  real(c_double), intent(in) :: radius                    !< Mesh units: nodes nearer than this to a leaflet's edges get its
+                                                          !! force.
+  integer(int32), intent(in) :: n_edges                   !< At least 1.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, as from
+                                                          !! riisf_surface_attachment.
+  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
+                                                          !! -1, the other entries are not read, and each edge holds all
+                                                          !! leaflets.
+  integer(int32), intent(in) :: n_nodes                   !< 0 to 2^40.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the nodes of tissue.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the area or volume around a node, 0 for nodes of other
+                                                          !! ranks.
+  integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
+  real(c_double), intent(inout) :: sums(11, *)            !< (11, n_leaflets): sums are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_loads) :: loads
+  type(riis_points) :: nodes
+  status = riis_loads_init(loads, c_sizeof(loads))
+  if (status == RIIS_OK) status = riis_points_init(nodes, c_sizeof(nodes))
+  if (status /= RIIS_OK) return
+  loads%radius = radius
+  loads%n_edges = n_edges
+  loads%edges = location_of(edges)
+  nodes%n_points = n_nodes
+  nodes%x = location_of(xyz(1, 1))
+  nodes%y = location_of(xyz(2, 1))
+  nodes%z = location_of(xyz(3, 1))
+  nodes%stride = 3
+  loads%n_leaflets = n_leaflets
+  if (edge_leaflet_id(1) /= -1) loads%edge_leaflet_id = location_of(edge_leaflet_id)
+  status = riis_loads_add_sums(loads, nodes, weight, sums)
+end subroutine riisf_loads_sums
+
+!> Does the same as riisf_loads_sums, with counts and ids of INTEGER*8.
+subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, sums, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: location_of
+  use riis_c, only: RIIS_OK, riis_loads, riis_loads_add_sums, riis_loads_init, riis_points, riis_points_init, &
+      riis_status
+  implicit none
+  real(c_double), intent(in) :: radius                    !< Mesh units: nodes nearer than this to a leaflet's edges get its
+                                                          !! force.
+  integer(int64), intent(in) :: n_edges                   !< At least 1.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, as from
+                                                          !! riisf_surface_attachment.
+  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
+                                                          !! -1, the other entries are not read, and each edge holds all
+                                                          !! leaflets.
+  integer(int64), intent(in) :: n_nodes                   !< 0 to 2^40.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the nodes of tissue.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the area or volume around a node, 0 for nodes of other
+                                                          !! ranks.
+  integer(int64), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
+  real(c_double), intent(inout) :: sums(11, *)            !< (11, n_leaflets): sums are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_loads) :: loads
+  type(riis_points) :: nodes
+  status = riis_loads_init(loads, c_sizeof(loads))
+  if (status == RIIS_OK) status = riis_points_init(nodes, c_sizeof(nodes))
+  if (status /= RIIS_OK) return
+  loads%radius = radius
+  loads%n_edges = n_edges
+  loads%edges = location_of(edges)
+  nodes%n_points = n_nodes
+  nodes%x = location_of(xyz(1, 1))
+  nodes%y = location_of(xyz(2, 1))
+  nodes%z = location_of(xyz(3, 1))
+  nodes%stride = 3
+  loads%n_leaflets = n_leaflets
+  if (edge_leaflet_id(1) /= -1) loads%edge_leaflet_id = location_of(edge_leaflet_id)
+  status = riis_loads_add_sums(loads, nodes, weight, sums)
+end subroutine riisf_loads_sums_64
+
+!> Adds the forces of the leaflets at nodes of tissue. Their sum and moment are those of the leaflets. Errors: as for
+!! riisf_loads_sums; RIIS_INVALID_ARGUMENT also for a leaflet with fewer than three nodes within the radius, and for one whose
+!! nodes lie nearly on a line.
+subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, about, &
+    leaflet_force, leaflet_moment, sums, node_force, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32
+  use riis_support, only: location_of
+  use riis_c, only: RIIS_OK, riis_loads, riis_loads_add_forces, riis_loads_init, riis_points, riis_points_init, &
+      riis_status
+  implicit none
+  real(c_double), intent(in) :: radius                    !< Mesh units: nodes nearer than this to a leaflet's edges get its
+                                                          !! force.
+  integer(int32), intent(in) :: n_edges                   !< At least 1.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, as from
+                                                          !! riisf_surface_attachment.
+  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
+                                                          !! -1, the other entries are not read, and each edge holds all
+                                                          !! leaflets.
+  integer(int32), intent(in) :: n_nodes                   !< 0 to 2^40.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the nodes of tissue.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the area or volume around a node, 0 for nodes of other
+                                                          !! ranks.
+  integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
+  real(c_double), intent(in) :: about(3)                  !< The point of leaflet_moment.
+  real(c_double), intent(in) :: leaflet_force(3, *)       !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
+                                                          !! ranks.
+  real(c_double), intent(in) :: leaflet_moment(3, *)      !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
+                                                          !! ranks.
+  real(c_double), intent(in) :: sums(11, *)               !< (11, n_leaflets): from riisf_loads_sums, the sum over all ranks.
+  real(c_double), intent(inout) :: node_force(3, *)       !< (3, n_nodes): forces are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_loads) :: loads
+  type(riis_points) :: nodes
+  status = riis_loads_init(loads, c_sizeof(loads))
+  if (status == RIIS_OK) status = riis_points_init(nodes, c_sizeof(nodes))
+  if (status /= RIIS_OK) return
+  loads%radius = radius
+  loads%n_edges = n_edges
+  loads%edges = location_of(edges)
+  nodes%n_points = n_nodes
+  nodes%x = location_of(xyz(1, 1))
+  nodes%y = location_of(xyz(2, 1))
+  nodes%z = location_of(xyz(3, 1))
+  nodes%stride = 3
+  loads%n_leaflets = n_leaflets
+  loads%about = about
+  loads%leaflet_force = location_of(leaflet_force)
+  loads%leaflet_moment = location_of(leaflet_moment)
+  if (edge_leaflet_id(1) /= -1) loads%edge_leaflet_id = location_of(edge_leaflet_id)
+  status = riis_loads_add_forces(loads, nodes, weight, sums, node_force)
+end subroutine riisf_loads_forces
+
+!> Does the same as riisf_loads_forces, with counts and ids of INTEGER*8.
+subroutine riisf_loads_forces_64(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, about, &
+    leaflet_force, leaflet_moment, sums, node_force, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: location_of
+  use riis_c, only: RIIS_OK, riis_loads, riis_loads_add_forces, riis_loads_init, riis_points, riis_points_init, &
+      riis_status
+  implicit none
+  real(c_double), intent(in) :: radius                    !< Mesh units: nodes nearer than this to a leaflet's edges get its
+                                                          !! force.
+  integer(int64), intent(in) :: n_edges                   !< At least 1.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, as from
+                                                          !! riisf_surface_attachment.
+  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
+                                                          !! -1, the other entries are not read, and each edge holds all
+                                                          !! leaflets.
+  integer(int64), intent(in) :: n_nodes                   !< 0 to 2^40.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the nodes of tissue.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the area or volume around a node, 0 for nodes of other
+                                                          !! ranks.
+  integer(int64), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
+  real(c_double), intent(in) :: about(3)                  !< The point of leaflet_moment.
+  real(c_double), intent(in) :: leaflet_force(3, *)       !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
+                                                          !! ranks.
+  real(c_double), intent(in) :: leaflet_moment(3, *)      !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
+                                                          !! ranks.
+  real(c_double), intent(in) :: sums(11, *)               !< (11, n_leaflets): from riisf_loads_sums, the sum over all ranks.
+  real(c_double), intent(inout) :: node_force(3, *)       !< (3, n_nodes): forces are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_loads) :: loads
+  type(riis_points) :: nodes
+  status = riis_loads_init(loads, c_sizeof(loads))
+  if (status == RIIS_OK) status = riis_points_init(nodes, c_sizeof(nodes))
+  if (status /= RIIS_OK) return
+  loads%radius = radius
+  loads%n_edges = n_edges
+  loads%edges = location_of(edges)
+  nodes%n_points = n_nodes
+  nodes%x = location_of(xyz(1, 1))
+  nodes%y = location_of(xyz(2, 1))
+  nodes%z = location_of(xyz(3, 1))
+  nodes%stride = 3
+  loads%n_leaflets = n_leaflets
+  loads%about = about
+  loads%leaflet_force = location_of(leaflet_force)
+  loads%leaflet_moment = location_of(leaflet_moment)
+  if (edge_leaflet_id(1) /= -1) loads%edge_leaflet_id = location_of(edge_leaflet_id)
+  status = riis_loads_add_forces(loads, nodes, weight, sums, node_force)
+end subroutine riisf_loads_forces_64
 
 ! -----------------------------------------------------------------------------------------------------------------
 ! Leaks

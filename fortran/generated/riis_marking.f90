@@ -55,6 +55,7 @@ module riis_marking
     procedure, non_overridable :: get_list => marks_get_list            !< Points to all arrays of a list.
     procedure, non_overridable :: add_resistance => marks_add_resistance !< Adds K and K u_surface to the caller's arrays.
     procedure, non_overridable :: add_reaction => marks_add_reaction   !< Adds the force of the flow on the surface.
+    procedure, non_overridable :: add_vertex_reaction => marks_add_vertex_reaction !< Adds the force on each vertex.
     procedure, non_overridable :: band_sums => marks_band_sums         !< Sums a value on each side of the surface.
     generic :: dense => dense_int8, dense_int32, dense_logical          !< Writes one entry per node into the caller's arrays.
     procedure, non_overridable :: get_stats => marks_get_stats         !< Gives the statistics of the last marking.
@@ -780,6 +781,37 @@ contains
     if (present(edge_moment)) deallocate (own_edge_moment)
     call finish(code, status)
   end subroutine marks_add_reaction
+
+  !> Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets. The force of a
+  !! node goes to the vertices of its closest triangle, in the shares of the closest point's barycentric coordinates. Ranks add
+  !! their forces by a reduction. Errors: as for %add_reaction; RIIS_INVALID_ARGUMENT also for another number of vertices, and for
+  !! a surface that lacks the closest triangle of a node.
+  subroutine marks_add_vertex_reaction(this, surface, R, velocity, weight, vertex_force, half_thickness, rim, status)
+    class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_BARYCENTRIC.
+    class(riis_surface), intent(in) :: surface              !< The surface of the marking, without an update since then.
+    real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(in) :: velocity(:, :) !< (3, n_nodes), the flow's velocity.
+    real(c_double), intent(in) :: weight(:)     !< (n_nodes), the volume that belongs to a node; 0 for nodes of
+                                                            !! other ranks.
+    real(c_double), intent(inout) :: vertex_force(:, :)     !< (3, n_vertices): forces are added.
+    real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
+                                                            !! RIIS_AUTO: the half thickness of the marking.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
+                                                            !! RIIS_FIELD_RIM.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_resistance) :: made
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(weight, kind=int64)
+    code = check_created(this%handle, 'the object marks')
+    if (code == RIIS_OK) code = check_created(surface%c_handle(), 'the surface')
+    if (code == RIIS_OK) code = check_vectors(velocity, n, 'velocity')
+    if (code == RIIS_OK) code = check_vectors(vertex_force, size(vertex_force, 2, int64), 'vertex_force')
+    call get_resistance(R, half_thickness, rim, made, code)
+    if (code == RIIS_OK) code = add_vertex_reaction_to(this%handle, surface%c_handle(), made, n, velocity, weight, &
+      size(vertex_force, 2, int64), vertex_force)
+    call finish(code, status)
+  end subroutine marks_add_vertex_reaction
 
   ! Refuses a vector of another size. Does nothing after an error.
   subroutine check_three(n, name, code)

@@ -106,8 +106,14 @@ module riisf
   public :: riisf_add_leaflet_reaction_64
   public :: riisf_add_edge_reaction
   public :: riisf_add_edge_reaction_64
+  public :: riisf_add_vertex_reaction
+  public :: riisf_add_vertex_reaction_64
   public :: riisf_band_sums
   public :: riisf_band_sums_64
+  public :: riisf_loads_sums
+  public :: riisf_loads_sums_64
+  public :: riisf_loads_forces
+  public :: riisf_loads_forces_64
   public :: riisf_find_leaks
   public :: riisf_leaking_edges
   public :: riisf_leaking_edges_64
@@ -1571,6 +1577,44 @@ module riisf
       integer(riis_status), intent(out) :: status
     end subroutine riisf_add_edge_reaction_64
 
+    subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_nodes, velocity, weight, &
+        n_vertices, vertex_force, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      integer(int64), intent(in) :: surface
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int32), intent(in) :: n_nodes
+      real(c_double), intent(in) :: velocity(3, *)
+      real(c_double), intent(in) :: weight(*)
+      integer(int32), intent(in) :: n_vertices
+      real(c_double), intent(inout) :: vertex_force(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_vertex_reaction
+
+    subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, n_nodes, velocity, weight, &
+        n_vertices, vertex_force, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      integer(int64), intent(in) :: surface
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int64), intent(in) :: n_nodes
+      real(c_double), intent(in) :: velocity(3, *)
+      real(c_double), intent(in) :: weight(*)
+      integer(int64), intent(in) :: n_vertices
+      real(c_double), intent(inout) :: vertex_force(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_vertex_reaction_64
+
     subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
         status)
       use, intrinsic :: iso_c_binding, only: c_double
@@ -1606,6 +1650,85 @@ module riisf
       integer(int64), intent(inout) :: n_in_band(2)
       integer(riis_status), intent(out) :: status
     end subroutine riisf_band_sums_64
+
+    subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, sums, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32
+      use riis_c, only: riis_status
+      implicit none
+      real(c_double), intent(in) :: radius
+      integer(int32), intent(in) :: n_edges
+      real(c_double), intent(in) :: edges(3, 2, *)
+      integer(int32), intent(in) :: edge_leaflet_id(*)
+      integer(int32), intent(in) :: n_nodes
+      real(c_double), intent(in) :: xyz(3, *)
+      real(c_double), intent(in) :: weight(*)
+      integer(int32), intent(in) :: n_leaflets
+      real(c_double), intent(inout) :: sums(11, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_loads_sums
+
+    subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, sums, &
+        status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      real(c_double), intent(in) :: radius
+      integer(int64), intent(in) :: n_edges
+      real(c_double), intent(in) :: edges(3, 2, *)
+      integer(int32), intent(in) :: edge_leaflet_id(*)
+      integer(int64), intent(in) :: n_nodes
+      real(c_double), intent(in) :: xyz(3, *)
+      real(c_double), intent(in) :: weight(*)
+      integer(int64), intent(in) :: n_leaflets
+      real(c_double), intent(inout) :: sums(11, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_loads_sums_64
+
+    subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, about, &
+        leaflet_force, leaflet_moment, sums, node_force, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32
+      use riis_c, only: riis_status
+      implicit none
+      real(c_double), intent(in) :: radius
+      integer(int32), intent(in) :: n_edges
+      real(c_double), intent(in) :: edges(3, 2, *)
+      integer(int32), intent(in) :: edge_leaflet_id(*)
+      integer(int32), intent(in) :: n_nodes
+      real(c_double), intent(in) :: xyz(3, *)
+      real(c_double), intent(in) :: weight(*)
+      integer(int32), intent(in) :: n_leaflets
+      real(c_double), intent(in) :: about(3)
+      real(c_double), intent(in) :: leaflet_force(3, *)
+      real(c_double), intent(in) :: leaflet_moment(3, *)
+      real(c_double), intent(in) :: sums(11, *)
+      real(c_double), intent(inout) :: node_force(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_loads_forces
+
+    subroutine riisf_loads_forces_64(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, about, &
+        leaflet_force, leaflet_moment, sums, node_force, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      real(c_double), intent(in) :: radius
+      integer(int64), intent(in) :: n_edges
+      real(c_double), intent(in) :: edges(3, 2, *)
+      integer(int32), intent(in) :: edge_leaflet_id(*)
+      integer(int64), intent(in) :: n_nodes
+      real(c_double), intent(in) :: xyz(3, *)
+      real(c_double), intent(in) :: weight(*)
+      integer(int64), intent(in) :: n_leaflets
+      real(c_double), intent(in) :: about(3)
+      real(c_double), intent(in) :: leaflet_force(3, *)
+      real(c_double), intent(in) :: leaflet_moment(3, *)
+      real(c_double), intent(in) :: sums(11, *)
+      real(c_double), intent(inout) :: node_force(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_loads_forces_64
 
     subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, longest, middle, half_thickness, &
         status)

@@ -83,6 +83,22 @@ RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
                                              const riis_flow_arrays *flow, const riis_reaction *reaction);
 
+/* Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets.
+ *   surface       the surface of the marking, without an update since then
+ *   flow          as in riis_marks_add_reaction
+ *   n_vertices    riis_triangles.n_vertices
+ *   vertex_force  (3, n_vertices): forces are added. A node's force goes to the three vertices of its closest triangle, in the
+ *                 shares of the closest point's barycentric coordinates
+ * The forces on the vertices of a leaflet add up to leaflet_force of riis_marks_add_reaction, and their moment is
+ * leaflet_moment, up to rounding. Their power is the power of the nodes' forces in every motion of the vertices. Vertices with
+ * equal coordinates are not joined: a valve repeats its vertices along sides of patches, and arrays may share a vertex between
+ * leaflets. With MPI add up the forces of all ranks.
+ * Errors: as riis_marks_add_reaction; RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, for another number of
+ * vertices, and for a closest triangle that the surface lacks. */
+RIIS_API riis_status riis_marks_add_vertex_reaction(const riis_marks *marks, const riis_surface *surface,
+                                                    const riis_resistance *resistance, const riis_flow_arrays *flow,
+                                                    int64_t n_vertices, double *vertex_force);
+
 /* Sums over the nodes on either side of the surface: entry 0 is upstream (side -1), entry 1 is downstream. The
  * mean is sum / weight; with MPI, add up the sums and weights of all ranks first. */
 typedef struct riis_band_sums {

@@ -134,8 +134,13 @@
  *   riis_marks_add_resistance            adds K and K u_surface to the caller's arrays
  *   riis_flow_arrays_init, riis_reaction_init
  *   riis_marks_add_reaction              adds the force of the flow on the surface
+ *   riis_marks_add_vertex_reaction       adds the force of the flow on each vertex of the surface
  *   riis_band_init
  *   riis_marks_get_band_sums             sums of a value on both sides of the surface
+ * loads.h: the forces of the leaflets at nodes of tissue
+ *   riis_loads_init
+ *   riis_loads_add_sums                  sums over the nodes of tissue
+ *   riis_loads_add_forces                adds the forces of the leaflets at these nodes
  * seal.h: whether the marks close the surface
  *   riis_leaks_create, riis_leaks_destroy
  *   riis_find_leaks                      mesh edges that leak through the surface
@@ -194,6 +199,7 @@
 #include "mesh.h"
 #include "marks.h"
 #include "obstacle.h"
+#include "loads.h"
 #include "seal.h"
 #include "measures.h"
 #include "patient.h"

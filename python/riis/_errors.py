@@ -108,7 +108,9 @@ def class_of(status: int) -> type[Error]:
 # The functions and structs of riis.h that messages name, and their Python names.
 _NAMES = {
     "riis_find_crossings": "riis.find_crossings",
+    "riis_loads_add_sums": "riis.load_sums",
     "riis_mark_nodes": "riis.mark",
+    "riis_marks_add_vertex_reaction": "Marks.add_vertex_reaction",
     "riis_marks_get_band_sums": "Marks.band_sums",
     "riis_mesh_set_adjacency": "Mesh.set_adjacency",
     "riis_surface_add_direction": "Surface.add_direction",
@@ -163,7 +165,8 @@ _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (rf"\bRIIS_(FIELD|INTERPOLATION|PHASE|RIM|{'|'.join(WORDS).upper()})_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
     (r"RIIS_ALL_LEAFLETS, -1, stands", "None stands"),
     (r"\briis_[a-z_]+", lambda match: _NAMES.get(match[0], match[0])),
-    (r"(?<!['\w])(?:arrays|band|cells|csr|ends|faces|flow|frames|law|options|patches|points|resistance|table|times)\.([a-z]\w*)",
+    (r"(?<!['\w])(?:arrays|band|cells|csr|ends|faces|flow|frames|law|loads|nodes|options|patches|points|resistance|table|times)"
+     r"\.([a-z]\w*)",
      lambda match: _ARGUMENTS.get(match[0], match[1])),
     (r"\bRIIS_LIST_\*", "the lists of riis.Marks"),
     (r"\bNULL\b", "None"),

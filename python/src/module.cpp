@@ -21,6 +21,7 @@ NB_MODULE(_riis, module) {
   add_mesh(module);
   add_marking(module);
   add_leaks(module);
+  add_loads(module);
   add_laws(module);
   add_patient(module);
   add_measures(module);

@@ -105,6 +105,7 @@ void add_marking(nb::module_ &module);
 riis_resistance resistance_of(nb::handle R, nb::handle half_thickness, nb::handle rim);
 void add_resistance(nb::class_<Marks> &result);
 void add_leaks(nb::module_ &module);
+void add_loads(nb::module_ &module);
 void add_patient(nb::module_ &module);
 void add_laws(nb::module_ &module);
 void add_measures(nb::module_ &module);

@@ -63,6 +63,19 @@ std::int64_t n_rows_of(nb::handle first, const char *first_name, nb::handle seco
   return array.size(0);
 }
 
+// Describes the flow at n nodes in the form of riis.h, without a copy.
+riis_flow_arrays flow_of(std::int64_t n, const Array &velocity, const Array &weight) {
+  velocity.expect({n, 3});
+  weight.expect({n});
+  riis_flow_arrays flow;
+  call_shortly(riis_flow_arrays_init(&flow, sizeof flow));
+  flow.n_nodes = n;
+  for (int c = 0; c < 3; ++c) flow.velocity[c] = velocity.data<double>() + c;
+  flow.velocity_stride = 3;
+  flow.weight = weight.data<double>();
+  return flow;
+}
+
 nb::object add_reaction(Marks &result, nb::handle velocity_, nb::handle weight_, nb::handle force_, nb::handle R,
                         nb::handle half_thickness, nb::handle rim, nb::handle moment_, nb::handle about,
                         nb::handle leaflet_force_, nb::handle leaflet_moment_, nb::handle edges_,
@@ -72,8 +85,7 @@ nb::object add_reaction(Marks &result, nb::handle velocity_, nb::handle weight_,
   const riis_resistance model = resistance_of(R, half_thickness, rim);
   const std::int64_t n = n_nodes_of(result);
   const Array velocity = Array::of<double>(velocity_, "velocity"), weight = Array::of<double>(weight_, "weight");
-  velocity.expect({n, 3});
-  weight.expect({n});
+  const riis_flow_arrays flow = flow_of(n, velocity, weight);
   riis_reaction to;
   call_shortly(riis_reaction_init(&to, sizeof to));
   if (!about.is_none()) three_numbers(about, "about", to.about);
@@ -97,13 +109,28 @@ nb::object add_reaction(Marks &result, nb::handle velocity_, nb::handle weight_,
   to.force = data_of(whole), to.moment = data_of(moment);
   to.leaflet_force = data_of(leaflet_force), to.leaflet_moment = data_of(leaflet_moment);
   to.edge_force = data_of(edge_force), to.edge_moment = data_of(edge_moment);
-  riis_flow_arrays flow;
-  call_shortly(riis_flow_arrays_init(&flow, sizeof flow));
-  flow.n_nodes = n;
-  for (int c = 0; c < 3; ++c) flow.velocity[c] = velocity.data<double>() + c;
-  flow.velocity_stride = 3;
-  flow.weight = weight.data<double>();
   call_library([&] { return riis_marks_add_reaction(result.handle, &model, &flow, &to); });
+  return force;
+}
+
+nb::object add_vertex_reaction(Marks &result, nb::handle surface_, nb::handle velocity_, nb::handle weight_,
+                               nb::handle force_, nb::handle R, nb::handle half_thickness, nb::handle rim) {
+  Surface &surface = object<Surface>(surface_, "surface");
+  const Reading reading(result.usage, "marks"), reading_surface(surface.usage, "surface");
+  result.check_threads("marks");
+  const riis_resistance model = resistance_of(R, half_thickness, rim);
+  const Array velocity = Array::of<double>(velocity_, "velocity"), weight = Array::of<double>(weight_, "weight");
+  const riis_flow_arrays flow = flow_of(n_nodes_of(result), velocity, weight);
+  riis_surface_info info;
+  call_shortly(riis_surface_get_info(surface.handle, &info, sizeof info));
+  const nb::object force =
+      force_.is_none() ? new_filled_array("float64", {info.n_vertices, 3}, nb::float_(0.0)) : nb::borrow(force_);
+  const Array to = Array::of<double>(force, "force", Access::write);
+  to.expect({info.n_vertices, 3});
+  call_library([&] {
+    return riis_marks_add_vertex_reaction(result.handle, surface.handle, &model, &flow, info.n_vertices,
+                                          to.data<double>());
+  });
   return force;
 }
 
@@ -179,6 +206,20 @@ edges            (n_edges, 2, 3): both ends of each edge, such as Surface.attach
 edge_force       (n_edges, 3): a node's force goes to the edge nearest to its closest point, the first of equally near edges
 edge_moment      (n_edges, 3): the moments about the middle of each edge
 edge_leaflet_id  (n_edges,) int32: a node's force goes to the nearest edge of its leaflet; None: of all leaflets)")
+      .def("add_vertex_reaction", &add_vertex_reaction, nb::arg("surface").none(), nb::arg("velocity").none(),
+           nb::arg("weight").none(), nb::arg("force").none() = nb::none(), nb::kw_only(), nb::arg("R").none(),
+           nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
+           nb::sig("def add_vertex_reaction(self, surface: Surface, velocity: " RIIS_REALS ", weight: " RIIS_REALS
+                   ", force: " RIIS_REALS " | None = None, *, " RIIS_MODEL ") -> " RIIS_REALS),
+           R"(Adds the force of the flow on each vertex of the surface to force, and returns force.
+
+The force of a node goes to the vertices of its closest triangle, in the shares of the closest point's barycentric coordinates.
+So sums and moments are those of add_reaction. The marking needs fields='barycentric'. Ranks add their forces.
+
+surface   the surface of the marking, without an update since then
+velocity  (n_nodes, 3) float64: the flow's velocity
+weight    (n_nodes,) float64: the volume that belongs to a node, 0 for nodes of other ranks
+force     (n_vertices, 3) float64; None: a new array)")
       .def(
           "band_sums", &band_sums, nb::arg("value").none(), nb::arg("weight").none(), nb::arg("inner").none(),
           nb::arg("outer").none(),

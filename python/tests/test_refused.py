@@ -326,6 +326,30 @@ REFUSED = {
     "leaflet_moment": (Argument, "leaflet_moment: its shape",
                        lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, leaflet_force=numpy.zeros((3, 3)),
                                                       leaflet_moment=numpy.zeros((2, 3)))),
+    "vertex forces without barycentric": (
+        Argument, "^Marks.add_vertex_reaction needs 'barycentric', but the nodes were marked with fields = None$",
+        lambda o: o.marks.add_vertex_reaction(o.surface, o.vectors, o.reals, R=1.0)),
+    "vertex forces of another surface": (
+        Argument, "^the closest triangle of node .* which the surface lacks: mark the nodes again$",
+        lambda o: riis.mark(o.surface, o.mesh, fields="barycentric").add_vertex_reaction(
+            riis.Surface.from_arrays(o.triangle, o.faces), o.vectors, o.reals, R=1.0)),
+    "force of vertices": (Argument, "force: its shape is", lambda o: riis.mark(
+        o.surface, o.mesh, fields="barycentric").add_vertex_reaction(o.surface, o.vectors, o.reals, o.vectors, R=1.0)),
+    "radius of loads": (Argument, "^radius is 0; it must be from 1e-50 to 1e[+]50$",
+                        lambda o: riis.load_sums(o.xyz, 0.0, numpy.zeros((1, 2, 3)), 1)),
+    "leaflets of loads": (Argument, "n_leaflets: must be from 1 to 2.31$",
+                          lambda o: riis.load_sums(o.xyz, 1.0, numpy.zeros((1, 2, 3)), 0)),
+    "weight of tissue": (Argument, "^weight of node 0 is -1; it must be from 0 to 1e[+]60$",
+                         lambda o: riis.load_sums(o.triangle, 1.0, numpy.zeros((1, 2, 3)), 1, weight=numpy.full(3, -1.0))),
+    "edges of loads": (Argument, "edges: its shape", lambda o: riis.load_sums(o.xyz, 1.0, numpy.zeros((1, 3)), 1)),
+    "too little tissue": (Argument, "^tissue has 0 nodes within the radius 1 of .* leaflet 0,.* give a larger radius",
+                          lambda o: riis.loads(o.triangle + 9.0, 1.0, numpy.zeros((1, 2, 3)), numpy.ones((1, 3)),
+                                               numpy.zeros((1, 3)))),
+    "tissue on a line": (Argument, "lie nearly on a line: .* give a larger radius, or more rows of nodes$",
+                         lambda o: riis.loads(numpy.outer([0.1, 0.2, 0.3], [1.0, 1.0, 1.0]), 1.0, numpy.zeros((1, 2, 3)),
+                                              numpy.ones((1, 3)), numpy.zeros((1, 3)))),
+    "sums of loads": (Argument, r"sums: its shape is \(2, 11\)", lambda o: riis.loads(
+        o.triangle, 1.0, numpy.zeros((1, 2, 3)), numpy.ones((1, 3)), numpy.zeros((1, 3)), sums=numpy.zeros((2, 11)))),
     "edges": (Argument, "edges: its shape",
               lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, edges=numpy.zeros((4, 3)))),
     "edge_force": (Argument, "edge_force: its shape",
@@ -507,6 +531,11 @@ READ = [
     ("weights", lambda o: numpy.ones(o.surface.info.n_vertices),
      lambda o, a: riis.fit(o.surface.vertices, "mitral", free=["opening"], placement=[], n_starts=1, weights=a)),
 ]
+CORNERS_OF_TISSUE = numpy.array([[0.1, 0.2, 0.3], [-0.1, 0.2, 0.1], [0.3, -0.2, 0.0], [0.0, 0.1, -0.3]])
+LOADS = {"nodes": CORNERS_OF_TISSUE, "edges": numpy.zeros((1, 2, 3)), "leaflet_force": numpy.ones((1, 3)),
+         "leaflet_moment": numpy.zeros((1, 3)), "edge_leaflet_id": numpy.zeros(1, "i4"), "weight": numpy.ones(4)}
+READ += [(name, lambda o, name=name: LOADS[name], lambda o, a, name=name: riis.loads(radius=1.0, **LOADS | {name: a}))
+         for name in LOADS]
 # Each array argument that a call writes.
 WRITTEN = [
     ("distance", lambda o: o.reals, lambda o, a: o.surface.closest_points(o.xyz, distance=a)),

@@ -335,6 +335,18 @@ TEST(test_structs) {
   FIELD(riis_reaction, edge_leaflet_id, 88, 8);
   FIELD(riis_reaction, edge_force, 96, 8);
   FIELD(riis_reaction, edge_moment, 104, 8);
+  SIZE(riis_loads, 96);
+  FIELD(riis_loads, struct_size, 0, 8);
+  FIELD(riis_loads, radius, 8, 8);
+  FIELD(riis_loads, about, 16, 24);
+  FIELD(riis_loads, n_leaflets, 40, 8);
+  FIELD(riis_loads, leaflet_force, 48, 8);
+  FIELD(riis_loads, leaflet_moment, 56, 8);
+  FIELD(riis_loads, n_edges, 64, 8);
+  FIELD(riis_loads, edges, 72, 8);
+  FIELD(riis_loads, edge_leaflet_id, 80, 8);
+  FIELD(riis_loads, n_threads, 88, 4);
+  FIELD(riis_loads, reserved, 92, 4);
 
   SIZE(riis_band_sums, 48);
   FIELD(riis_band_sums, sum, 0, 16);
@@ -755,6 +767,13 @@ TEST(test_signatures) {
   SIGNATURE(riis_reaction_init, int32_t, (riis_reaction *, int64_t));
   SIGNATURE(riis_marks_add_reaction, int32_t,
             (const riis_marks *, const riis_resistance *, const riis_flow_arrays *, const riis_reaction *));
+  SIGNATURE(
+      riis_marks_add_vertex_reaction, int32_t,
+      (const riis_marks *, const riis_surface *, const riis_resistance *, const riis_flow_arrays *, int64_t, double *));
+  SIGNATURE(riis_loads_init, int32_t, (riis_loads *, int64_t));
+  SIGNATURE(riis_loads_add_sums, int32_t, (const riis_loads *, const riis_points *, const double *, double *));
+  SIGNATURE(riis_loads_add_forces, int32_t,
+            (const riis_loads *, const riis_points *, const double *, const double *, double *));
   SIGNATURE(riis_band_init, int32_t, (riis_band *, int64_t));
   SIGNATURE(riis_marks_get_band_sums, int32_t, (const riis_marks *, const riis_band *, riis_band_sums *, int64_t));
   SIGNATURE(riis_leaks_create, int32_t, (riis_leaks **));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of riis_marks_add_*, riis_marks_get_band_sums, riis_opening_* and riis_keyframes_*.
+// Calls of riis_marks_add_*, riis_marks_get_band_sums, riis_loads_*, riis_opening_* and riis_keyframes_*.
 #include <cmath>
 
 #include "api_state.hpp"
@@ -9,6 +9,39 @@ namespace {
 
 bool are_equal(const std::vector<double> &a, const std::vector<double> &b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
+}
+
+// Spreads forces over a few nodes of tissue. A refusal must leave the arrays as they were.
+void spread_loads(Input &in) {
+  constexpr std::size_t n = 5, n_leaflets = 2;
+  std::vector<double> places(3 * n), weights(n, in.number()), forces(3 * n_leaflets, in.number()), edges(12);
+  for (double &place : places) place = in.place();
+  for (double &end : edges) end = in.one_in(8) ? in.number() : in.sound_place();
+  const std::int32_t leaflets[2] = {in.mostly(0), in.mostly(1)};
+  riis_loads loads = initialised(in, riis_loads_init);
+  loads.radius = in.one_in(2) ? 2 : in.number();
+  loads.about[in.below(3)] = in.number();
+  loads.n_leaflets = n_leaflets;
+  loads.leaflet_force = mostly(in, forces.data());
+  loads.leaflet_moment = mostly(in, forces.data());
+  loads.n_edges = in.below(3);
+  loads.edges = mostly(in, edges.data());
+  if (in.one_in(2)) loads.edge_leaflet_id = leaflets;
+  riis_points nodes = initialised(in, riis_points_init);
+  nodes.n_points = n;
+  nodes.x = places.data(), nodes.y = places.data() + 1, nodes.z = places.data() + 2;
+  nodes.stride = 3;
+  const double *const weight = in.one_in(2) ? weights.data() : nullptr;
+  std::vector<double> sums(11 * n_leaflets, 0), added(3 * n, 6.5);
+  const std::vector<double> sums_before = sums, added_before = added;
+  riis_status status =
+      call(in, [&] { return riis_loads_add_sums(mostly(in, &loads), &nodes, weight, mostly(in, sums.data())); });
+  if (status != RIIS_OK) EXPECT(are_equal(sums, sums_before), "refused, but added");
+  for (const double sum : sums) EXPECT(std::isfinite(sum), "a sum is %g", sum);
+  status = call(in, [&] {
+    return riis_loads_add_forces(mostly(in, &loads), &nodes, weight, sums.data(), mostly(in, added.data()));
+  });
+  if (status != RIIS_OK) EXPECT(are_equal(added, added_before), "refused, but added");
 }
 
 }  // namespace
@@ -78,6 +111,7 @@ void add_forces(Input &in, State &state) {
   else
     EXPECT(sums.n_nodes[0] >= 0 && sums.n_nodes[1] >= 0 && sums.n_nodes[0] + sums.n_nodes[1] <= stats.n_within_limit,
            "%lld nodes", static_cast<long long>(sums.n_nodes[0]));
+  spread_loads(in);
 }
 
 namespace {

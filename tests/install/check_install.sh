@@ -35,7 +35,8 @@ declare -A more_flags=([openmp_caller]=-fopenmp [overlap]=-pthread)
 
 # The installed Fortran sources, in the order in which they use each other.
 fortran_sources=(riis_c riis_support riis_calls riis_warping riis_valves riis_frames riis_surfaces riis_adjacencies riis_meshes
-  riis_marking riis_leaking riis_passages riis_measures riis_crossing riis_laws riis_placing riis riis_f77 riisf)
+  riis_marking riis_leaking riis_passages riis_measures riis_crossing riis_laws riis_placing riis_loading riis
+  riis_f77 riisf)
 
 
 # Empties a consumer's build directory, except for CMake's knowledge of the compilers. To examine three compilers takes longer

@@ -1,10 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_flow.sh SOURCE FLOW FLOW_CHECKS WORK
-# Runs the flow solver of examples/flow_fortran on coarse grids: its own checks, a restart with the same bits, plots, and
-# refusals.
+# check_flow.sh SOURCE FLOW FLOW_CHECKS MEMBRANE WORK
+# Runs the flow solver of examples/flow_fortran on coarse grids: its own checks, a restart with the same bits, a cusp of springs,
+# plots, and refusals.
 set -euo pipefail
-source=$1 flow=$2 checks=$3 work=$4
+source=$1 flow=$2 checks=$3 membrane=$4 work=$5
 failed=0
 rm -rf "$work"
 mkdir -p "$work"
@@ -49,6 +49,11 @@ cmp <(sed -n '/^14[1-9],/p; /^150,/p' whole/beat.csv) <(sed 1d again/beat.csv) |
 # A closed valve holds: less than 2 ml/s leak at 70 mmHg.
 awk -F , '$1 == 20 { found = 1; exit !($4 == 0 && $8 < 0 && $8 > -2e-6 && $7 - $6 > 9000) } END { exit !found }' whole/beat.csv ||
   problem "the closed valve leaks: $(sed -n 21p whole/beat.csv)"
+
+# The flow opens the cusp of springs, and goes back through the valve after the pressures have changed sides.
+"$membrane" >membrane.log || problem "the cusp of springs failed"
+awk 'NR > 2 { last = $2; if ($1 < 30) opened = $NF } END { exit !(opened > 1 && last < 0) }' membrane.log ||
+  problem "the cusp of springs does not follow the flow: $(<membrane.log)"
 
 # Bad input must be refused with these texts.
 at_20='flow: step 0, .000000 s: '

@@ -120,6 +120,15 @@ const double *require_of_nodes(const double *array, const char *name, std::int64
   return n_nodes == 0 ? array : require(array, name);
 }
 
+riis_flow_arrays checked_flow(const riis_flow_arrays *flow, const riis::Marks &marks) {
+  const riis_flow_arrays whole = riis::completed(require(flow, "flow"), "flow", default_flow);
+  check_n_nodes("flow.n_nodes", whole.n_nodes, marks);
+  check_components("flow.velocity", whole.velocity, whole.n_nodes == 0);
+  check_stride("flow.velocity_stride", whole.velocity_stride, whole.n_nodes);
+  require_of_nodes(whole.weight, "flow.weight", whole.n_nodes);
+  return whole;
+}
+
 // Checks the numbers of a reaction. Its leaflets and edges are checked later, against the marks.
 riis_reaction checked_reaction(const riis_reaction *reaction) {
   const riis_reaction whole = riis::completed(require(reaction, "reaction"), "reaction", default_reaction);
@@ -292,12 +301,23 @@ riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistan
   return guarded([&] {
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     const riis::Resistance checked = resistance_of(resistance, content);
-    const riis_flow_arrays from = riis::completed(require(flow, "flow"), "flow", default_flow);
-    check_n_nodes("flow.n_nodes", from.n_nodes, content);
-    check_components("flow.velocity", from.velocity, from.n_nodes == 0);
-    check_stride("flow.velocity_stride", from.velocity_stride, from.n_nodes);
-    require_of_nodes(from.weight, "flow.weight", from.n_nodes);
+    const riis_flow_arrays from = checked_flow(flow, content);
     riis::add_reaction(content, checked, from, checked_reaction(reaction));
+  });
+}
+
+riis_status riis_marks_add_vertex_reaction(const riis_marks *marks, const riis_surface *surface,
+                                           const riis_resistance *resistance, const riis_flow_arrays *flow,
+                                           int64_t n_vertices, double *vertex_force) {
+  return guarded([&] {
+    const riis::Marks &content = require_handle(marks, "marks")->marks;
+    const riis::TriangleSet &triangles = riis::content_of(surface).triangles();
+    const riis::Resistance checked = resistance_of(resistance, content);
+    const riis_flow_arrays from = checked_flow(flow, content);
+    if (n_vertices != triangles.n_vertices())
+      riis::fail(RIIS_INVALID_ARGUMENT, "n_vertices is ", n_vertices, "; the surface has ", triangles.n_vertices(),
+                 " vertices");
+    riis::add_vertex_reaction(content, triangles, checked, from, require(vertex_force, "vertex_force"));
   });
 }
 

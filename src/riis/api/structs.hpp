@@ -45,6 +45,7 @@ constexpr std::int64_t first_size_of(const riis_mark_stats *) { return 64; }
 constexpr std::int64_t first_size_of(const riis_resistance_arrays *) { return 64; }
 constexpr std::int64_t first_size_of(const riis_flow_arrays *) { return 56; }
 constexpr std::int64_t first_size_of(const riis_reaction *) { return 112; }
+constexpr std::int64_t first_size_of(const riis_loads *) { return 96; }
 constexpr std::int64_t first_size_of(const riis_band_sums *) { return 48; }
 constexpr std::int64_t first_size_of(const riis_band *) { return 48; }
 constexpr std::int64_t first_size_of(const riis_leak_list *) { return 96; }

@@ -32,22 +32,6 @@ void for_each_array(const FieldSet &fields, const Visit &visit) {
   if (has(RIIS_FIELD_GRADIENT)) visit(&NodeFields::distance_gradient, fields.n_directions);
 }
 
-// Finds the position of a triangle in the set from its id. The position of a triangle equals its id, unless the set left out
-// some of the caller's triangles.
-class Positions {
- public:
-  explicit Positions(const TriangleSet &set)
-      : ids_(view(set.triangle_id)), are_ids_(ids_[ids_.size() - 1] == ids_.size() - 1) {}
-
-  std::int64_t of(std::int64_t id) const {
-    return are_ids_ ? id : std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin();
-  }
-
- private:
-  ArrayView<const std::int64_t> ids_;
-  bool are_ids_;
-};
-
 // The mean of the velocities of the leaflets that tie at a node. A leaflet's velocity is the mean over its tied points. The
 // constructor takes the velocity at the closest triangle. Afterwards the caller adds the tied points of the other leaflets,
 // leaflet by leaflet.
@@ -236,7 +220,7 @@ class TriangleFields {
   }
 
   const TriangleSet &set_;
-  Positions positions_;
+  TrianglePositions positions_;
   const double *corners_;  // corners of the triangles, nine numbers for each
   const StridedPoints &nodes_;
   const Kernels &simd_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/errors.hpp"
 #include "common/array_view.hpp"
 
 namespace riis {
@@ -26,6 +27,19 @@ double Vec3::*longest_axis(Vec3 extent) {
 }
 
 }  // namespace
+
+Edges checked_edges(const char *owner, std::int64_t n, const double *ends, const std::int32_t *leaflet_id) {
+  if (!ends) fail(RIIS_INVALID_ARGUMENT, owner, ".edges is NULL");
+  for (std::int64_t i = 0; i < 6 * n; ++i)
+    if (!(std::abs(ends[i]) <= 1e60))
+      fail(RIIS_INVALID_ARGUMENT, owner, ".edges: ", "xyz"[i % 3], " of the ", i / 3 % 2 == 0 ? "first" : "second",
+           " point of edge ", i / 6, " is ", ends[i], "; it must be finite, of magnitude at most 1e+60");
+  for (std::int64_t i = 0; leaflet_id && i < n; ++i)
+    if (leaflet_id[i] < 0)
+      fail(RIIS_INVALID_ARGUMENT, owner, ".edge_leaflet_id of edge ", i, " is ", leaflet_id[i],
+           "; it must be at least 0");
+  return {n, ends, leaflet_id};
+}
 
 double distance_sq(const Edges &edges, std::int64_t edge, Vec3 point) {
   const Vec3 a = edges.first(edge), b = edges.second(edge), along = b - a;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "base/sum.hpp"
 #include "common/array_view.hpp"
 #include "obstacle/nearest_edges.hpp"
 #include "parallel/parallel_for.hpp"
@@ -48,26 +49,31 @@ void for_each_resistance(const Marks &marks, const Resistance &resistance, const
   }
 }
 
+Vec3 vector_at(const UnfilledVector<double> &list, std::int64_t i) {
+  return {view(list)[3 * i], view(list)[3 * i + 1], view(list)[3 * i + 2]};
+}
+
+// Calls visit(i, force) for each entry i whose K is above 0, in ascending order. The force is the flow's force on the surface.
+template <class Visit>
+void for_each_force(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow,
+                    const Visit &visit) {
+  const bool moves = (marks.data.fields & RIIS_FIELD_VELOCITY) != 0;
+  for_each_resistance(marks, resistance, {0, marks.within.nodes.size()}, [&](std::int64_t i, double k) {
+    const std::int64_t node = view(marks.within.nodes.node_id)[i];
+    const Vec3 surface_velocity = moves ? vector_at(marks.within.fields.velocity, i) : Vec3{0, 0, 0};
+    const auto component = [&](int c, double of_surface) {
+      return flow.weight[node] * (k * (flow.velocity[c][flow.velocity_stride * node] - of_surface));
+    };
+    visit(i,
+          Vec3{component(0, surface_velocity.x), component(1, surface_velocity.y), component(2, surface_velocity.z)});
+  });
+}
+
 void require_field(const Marks &marks, std::int32_t field, const char *field_name, const char *what) {
   if (!(marks.data.fields & field))
     fail(RIIS_INVALID_ARGUMENT, what, " needs ", field_name,
          ", but the nodes were marked with options.fields = ", marks.data.given_fields);
 }
-
-// Adds numbers by Neumaier's method (1974), which also adds up the rounding errors. For any number of nodes, the sums over the
-// leaflets therefore add up to the sum over the surface, up to a few units in the last place.
-class Sum {
- public:
-  void add(double x) {
-    const double sum = sum_ + x;
-    lost_ += std::abs(sum_) >= std::abs(x) ? (sum_ - sum) + x : (x - sum) + sum_;
-    sum_ = sum;
-  }
-  double total() const { return sum_ + lost_; }
-
- private:
-  double sum_ = 0, lost_ = 0;
-};
 
 struct Wrench {
   std::array<Sum, 3> force, moment;
@@ -90,10 +96,6 @@ void add_sums(const Vector<Wrench> &sums, double *force, double *moment) {
   }
 }
 
-Vec3 vector_at(const UnfilledVector<double> &list, std::int64_t i) {
-  return {view(list)[3 * i], view(list)[3 * i + 1], view(list)[3 * i + 2]};
-}
-
 // Checks n_leaflets against the leaflets of the surface, not against the leaflets of the nodes. All ranks then refuse a wrong
 // n_leaflets, even a rank without a node of the last leaflet.
 void check_leaflets(const Marks &marks, const riis_reaction &to) {
@@ -103,18 +105,22 @@ void check_leaflets(const Marks &marks, const riis_reaction &to) {
          "; n_leaflets must be larger");
 }
 
-Edges checked_edges(const riis_reaction &reaction) {
+// Refuses a surface that lacks the closest triangle of a node. An update that kept the ids and leaflets of triangles passes.
+void check_closest_triangles(const Marks &marks, const TriangleSet &triangles, const TrianglePositions &positions) {
+  const NodeList &nodes = marks.within.nodes;
+  for (std::int64_t i = 0; i < nodes.size(); ++i) {
+    const std::int64_t id = view(nodes.triangle_id)[i], at = positions.of(id);
+    if (at < triangles.n_triangles() && view(triangles.triangle_id)[at] == id &&
+        view(triangles.leaflet_id)[at] == view(nodes.leaflet_id)[i])
+      continue;
+    fail(RIIS_INVALID_ARGUMENT, "the closest triangle of node ", view(nodes.node_id)[i], " is ", id, " of leaflet ",
+         view(nodes.leaflet_id)[i], ", which the surface lacks: mark the nodes again");
+  }
+}
+
+Edges edges_of(const riis_reaction &reaction) {
   if (reaction.n_edges < 1) fail(RIIS_INVALID_ARGUMENT, "reaction.n_edges is 0; a force by edge needs at least 1");
-  const Edges edges{reaction.n_edges, require(reaction.edges, "reaction.edges"), reaction.edge_leaflet_id};
-  for (std::int64_t i = 0; i < 6 * edges.n; ++i)
-    if (!(std::abs(edges.ends[i]) <= 1e60))
-      fail(RIIS_INVALID_ARGUMENT, "reaction.edges: ", "xyz"[i % 3], " of the ", i / 3 % 2 == 0 ? "first" : "second",
-           " point of edge ", i / 6, " is ", edges.ends[i], "; it must be finite, of magnitude at most 1e+60");
-  for (std::int64_t i = 0; edges.leaflet_id && i < edges.n; ++i)
-    if (edges.leaflet_id[i] < 0)
-      fail(RIIS_INVALID_ARGUMENT, "reaction.edge_leaflet_id of edge ", i, " is ", edges.leaflet_id[i],
-           "; it must be at least 0");
-  return edges;
+  return checked_edges("reaction", reaction.n_edges, reaction.edges, reaction.edge_leaflet_id);
 }
 
 // A thread takes blocks of nodes_per_block nodes. A list of fewer than few_nodes nodes uses one thread.
@@ -217,22 +223,14 @@ void add_reaction(const Marks &marks, const Resistance &resistance, const riis_f
   if (wants_points)
     require_field(marks, RIIS_FIELD_POINT, "RIIS_FIELD_POINT", "a moment or a force by edge in reaction");
   if (wants_leaflets) check_leaflets(marks, to);
-  const Edges edges = wants_edges ? checked_edges(to) : Edges{};
+  const Edges edges = wants_edges ? edges_of(to) : Edges{};
   const Vector<std::int64_t> nearest = wants_edges ? nearest_edges(marks, resistance, edges) : Vector<std::int64_t>();
   Wrench whole;
   Vector<Wrench> of_leaflet(static_cast<std::size_t>(wants_leaflets ? to.n_leaflets : 0));
   Vector<Wrench> of_edge(static_cast<std::size_t>(edges.n));
   const Vec3 about{to.about[0], to.about[1], to.about[2]};
-  const bool moves = (marks.data.fields & RIIS_FIELD_VELOCITY) != 0;
   // A single thread adds the forces in the order of the nodes, so that the bits do not depend on the number of threads.
-  for_each_resistance(marks, resistance, {0, marks.within.nodes.size()}, [&](std::int64_t i, double k) {
-    const std::int64_t node = view(marks.within.nodes.node_id)[i];
-    const Vec3 surface_velocity = moves ? vector_at(marks.within.fields.velocity, i) : Vec3{0, 0, 0};
-    const auto component = [&](int c, double of_surface) {
-      return flow.weight[node] * (k * (flow.velocity[c][flow.velocity_stride * node] - of_surface));
-    };
-    const Vec3 force{component(0, surface_velocity.x), component(1, surface_velocity.y),
-                     component(2, surface_velocity.z)};
+  for_each_force(marks, resistance, flow, [&](std::int64_t i, Vec3 force) {
     const Vec3 point = wants_points ? vector_at(marks.within.fields.point, i) : Vec3{0, 0, 0};
     const Vec3 moment = cross(point - about, force);
     whole.add(force, moment);
@@ -245,6 +243,23 @@ void add_reaction(const Marks &marks, const Resistance &resistance, const riis_f
   if (to.moment) add_sum(whole.moment, to.moment);
   add_sums(of_leaflet, to.leaflet_force, to.leaflet_moment);
   add_sums(of_edge, to.edge_force, to.edge_moment);
+}
+
+void add_vertex_reaction(const Marks &marks, const TriangleSet &triangles, const Resistance &resistance,
+                         const riis_flow_arrays &flow, double *vertex_force) {
+  require_field(marks, RIIS_FIELD_BARYCENTRIC, "RIIS_FIELD_BARYCENTRIC", "riis_marks_add_vertex_reaction");
+  const TrianglePositions positions(triangles);
+  check_closest_triangles(marks, triangles, positions);
+  Vector<std::array<Sum, 3>> of_vertex(static_cast<std::size_t>(triangles.n_vertices()));
+  for_each_force(marks, resistance, flow, [&](std::int64_t i, Vec3 force) {
+    const std::int64_t triangle = positions.of(view(marks.within.nodes.triangle_id)[i]);
+    for (std::int64_t corner = 0; corner < 3; ++corner) {
+      const Vec3 share = view(marks.within.fields.barycentric)[3 * i + corner] * force;
+      std::array<Sum, 3> &to = view(of_vertex)[view(triangles.vertex_id)[3 * triangle + corner]];
+      to[0].add(share.x), to[1].add(share.y), to[2].add(share.z);
+    }
+  });
+  for (std::int64_t i = 0; i < triangles.n_vertices(); ++i) add_sum(view(of_vertex)[i], vertex_force + 3 * i);
 }
 
 riis_band_sums band_sums(const Marks &marks, const riis_band &band) {

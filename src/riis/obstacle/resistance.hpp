@@ -23,13 +23,17 @@ Resistance checked_resistance(const riis_resistance &resistance, const char *nam
 // list. `resistance` is null if `data` requests neither array.
 void list_resistance(const Resistance *resistance, const WantedData &data, const Threads &n_threads, ListedNodes &list);
 
-// Each of the next four functions fails with RIIS_INVALID_ARGUMENT if the marks lack data that it needs.
+// Each of the next five functions fails with RIIS_INVALID_ARGUMENT if the marks lack data that it needs.
 Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks);
 void add_resistance(const Marks &marks, const Resistance &resistance, const riis_resistance_arrays &to);
 // Adds the flow's force on the surface, and its moments. If the reaction's edges or n_leaflets do not fit the surface, it also
 // fails, and adds nothing.
 void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow,
                   const riis_reaction &to);
+// Adds the flow's force on each vertex of the triangles that the nodes were marked with. It fails if the triangles lack the
+// closest triangle of a node.
+void add_vertex_reaction(const Marks &marks, const TriangleSet &triangles, const Resistance &resistance,
+                         const riis_flow_arrays &flow, double *vertex_force);
 // Sums the caller's value over the nodes of the band on each side of the surface. Nodes beyond a rim do not count.
 riis_band_sums band_sums(const Marks &marks, const riis_band &band);
 

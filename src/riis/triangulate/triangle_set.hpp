@@ -89,6 +89,22 @@ struct TriangleSet {
 
 // Returns triangles from arrays without their skirt, for measures of the leaflets.
 TriangleSet without_skirt(const TriangleSet &set);
+// Finds the position of a triangle in the set from its id. The position of a triangle equals its id, unless the set left out
+// some of the caller's triangles.
+class TrianglePositions {
+ public:
+  explicit TrianglePositions(const TriangleSet &set)
+      : ids_(view(set.triangle_id)), are_ids_(ids_[ids_.size() - 1] == ids_.size() - 1) {}
+
+  // Returns any number of at least 0 for an id that the set lacks.
+  std::int64_t of(std::int64_t id) const {
+    return are_ids_ ? id : std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin();
+  }
+
+ private:
+  ArrayView<const std::int64_t> ids_;
+  bool are_ids_;
+};
 
 // Groups the triangles from begin to end - 1 of a set by position, and adds the groups to `grouping`.
 void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping);
