@@ -130,6 +130,7 @@ _ARGUMENTS = {
     "options.node_mask": "mask",
     "options.point_ids": "ids",
     "options.point_mask": "mask",
+    "search.from": "from_",
 }
 # Python's words for C's constants, for each argument.
 WORDS = {
@@ -163,8 +164,9 @@ _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (rf"\bRIIS_(FIELD|INTERPOLATION|PHASE|RIM|{'|'.join(WORDS).upper()})_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
     (r"RIIS_ALL_LEAFLETS, -1, stands", "None stands"),
     (r"\briis_[a-z_]+", lambda match: _NAMES.get(match[0], match[0])),
-    (r"(?<!['\w])(?:arrays|band|cells|csr|ends|faces|flow|frames|law|options|patches|points|resistance|table|times)\.([a-z]\w*)",
+    (r"(?<!['\w])(?:arrays|band|cells|csr|ends|faces|flow|frames|law|options|patches|points|resistance|search|table|times)\.([a-z]\w*)",
      lambda match: _ARGUMENTS.get(match[0], match[1])),
+    (r"^search\.surface: ", ""),
     (r"\bRIIS_LIST_\*", "the lists of riis.Marks"),
     (r"\bNULL\b", "None"),
 )
