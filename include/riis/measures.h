@@ -117,8 +117,8 @@ typedef struct riis_area_range {
  *   range    the areas that can be reached. NULL: not wanted
  * The area 0 stands for the closed valve: it gives the opening with the least area, even if slits remain between the leaflets.
  * If several openings have an area, the least of them is taken. Of several sizes, the one nearest to the present size is taken.
- * The area of RIIS_TRIANGULATION_ADAPTED jumps by up to 1e-4 where triangles change. An area inside a jump gives the nearer end
- * of the jump. Parts narrower than the distance of two samples may be missed.
+ * The area of RIIS_TRIANGULATION_ADAPTED jumps by up to 1e-4 of the largest area where triangles change. An area inside a jump
+ * gives the nearer end of the jump. Parts narrower than the distance of two samples may be missed.
  * Errors: RIIS_INVALID_ARGUMENT naming the area, and the range if it is out of reach; RIIS_INVALID_PARAMETER for an
  * unknown name, for three values, for a valve with one state or no orifice, and if the name does not change the area;
  * the errors of riis_surface_create, with the value. On an error nothing is written. */

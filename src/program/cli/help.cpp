@@ -310,7 +310,8 @@ tenth to ten times the present scale, and half to twice a parameter. An area out
 area turns, a line on stderr says where. The least opening is taken, or the size nearest to the present one.
 --areas FILE has the columns time and area, as the file of --cycle has time and opening. --output writes such a file of
 openings, for --cycle. The area 0 stands for the closed valve. With --period the first and the last area must be equal if they
-are a period apart. With the default, adapted triangles, the area jumps by up to 1e-4; --triangulation fixed has no jumps.
+are a period apart. With the default, adapted triangles, the area jumps by up to 1e-4 of the largest
+area; --triangulation fixed has no jumps.
 )"},
     {"export", "what riis export writes",
      R"(
