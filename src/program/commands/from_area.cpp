@@ -125,7 +125,7 @@ void warn_of_jumps(const Areas &wanted, const Solution &found) {
          " of itself, because the area jumps where triangles change: see --triangulation fixed");
 }
 
-std::string line(const std::string &label, const std::string &text) {
+std::string summary_line(const std::string &label, const std::string &text) {
   return label + std::string(label.size() < 10 ? 10 - label.size() : 1, ' ') + text + "\n";
 }
 
@@ -138,9 +138,9 @@ std::string text_of_size(const AreaOptions &options, const riis_valve *valve, co
   double opening = 0;
   check(riis_valve_get(valve, "opening", 1, &opening));
   const std::string where = options.solve == "opening" ? "" : ", at opening " + shown(opening);
-  return line("valve", options.valve + where) + line(options.solve, exact(found.values[0])) +
-         line("reached", words_of(options) + " " + exact(found.reached[0])) +
-         line("range", text_of_range(options, found.range)) + line("cost", text_of_cost(found.range));
+  return summary_line("valve", options.valve + where) + summary_line(options.solve, exact(found.values[0])) +
+         summary_line("reached", words_of(options) + " " + exact(found.reached[0])) +
+         summary_line("range", text_of_range(options, found.range)) + summary_line("cost", text_of_cost(found.range));
 }
 
 // The fastest rate is at a key or in the middle of two keys, because the interpolation is cubic.
@@ -166,13 +166,13 @@ void write_cycle(const AreaOptions &options, const Areas &wanted, const Solution
   write_text(options.output, text);
   if (options.quiet || options.output == "-") return;
   const auto [least, most] = std::minmax_element(found.values.begin(), found.values.end());
-  write_text(
-      "-",
-      line("valve", options.valve) +
-          line("cycle", counted(view(wanted.times).size(), "time") + " from " + shown(wanted.times.front()) + " to " +
-                            shown(wanted.times.back()) + ", openings from " + exact(*least) + " to " + exact(*most)) +
-          line("rate", text_of_rate(law, wanted.times)) + line("range", text_of_range(options, found.range)) +
-          line("cost", text_of_cost(found.range)) + line("written", options.output));
+  write_text("-", summary_line("valve", options.valve) +
+                      summary_line("cycle", counted(view(wanted.times).size(), "time") + " from " +
+                                                shown(wanted.times.front()) + " to " + shown(wanted.times.back()) +
+                                                ", openings from " + exact(*least) + " to " + exact(*most)) +
+                      summary_line("rate", text_of_rate(law, wanted.times)) +
+                      summary_line("range", text_of_range(options, found.range)) +
+                      summary_line("cost", text_of_cost(found.range)) + summary_line("written", options.output));
 }
 
 }  // namespace
