@@ -71,10 +71,10 @@ static riis_resistance resistance(double half_thickness, int32_t rim) {
 
 /* An area at a random opening leads to an opening with that area, which is no larger. */
 TEST(openings_have_their_areas) {
-  const int n_trials = is_long_test() ? 8 : 1;
+  const int n_trials = is_long_test() ? 8 * 4 * n_kinds : 2 * n_kinds;
   double worst[2] = {0, 0};
   int64_t most_surfaces = 0;
-  for (int trial = 0; trial < n_trials * n_kinds * 4; ++trial) {
+  for (int trial = 0; trial < n_trials; ++trial) {
     const int kind = trial % n_kinds, is_fixed = trial / n_kinds % 2;
     const double scale = exp(between(log(0.01), log(10)));
     const riis_surface_options options =
@@ -84,7 +84,7 @@ TEST(openings_have_their_areas) {
     search.surface = &options;
     search.resistance = &how;
     search.n_samples = 5;
-    search.area = trial / n_kinds / 2 % 2 ? RIIS_AREA_EFFECTIVE : RIIS_AREA_GEOMETRIC;
+    search.area = (trial + trial / n_kinds + trial / n_kinds / 2) % 2 ? RIIS_AREA_EFFECTIVE : RIIS_AREA_GEOMETRIC;
     riis_valve *valve = new_valve(kinds[kind]);
     const double opening = between(0.35, 1), area = area_at(valve, opening, &search);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
@@ -202,6 +202,7 @@ TEST(sizes_have_their_areas) {
                {"mitral", "ALPM_diameter"},      {"bileaflet", "radius"},       {"bileaflet", "open_angle"},
                {"aortic", "right.leaflet_angle"}};
   for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i) {
+    if (i % 2 && !is_long_test()) continue;
     riis_valve *valve = new_valve(sizes[i].kind);
     riis_area_search search = area_search();
     search.n_samples = 5;
@@ -436,9 +437,9 @@ TEST(searches_are_refused) {
   search.surface = &options;
   REFUSED(RIIS_INVALID_ARGUMENT, "search.surface: options.scale is 0", valve, "opening", 1, &search);
   REFUSED(RIIS_INVALID_ARGUMENT, "search.surface.scale is 0", valve, "scale", 1, &search);
-  riis_resistance how = resistance(-1, RIIS_RIM_CUT);
+  riis_resistance how = resistance(-2, RIIS_RIM_CUT);
   search.surface = NULL, search.resistance = &how;
-  REFUSED(RIIS_INVALID_ARGUMENT, "search.resistance.half_thickness is -1", valve, "opening", 1, &search);
+  REFUSED(RIIS_INVALID_ARGUMENT, "search.resistance.half_thickness is -2", valve, "opening", 1, &search);
   assert_true(value == 7 && reached == 7);
 #undef REFUSED
 }
