@@ -110,7 +110,7 @@ TEST(test_refusals) {
   REFUSED(2, "--area: nan is not a finite area of at least 0", "--area", "nan");
   REFUSED(2, "--area: -1 is not a finite area of at least 0", "--area=-1");
   REFUSED(2, "--area: 'big' is not a number", "--area", "big");
-  REFUSED(2, "--area: 'mm' is not a unit of an area, such as m2", "--area", "3 mm");
+  REFUSED(2, "--area: 'mm' is not a unit of an area, such as m2\n", "--area", "3 mm");
   REFUSED(2, "but the unit of the mesh is not known: write --unit m, cm or mm", "--area", "3 mm2", "--scale", "2");
   REFUSED(2, "--area is 9, which is out of reach: from opening 0 to 1 the area goes from 0.0", "--area", "9");
   REFUSED(2, "--from is 2; it must be from 0 to 1", "--area", "1", "--from", "2");
