@@ -132,6 +132,7 @@ _ARGUMENTS = {
     "options.node_mask": "mask",
     "options.point_ids": "ids",
     "options.point_mask": "mask",
+    "search.from": "from_",
 }
 # Python's words for C's constants, for each argument.
 WORDS = {
@@ -165,9 +166,10 @@ _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (rf"\bRIIS_(FIELD|INTERPOLATION|PHASE|RIM|{'|'.join(WORDS).upper()})_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
     (r"RIIS_ALL_LEAFLETS, -1, stands", "None stands"),
     (r"\briis_[a-z_]+", lambda match: _NAMES.get(match[0], match[0])),
-    (r"(?<!['\w])(?:arrays|band|cells|csr|ends|faces|flow|frames|law|loads|nodes|options|patches|points|resistance|table|times)"
+    (r"(?<!['\w])(?:arrays|band|cells|csr|ends|faces|flow|frames|law|loads|nodes|options|patches|points|resistance|search|table|times)"
      r"\.([a-z]\w*)",
      lambda match: _ARGUMENTS.get(match[0], match[1])),
+    (r"^search\.surface: ", ""),
     (r"\bRIIS_LIST_\*", "the lists of riis.Marks"),
     (r"\bNULL\b", "None"),
 )

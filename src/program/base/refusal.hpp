@@ -36,6 +36,9 @@ inline std::string with_option_named(const std::string &text) {
                                                                 {"arrays.far_distance ", "--far-distance "},
                                                                 {"arrays.skirt_length ", "--skirt: skirt_length "},
                                                                 {"resistance.R ", "--resistance "},
+                                                                {"area 0 ", "--area "},
+                                                                {"search.from ", "--from "},
+                                                                {"search.to ", "--to "},
                                                                 {"where: ", "--cells-where: "},
                                                                 {"where is ", "--cells-where is "},
                                                                 {"time ", "--time "},
@@ -44,6 +47,8 @@ inline std::string with_option_named(const std::string &text) {
   for (const auto &[field, option] : options) {
     if (text.rfind(field, 0) == 0) return option + text.substr(field.size());
   }
+  const std::string surface = "search.surface: ";
+  if (text.rfind(surface, 0) == 0) return with_option_named(text.substr(surface.size()));
   return text;
 }
 

@@ -89,6 +89,7 @@ struct TriangleSet {
 
 // Returns triangles from arrays without their skirt, for measures of the leaflets.
 TriangleSet without_skirt(const TriangleSet &set);
+
 // Finds the position of a triangle in the set from its id. The position of a triangle equals its id, unless the set left out
 // some of the caller's triangles.
 class TrianglePositions {
