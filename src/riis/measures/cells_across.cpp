@@ -61,7 +61,7 @@ riis_cells_across cells_across(const Marks &marks, const Mesh &mesh, const Adjac
   });
   Lengths all;
   for (const Lengths &block : by_block) all.add(block);
-  const double eps = marks.half_thickness;
+  const double eps = marks.band.half_thickness;
   if (all.n == 0) return {0, 0, 0, 0, 0, 0, eps, 0};
   // The mean is limited to the range of the lengths, because the rounded sum could put it outside. Otherwise the mean of equal
   // lengths could differ from them.
