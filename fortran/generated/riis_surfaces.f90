@@ -119,8 +119,8 @@ contains
                                                             !! triangles keep their ids, vertices and neighbours at every opening,
                                                             !! and only opening and placement may change. Default
                                                             !! RIIS_TRIANGULATION_ADAPTED.
-    real(c_double), intent(in), optional :: offset          !< By how many half thicknesses the band steps aside along the normals,
-                                                            !! above -1 and below 1. Default 0.
+    real(c_double), intent(in), optional :: offset          !< By how many half thicknesses the band steps aside along the
+                                                            !! normals, above -1 and below 1. Default 0.
     type(riis_surface_options) :: options
     integer(riis_status) :: code
     code = RIIS_OK

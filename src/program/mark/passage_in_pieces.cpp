@@ -202,6 +202,9 @@ std::optional<FoundPassage> passage_within(const MarkOptions &options, const Mes
 FoundPassage find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
                           const PieceEnd (&ends)[2]) {
   const riis_surface_info info = info_of(surface);
+  if (info.offset != 0)
+    throw Refusal{options.check_leaks->exit_code,
+                  options.check_leaks->subject + ": a passage in a mesh in pieces needs the offset 0"};
   // A path comes at least as near to the surface as its ends, which are nearer than this.
   double farthest = 0;
   for (const PieceEnd &end : ends)

@@ -21,8 +21,8 @@ double coefficient_at(const Resistance &resistance, double distance) {
   return resistance.factor * (1 + std::cos(pi * (distance / eps))) / (2 * eps);
 }
 
-// Returns the derivative of K with respect to the distance d from the middle of the band. The sine is taken from the nearer end of the band. So
-// the derivative has few roundings up to both ends, where K is flat.
+// Returns the derivative of K with respect to the distance from the middle of the band. The sine is taken from the nearer end of
+// the slope. So the derivative has few roundings up to both ends, where K is flat.
 double slope_at(const Resistance &resistance, double distance) {
   const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;
