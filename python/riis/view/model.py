@@ -224,7 +224,7 @@ class Model(Valves):
             self._replace(i, None, kind=kind, parameters=MappingProxyType({}), name=name)
 
     def set(self, i: int, name: str, value: Any) -> None:
-        """Sets a parameter, or "opening", "half_thickness", "offset", "resistance", "scale", "triangulation" or "name", of a valve.
+        """Sets a parameter of a valve, or "opening", "half_thickness", "offset", "resistance", "scale", "triangulation", "name".
 
         Lengths of parameters are in centimetres, the half thickness is in mesh units. The resistance is in kg/(m s) if the mesh
         has a unit, and a text such as "1e5 g/(cm s)" then has its own. Otherwise it is in mesh units. A surgeon's name, such as
