@@ -32,7 +32,7 @@ std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
 }
 
 // The normals of faces folded onto each other cancel up to rounding. A triangle's own normal then replaces such a sum.
-bool is_usable(Vec3 sum) { return dot(sum, sum) > 1e-18; }
+bool has_direction(Vec3 sum) { return dot(sum, sum) > 1e-18; }
 
 // Sorts edges by their upper ends. Most lists are short and already in the order of their slots. Edges with equal ends keep that
 // order. The standard library's stable sort would allocate memory.
@@ -198,7 +198,7 @@ Pseudonormals::Feature Pseudonormals::at_border(std::int64_t triangle, Vec3 bary
   const bool is_vertex = kind == Kind::vertex;
   const Vec3 normal = is_vertex ? view(corner_)[position] : view(edge_)[slot];
   const bool is_on_rim = (is_vertex ? view(corner_is_rim_)[position] : view(edge_is_rim_)[slot]) != 0;
-  return {is_usable(normal) ? normal : of_face(triangle), is_on_rim};
+  return {has_direction(normal) ? normal : of_face(triangle), is_on_rim};
 }
 
 namespace {
@@ -294,7 +294,7 @@ Vec3 Pseudonormals::rate_at_rim(const Rates &rates, const TriangleSet &set, cons
   const auto [kind, corner] = simplex_of(barycentric);
   const std::int64_t slot = 3 * triangle + corner, position = view(position_)[slot];
   const Vec3 sum = kind == Kind::vertex ? view(corner_)[position] : view(edge_)[slot];
-  if (!is_usable(sum)) return MovingTriangle(set, vertex_rates, triangle).normal_rate(view(face_)[triangle]);
+  if (!has_direction(sum)) return MovingTriangle(set, vertex_rates, triangle).normal_rate(view(face_)[triangle]);
   const Vec3 rate = kind == Kind::vertex ? view(rates.corner)[position] : view(rates.rim_edge)[slot];
   const double size = length(sum);
   const Vec3 normal = (1 / size) * sum;
