@@ -62,7 +62,8 @@ static inline void sum_normals(const riis_triangles *all, real (*corner)[3], con
     band_corners(all, t, other);
     for (int k = 0; k < 3; ++k)
       for (int m = 0; m < 3; ++m)
-        if (weight[k] > 0 && memcmp(corner[k], other[m], sizeof *other) == 0) {
+        if (weight[k] > 0 && corner[k][0] == other[m][0] && corner[k][1] == other[m][1] &&
+            corner[k][2] == other[m][2]) {
           ++n_shared;
           if (n_wanted > 1) continue;
           for (int c = 0; c < 3; ++c)

@@ -109,6 +109,7 @@ class TriangleFields {
         at_vertices_(scratch.at_vertices.data()),
         ties_(view(scratch.ties)),
         normal_rates_(view(scratch.normal_rates)),
+        least_way_(1e-9 * request.surface.half_thickness()),
         list_(list),
         made_(made) {
     for (std::int64_t i = 0; has(RIIS_FIELD_GRADIENT) && i < request.surface.n_directions(); ++i)
@@ -205,15 +206,15 @@ class TriangleFields {
     for (std::int64_t lane = 0; has(RIIS_FIELD_GRADIENT) && lane < n; ++lane)
       for (std::int64_t k = 0; k < n_directions(); ++k) {
         const std::int64_t at = n_directions() * (first + lane) + k;
-        const double sign = height[lane] > 0 ? 1 : -1;
-        view(made_.height_gradient)[at] = is_on_rim[lane] || distance[lane] == 0
-                                              ? height_rate(eight, lane, k, is_on_rim[lane] != 0)
-                                              : sign * view(made_.distance_gradient)[at];
+        // At an edge or a vertex the way from the closest point is the normal, unless rounding decides its direction.
+        const bool has_way = (eight.on.at_border >> lane & 1) != 0 && !is_on_rim[lane] && distance[lane] > least_way_;
+        view(made_.height_gradient)[at] = has_way ? (height[lane] > 0 ? 1 : -1) * view(made_.distance_gradient)[at]
+                                                  : height_rate(eight, lane, k, is_on_rim[lane] != 0);
       }
   }
 
-  // Returns the rate of a height n.(x - p) at a rim or on the surface, n'.(x - p) - n.V. V is the rate of the closest point p,
-  // and n' is the rate of the unit normal n there. On the surface n' does not count.
+  // Returns the rate of a height n.(x - p), which is n'.(x - p) - n.V. V is the rate of the closest point p, and n' is the rate
+  // of the unit normal n there. Off the rim n' does not count, because it is at right angles to x - p.
   double height_rate(const EightPoints &eight, std::int64_t lane, std::int64_t direction, bool is_on_rim) const {
     const std::int64_t triangle = eight.triangle[lane], *const id = set_.vertex_id.data() + 3 * triangle;
     const Vec3 weights = EightPoints::lane_of(eight.on.barycentric, lane);
@@ -284,6 +285,7 @@ class TriangleFields {
   const VertexNumbers *at_vertices_;
   ArrayView<const Tie> ties_;
   ArrayView<const Pseudonormals::Rates> normal_rates_;
+  double least_way_;  // a shorter way from the closest point has no certain direction
   const NodeList &list_;
   NodeFields &made_;
   Vector<const double *> rates_;  // of the vertices, for each direction
