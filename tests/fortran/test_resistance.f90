@@ -400,7 +400,7 @@ contains
     do turn = 1, -1, -2
       if (turn < 0) call surface%update(square, flip_normals=.true.)
       call surface%get_info(info)
-      call check(info%offset == 0.5d0, 'an update keeps the offset')
+      call check(same(info%offset, 0.5d0), 'an update keeps the offset')
       call riis_mark_nodes(surface, mesh, result)
       coefficient = 0
       call result%add_resistance(R, coefficient)
