@@ -130,7 +130,14 @@ static void check_marking(const char *kind) {
       assert_int_equal(stats_of(other).complete, 1);
     }
   CHECK_OK(riis_mark_nodes(turned, mesh, &asked, other));
-  assert_true(same_nodes(marked_in(other), marked_in(marks)));
+  /* The corners of turned triangles have another order, which rounds distances differently. */
+  const riis_mark_list of_turned = marked_list(other);
+  assert_int_equal(of_turned.n_nodes, marked.n_nodes);
+  for (int64_t i = 0; i < marked.n_nodes; ++i) {
+    assert_int_equal(of_turned.node_id[i], marked.node_id[i]);
+    CHECK_NEAR(of_turned.distance[i], marked.distance[i], 1e-12 * eps);
+    CHECK_NEAR(of_turned.K[i], marked.K[i], 1e-11 * most);
+  }
   /* A resistance with a half thickness of its own. */
   double *K = own(calloc((size_t)nodes.n, sizeof *K));
   resistance.half_thickness = eps * random_between(&rng, 0.3, 1);
@@ -205,7 +212,7 @@ TEST(a_flat_sheet_has_the_formula) {
   }
   assert_int_equal(at, list.n_nodes);
   CHECK_NEAR(list.K[1], most, 1e-13);
-  CHECK_NEAR(list.K[2], 0, 1e-13);
+  CHECK_NEAR(list.K[2], 0, 1e-9);
 }
 
 /* --- Passages and leaks ---------------------------------------------------------------------------------------------------- */
