@@ -55,7 +55,8 @@ module riis_leaking
 contains
 
   !> Finds every edge of the mesh's adjacency that leaks: it crosses the surface between two unmarked nodes. Edges that are at
-  !! most two half thicknesses long do not leak. Gaps of the surface itself are not found. %get_list of the leaks gives the edges.
+  !! most two half thicknesses long do not leak, with an offset o at most 2 (1 - |o|) half thicknesses. Gaps of the surface itself
+  !! are not found. %get_list of the leaks gives the edges.
   !! Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the marks do not come from a marking with this mesh and
   !! half thickness. The leaks are then as they were.
   subroutine find_leaks_logical(surface, mesh, marks, leaks, node_mask, n_threads, status)

@@ -221,6 +221,7 @@ module riis_c
     integer(c_int32_t) :: flip_normals
     integer(c_int32_t) :: n_threads
     integer(c_int32_t) :: reserved
+    real(c_double) :: offset
   end type riis_surface_options
 
   type, bind(c) :: riis_surface_arrays
@@ -259,6 +260,7 @@ module riis_c
                                              !! triangles and to the smooth valve; at most tolerance * half_thickness. 0
                                              !! for a surface from arrays
     integer(c_int64_t) :: largest_leaflet_id !< of the triangles
+    real(c_double) :: offset                 !< of the band, in half thicknesses
   end type riis_surface_info
 
   type, bind(c) :: riis_triangles
@@ -449,7 +451,7 @@ module riis_c
   !> How the last marking went.
   type, bind(c) :: riis_mark_stats
     integer(c_int64_t) :: n_nodes        !< of the mesh, masked out or not
-    integer(c_int64_t) :: n_marked       !< nodes within the half thickness
+    integer(c_int64_t) :: n_marked       !< the length of RIIS_LIST_MARKED
     integer(c_int64_t) :: n_within_limit !< nodes within the distance limit, marked or not
     integer(c_int64_t) :: n_queries      !< number of closest-point queries, of nodes and of parts of the mesh
     real(c_double) :: seconds            !< wall time of riis_mark_nodes
@@ -545,7 +547,9 @@ module riis_c
                                    !! equal distances, the higher id counts as nearest
     real(c_double) :: distance     !< the distance of node_id. A half thickness of at least this distance closes the
                                    !! passage between these triangles, and a smaller one leaves it open. 0 without a
-                                   !! path
+                                   !! path. With an offset o: the half thickness that marks node_id, s / (1 + o), or -s
+                                   !! / (1 - o) for a signed distance s below 0. Nodes are then ordered by this half
+                                   !! thickness
     real(c_double) :: point(3)     !< the coordinates of node_id; 0 without a path
     real(c_double) :: seconds      !< wall time of riis_find_passage
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
@@ -588,7 +592,10 @@ module riis_c
                                      !! triangles is moved inwards by rim_reach * half_thickness. To first order the
                                      !! result is area - rim_reach * half_thickness * perimeter. It is never below 0
     real(c_double) :: rim_reach      !< the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open
-                                     !! valves gave 0.70 to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md
+                                     !! valves gave 0.70 to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md.
+                                     !! With an offset o, c is smaller by the factor max(0, 1 - o / 1.05) (round) or
+                                     !! max(0, 1 - o / 0.85) (cut), for mitral valves max(0, 1 - o / 0.8) (cut). For
+                                     !! bileaflet valves it stays
     real(c_double) :: half_thickness !< eps of the resistance
     real(c_double) :: radius         !< the radius of the disc; 0 for other outlines
     real(c_double) :: axis(3)        !< unit vector; 0 for arrays and keyframes without an outline

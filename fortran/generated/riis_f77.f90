@@ -315,6 +315,39 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_triangulate
 
+!> Replaces the surface like riisf_surface_place, and lets the band step aside along the normals, by this many half thicknesses.
+!! riisf_surface_update and riisf_surface_update_moving keep the offset.
+subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+    translation, offset, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  real(c_double), intent(in) :: offset                    !< Above -1 and below 1.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_options) :: options
+  status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  options%offset = offset
+  status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
+end subroutine riisf_surface_offset
+
 !> Replaces the surface like riisf_surface_update, and also gives every vertex a velocity. The velocity is the displacement from
 !! the point with the same patch, u and v in the earlier state, divided by dt. Errors: as for riisf_surface_create;
 !! RIIS_INVALID_ARGUMENT for dt out of range; RIIS_INVALID_PARAMETER for a valve_before of another kind or with other patches.
@@ -1281,6 +1314,124 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
   surface = handle_of(c_handle)
 end subroutine riisf_surface_with_skirt_64
 
+!> Makes a surface like riisf_surface_from_arrays, whose band steps aside along the normals, by this many half thicknesses. Later
+!! updates keep the offset. Errors: also RIIS_INVALID_SURFACE for two triangles that run along a shared edge in the same
+!! direction.
+subroutine riisf_surface_offset_arrays(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
+    half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, offset, surface, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_arrays, riis_surface_arrays_init, &
+      riis_surface_create_from_arrays, riis_surface_options, riis_surface_options_init
+  implicit none
+  integer(int32), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
+                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  real(c_double), intent(in) :: offset                    !< Above -1 and below 1.
+  integer(int64), intent(inout) :: surface                !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_arrays) :: arrays
+  type(riis_surface_options) :: options
+  type(c_ptr) :: c_handle
+  status = riis_surface_arrays_init(arrays, c_sizeof(arrays))
+  if (status == RIIS_OK) status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  arrays%n_vertices = n_vertices
+  arrays%x = location_of(x)
+  arrays%y = location_of(y)
+  arrays%z = location_of(z)
+  arrays%stride = stride
+  arrays%corners_per_face = corners_per_face
+  arrays%n_faces = n_faces
+  arrays%vertex_ids = location_of(vertex_ids)
+  arrays%index_base = index_base
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  options%offset = offset
+  arrays%id_bits = storage_size(vertex_ids)
+  c_handle = c_null_ptr
+  status = riis_surface_create_from_arrays(arrays, options, c_handle)
+  if (status /= RIIS_OK) return
+  surface = handle_of(c_handle)
+end subroutine riisf_surface_offset_arrays
+
+!> Does the same as riisf_surface_offset_arrays, with counts and ids of INTEGER*8.
+subroutine riisf_surface_offset_arrays_64(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, &
+    index_base, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, offset, surface, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_arrays, riis_surface_arrays_init, &
+      riis_surface_create_from_arrays, riis_surface_options, riis_surface_options_init
+  implicit none
+  integer(int64), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
+                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  real(c_double), intent(in) :: offset                    !< Above -1 and below 1.
+  integer(int64), intent(inout) :: surface                !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_arrays) :: arrays
+  type(riis_surface_options) :: options
+  type(c_ptr) :: c_handle
+  status = riis_surface_arrays_init(arrays, c_sizeof(arrays))
+  if (status == RIIS_OK) status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  arrays%n_vertices = n_vertices
+  arrays%x = location_of(x)
+  arrays%y = location_of(y)
+  arrays%z = location_of(z)
+  arrays%stride = stride
+  arrays%corners_per_face = corners_per_face
+  arrays%n_faces = n_faces
+  arrays%vertex_ids = location_of(vertex_ids)
+  arrays%index_base = index_base
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  options%offset = offset
+  arrays%id_bits = storage_size(vertex_ids)
+  c_handle = c_null_ptr
+  status = riis_surface_create_from_arrays(arrays, options, c_handle)
+  if (status /= RIIS_OK) return
+  surface = handle_of(c_handle)
+end subroutine riisf_surface_offset_arrays_64
+
 !> Replaces the surface by triangles or quads that moved, with the same options and with the velocities of the vertices. The
 !! placement rotates and scales velocities, but does not translate them. Errors: as for riisf_surface_from_arrays.
 subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx, vy, vz, velocity_stride, &
@@ -1512,6 +1663,45 @@ subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tol
   if (status /= RIIS_OK) return
   surface = handle_of(c_handle)
 end subroutine riisf_surface_from_keyframes
+
+!> Makes a surface like riisf_surface_from_keyframes, whose band steps aside as in riisf_surface_offset_arrays.
+subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, tolerance, scale, rotation_axis, &
+    rotation_angle, translation, offset, surface, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_create_from_keyframes, riis_surface_options, &
+      riis_surface_options_init
+  implicit none
+  integer(int64), intent(in) :: keyframes                 !< Must be created; read during the call only.
+  real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
+  real(c_double), intent(in) :: dt                        !< As in riisf_surface_from_keyframes.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  real(c_double), intent(in) :: offset                    !< Above -1 and below 1.
+  integer(int64), intent(inout) :: surface                !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_options) :: options
+  type(c_ptr) :: c_handle
+  status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  options%offset = offset
+  c_handle = c_null_ptr
+  status = riis_surface_create_from_keyframes(c_handle_of(keyframes), time, dt, options, c_handle)
+  if (status /= RIIS_OK) return
+  surface = handle_of(c_handle)
+end subroutine riisf_surface_offset_keyframes
 
 !> Replaces the surface by the surface at another time, with the same options. Errors: as for riisf_surface_from_keyframes.
 subroutine riisf_surface_update_keyframes(surface, keyframes, time, dt, status)
@@ -3015,8 +3205,8 @@ subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, statu
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                          !! half thickness of the marking.
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
@@ -3044,8 +3234,8 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                          !! half thickness of the marking.
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
@@ -3074,8 +3264,8 @@ subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                          !! half thickness of the marking.
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
@@ -3108,8 +3298,8 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                          !! half thickness of the marking.
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
@@ -3143,8 +3333,8 @@ subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, 
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                          !! half thickness of the marking.
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
@@ -3181,8 +3371,8 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                          !! half thickness of the marking.
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
@@ -3222,8 +3412,8 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                          !! half thickness of the marking.
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
@@ -3272,8 +3462,8 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                          !! half thickness of the marking.
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
@@ -3325,8 +3515,8 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                          !! half thickness of the marking.
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
@@ -3374,8 +3564,8 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                          !! half thickness of the marking.
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
@@ -3426,8 +3616,8 @@ subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_n
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
   integer(int64), intent(in) :: surface                   !< The surface of the marking.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                          !! half thickness of the marking.
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
@@ -3465,8 +3655,8 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
   integer(int64), intent(in) :: surface                   !< The surface of the marking.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                          !! half thickness of the marking.
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.

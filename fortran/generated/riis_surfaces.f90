@@ -96,7 +96,7 @@ contains
   !! RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not fit together;
   !! RIIS_LIMIT_EXCEEDED if the tolerance needs more than 16,777,216 triangles, or does not hold for a fixed triangulation.
   subroutine surface_create(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, status, measure, measure_tolerance, n_threads, triangulation)
+      flip_normals, status, measure, measure_tolerance, n_threads, triangulation, offset)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     class(riis_valve), intent(in) :: valve                  !< Must be created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units, 1e-50 to 1e50: nodes within it are marked.
@@ -119,13 +119,15 @@ contains
                                                             !! triangles keep their ids, vertices and neighbours at every opening,
                                                             !! and only opening and placement may change. Default
                                                             !! RIIS_TRIANGULATION_ADAPTED.
+    real(c_double), intent(in), optional :: offset          !< By how many half thicknesses the band steps aside along the
+                                                            !! normals, above -1 and below 1. Default 0.
     type(riis_surface_options) :: options
     integer(riis_status) :: code
     code = RIIS_OK
     call create_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, measure, measure_tolerance, n_threads, triangulation)
+      flip_normals, code, measure, measure_tolerance, n_threads, triangulation, offset=offset)
     if (code == RIIS_OK) code = riis_surface_create(valve%c_handle(), options, this%handle)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
@@ -136,7 +138,7 @@ contains
   !! of %create, and RIIS_INVALID_PARAMETER naming a parameter that changed despite a fixed triangulation. After an error the
   !! surface is as it was.
   subroutine surface_update(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, status, measure, measure_tolerance, n_threads, triangulation)
+      flip_normals, status, measure, measure_tolerance, n_threads, triangulation, offset)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     class(riis_valve), intent(in) :: valve                  !< Must be created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
@@ -151,13 +153,14 @@ contains
     real(c_double), intent(in), optional :: measure_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
+    real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_options) :: options
     integer(riis_status) :: code
     code = RIIS_OK
     call update_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, measure, measure_tolerance, n_threads, triangulation)
+      flip_normals, code, measure, measure_tolerance, n_threads, triangulation, offset=offset)
     if (code == RIIS_OK) code = riis_surface_update(this%handle, valve%c_handle(), options)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
@@ -169,7 +172,7 @@ contains
   !! RIIS_INVALID_ARGUMENT for dt out of range; RIIS_INVALID_PARAMETER for a valve_before of another kind or with other patches.
   subroutine surface_update_moving(this, valve, valve_before, dt, half_thickness, tolerance, scale, rotation_axis, &
       rotation_angle, translation, flip_normals, measure, measure_tolerance, n_threads, scale_before, &
-      rotation_axis_before, rotation_angle_before, translation_before, status, triangulation)
+      rotation_axis_before, rotation_angle_before, translation_before, status, triangulation, offset)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     class(riis_valve), intent(in) :: valve                  !< Must be created; read during the call only.
     class(riis_valve), intent(in) :: valve_before           !< The earlier state, of the same kind. A valve from patches must have
@@ -192,6 +195,7 @@ contains
     real(c_double), intent(in), optional :: rotation_angle_before !< Degrees.
     real(c_double), intent(in), optional :: translation_before(:) !< (3), mesh units.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_options) :: options, before
     integer(riis_status) :: code
     code = RIIS_OK
@@ -199,7 +203,7 @@ contains
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     if (code == RIIS_OK) code = check_created(valve_before%c_handle(), 'valve_before')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, measure, measure_tolerance, n_threads, triangulation)
+      flip_normals, code, measure, measure_tolerance, n_threads, triangulation, offset=offset)
     if (code == RIIS_OK) then
       before = options
       if (present(scale_before)) before%scale = scale_before
@@ -266,7 +270,7 @@ contains
   !! triangles.
   subroutine surface_create_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      velocity, n_threads, skirt_length, attached, skirt_lengths)
+      velocity, n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -292,6 +296,7 @@ contains
                                                             !! skirt, the attachment is chosen.
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
+    real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
@@ -308,14 +313,14 @@ contains
     call get_mask(attached, bytes, code)
     call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, n_threads, code)
+      translation, flip_normals, n_threads, offset, code)
     call finish(code, status)
   end subroutine surface_create_from_arrays_xyz_int32
 
   !> Implements %create_from_arrays for integer(int64).
   subroutine surface_create_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      velocity, n_threads, skirt_length, attached, skirt_lengths)
+      velocity, n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -341,6 +346,7 @@ contains
                                                             !! skirt, the attachment is chosen.
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
+    real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
@@ -357,14 +363,14 @@ contains
     call get_mask(attached, bytes, code)
     call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, n_threads, code)
+      translation, flip_normals, n_threads, offset, code)
     call finish(code, status)
   end subroutine surface_create_from_arrays_xyz_int64
 
   !> Implements %create_from_arrays for separate arrays x, y, z.
   subroutine surface_create_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths)
+      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -392,6 +398,7 @@ contains
                                                             !! skirt, the attachment is chosen.
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
+    real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
@@ -410,14 +417,14 @@ contains
     call get_mask(attached, bytes, code)
     call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, n_threads, code)
+      translation, flip_normals, n_threads, offset, code)
     call finish(code, status)
   end subroutine surface_create_from_arrays_x_y_z_int32
 
   !> Implements %create_from_arrays for integer(int64) and separate arrays x, y, z.
   subroutine surface_create_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths)
+      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -445,6 +452,7 @@ contains
                                                             !! skirt, the attachment is chosen.
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
+    real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
@@ -463,14 +471,14 @@ contains
     call get_mask(attached, bytes, code)
     call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, n_threads, code)
+      translation, flip_normals, n_threads, offset, code)
     call finish(code, status)
   end subroutine surface_create_from_arrays_x_y_z_int64
 
   !> Replaces the surface as %update does, from arrays as in %create_from_arrays.
   subroutine surface_update_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      velocity, n_threads, skirt_length, attached, skirt_lengths)
+      velocity, n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -496,6 +504,7 @@ contains
                                                             !! skirt, the attachment is chosen.
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
+    real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
@@ -512,14 +521,14 @@ contains
     call get_mask(attached, bytes, code)
     call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, n_threads, code)
+      translation, flip_normals, n_threads, offset, code)
     call finish(code, status)
   end subroutine surface_update_from_arrays_xyz_int32
 
   !> Implements %update_from_arrays for integer(int64).
   subroutine surface_update_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      velocity, n_threads, skirt_length, attached, skirt_lengths)
+      velocity, n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -545,6 +554,7 @@ contains
                                                             !! skirt, the attachment is chosen.
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
+    real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
@@ -561,14 +571,14 @@ contains
     call get_mask(attached, bytes, code)
     call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, n_threads, code)
+      translation, flip_normals, n_threads, offset, code)
     call finish(code, status)
   end subroutine surface_update_from_arrays_xyz_int64
 
   !> Implements %update_from_arrays for separate arrays x, y, z.
   subroutine surface_update_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths)
+      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -596,6 +606,7 @@ contains
                                                             !! skirt, the attachment is chosen.
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
+    real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
@@ -614,14 +625,14 @@ contains
     call get_mask(attached, bytes, code)
     call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, n_threads, code)
+      translation, flip_normals, n_threads, offset, code)
     call finish(code, status)
   end subroutine surface_update_from_arrays_x_y_z_int32
 
   !> Implements %update_from_arrays for integer(int64) and separate arrays x, y, z.
   subroutine surface_update_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths)
+      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -649,6 +660,7 @@ contains
                                                             !! skirt, the attachment is chosen.
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
+    real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
@@ -667,7 +679,7 @@ contains
     call get_mask(attached, bytes, code)
     call set_skirt(skirt_length, bytes, skirt_lengths, arrays, code)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, n_threads, code)
+      translation, flip_normals, n_threads, offset, code)
     call finish(code, status)
   end subroutine surface_update_from_arrays_x_y_z_int64
 
@@ -687,36 +699,38 @@ contains
 
   ! The common part of all specific procedures of create_from_arrays. It does nothing after an error.
   subroutine create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
-      rotation_angle, translation, flip_normals, n_threads, code)
+      rotation_angle, translation, flip_normals, n_threads, offset, code)
     class(riis_surface), intent(inout) :: this
     type(riis_surface_arrays), intent(in) :: arrays
     real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
       translation(:)
     logical, intent(in), optional :: skip_zero_area, flip_normals
     integer(int32), intent(in), optional :: n_threads
+    real(c_double), intent(in), optional :: offset
     integer(riis_status), intent(inout) :: code
     type(riis_surface_options) :: options
     call create_options(this, options, code)
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area)
+      flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area, offset=offset)
     if (code == RIIS_OK) code = riis_surface_create_from_arrays(arrays, options, this%handle)
     if (code == RIIS_OK) this%options = options
   end subroutine create_from_arrays
 
   ! The common part of all specific procedures of update_from_arrays. It does nothing after an error.
   subroutine update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
-      rotation_angle, translation, flip_normals, n_threads, code)
+      rotation_angle, translation, flip_normals, n_threads, offset, code)
     class(riis_surface), intent(inout) :: this
     type(riis_surface_arrays), intent(in) :: arrays
     real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
       translation(:)
     logical, intent(in), optional :: skip_zero_area, flip_normals
     integer(int32), intent(in), optional :: n_threads
+    real(c_double), intent(in), optional :: offset
     integer(riis_status), intent(inout) :: code
     type(riis_surface_options) :: options
     call update_options(this, options, code)
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area)
+      flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area, offset=offset)
     if (code == RIIS_OK) code = riis_surface_update_from_arrays(this%handle, arrays, options)
     if (code == RIIS_OK) this%options = options
   end subroutine update_from_arrays
@@ -724,7 +738,7 @@ contains
   !> Makes a surface from the frames around a time, with the velocity of every vertex. The options are those of %create.
   !! Errors: RIIS_INVALID_ARGUMENT for a time or an option out of range, RIIS_INVALID_SURFACE for a face without area.
   subroutine surface_create_from_keyframes(this, keyframes, time, dt, skip_zero_area, half_thickness, tolerance, scale, &
-      rotation_axis, rotation_angle, translation, flip_normals, n_threads, status)
+      rotation_axis, rotation_angle, translation, flip_normals, n_threads, status, offset)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     class(riis_keyframes), intent(in) :: keyframes          !< Must be created; read during the call only.
     real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
@@ -741,6 +755,7 @@ contains
     logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_options) :: options
     real(c_double) :: step
     integer(riis_status) :: code
@@ -750,7 +765,7 @@ contains
     call create_options(this, options, code)
     if (code == RIIS_OK) code = check_created(keyframes%c_handle(), 'keyframes')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area)
+      flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area, offset=offset)
     if (code == RIIS_OK) code = riis_surface_create_from_keyframes(keyframes%c_handle(), time, step, options, this%handle)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
@@ -758,7 +773,7 @@ contains
 
   !> Replaces the surface as %update does, by the surface at another time, as in %create_from_keyframes.
   subroutine surface_update_from_keyframes(this, keyframes, time, dt, skip_zero_area, half_thickness, tolerance, scale, &
-      rotation_axis, rotation_angle, translation, flip_normals, n_threads, status)
+      rotation_axis, rotation_angle, translation, flip_normals, n_threads, status, offset)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     class(riis_keyframes), intent(in) :: keyframes          !< Must be created; read during the call only.
     real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
@@ -775,6 +790,7 @@ contains
     logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_options) :: options
     real(c_double) :: step
     integer(riis_status) :: code
@@ -784,7 +800,7 @@ contains
     call update_options(this, options, code)
     if (code == RIIS_OK) code = check_created(keyframes%c_handle(), 'keyframes')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area)
+      flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area, offset=offset)
     if (code == RIIS_OK) code = riis_surface_update_from_keyframes(this%handle, keyframes%c_handle(), time, step, options)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
@@ -810,14 +826,14 @@ contains
 
   ! Sets the options that are present. Does nothing after an error.
   subroutine set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, measure, measure_tolerance, n_threads, triangulation, skip_zero_area)
+      flip_normals, code, measure, measure_tolerance, n_threads, triangulation, skip_zero_area, offset)
     type(riis_surface_options), intent(inout) :: options
     real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
       translation(:)
     logical, intent(in), optional :: flip_normals, skip_zero_area
     integer(riis_status), intent(inout) :: code
     integer(int32), intent(in), optional :: measure, n_threads, triangulation
-    real(c_double), intent(in), optional :: measure_tolerance
+    real(c_double), intent(in), optional :: measure_tolerance, offset
     if (code /= RIIS_OK) return
     if (present(half_thickness)) options%half_thickness = half_thickness
     if (present(tolerance)) options%tolerance = tolerance
@@ -828,6 +844,7 @@ contains
     if (present(measure_tolerance)) options%measure_tolerance = measure_tolerance
     if (present(n_threads)) options%n_threads = n_threads
     if (present(triangulation)) options%triangulation = triangulation
+    if (present(offset)) options%offset = offset
     if (present(skip_zero_area)) options%zero_area = merge(RIIS_ZERO_AREA_SKIP, RIIS_ZERO_AREA_REFUSE, skip_zero_area)
     call set_vector(rotation_axis, 'rotation_axis', options%rotation_axis, code)
     call set_vector(translation, 'translation', options%translation, code)

@@ -19,6 +19,7 @@ module riisf
   public :: riisf_surface_place
   public :: riisf_surface_measure
   public :: riisf_surface_triangulate
+  public :: riisf_surface_offset
   public :: riisf_surface_update_moving
   public :: riisf_surface_place_moving
   public :: riisf_surface_add_direction
@@ -53,11 +54,14 @@ module riisf
   public :: riisf_surface_from_arrays_64
   public :: riisf_surface_with_skirt
   public :: riisf_surface_with_skirt_64
+  public :: riisf_surface_offset_arrays
+  public :: riisf_surface_offset_arrays_64
   public :: riisf_surface_update_arrays
   public :: riisf_surface_update_arrays_64
   public :: riisf_keyframes_create
   public :: riisf_keyframes_create_64
   public :: riisf_surface_from_keyframes
+  public :: riisf_surface_offset_keyframes
   public :: riisf_surface_update_keyframes
   public :: riisf_keyframes_destroy
   public :: riisf_surface_vertices
@@ -309,6 +313,24 @@ module riisf
       integer(int32), intent(in) :: triangulation
       integer(riis_status), intent(out) :: status
     end subroutine riisf_surface_triangulate
+
+    subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+        translation, offset, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      integer(int64), intent(in) :: valve
+      real(c_double), intent(in) :: half_thickness
+      real(c_double), intent(in) :: tolerance
+      real(c_double), intent(in) :: scale
+      real(c_double), intent(in) :: rotation_axis(3)
+      real(c_double), intent(in) :: rotation_angle
+      real(c_double), intent(in) :: translation(3)
+      real(c_double), intent(in) :: offset
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_offset
 
     subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
       use, intrinsic :: iso_c_binding, only: c_double
@@ -782,6 +804,60 @@ module riisf
       integer(riis_status), intent(out) :: status
     end subroutine riisf_surface_with_skirt_64
 
+    subroutine riisf_surface_offset_arrays(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, &
+        index_base, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, offset, surface, &
+        status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int32), intent(in) :: n_vertices
+      real(c_double), intent(in) :: x(*)
+      real(c_double), intent(in) :: y(*)
+      real(c_double), intent(in) :: z(*)
+      integer(int32), intent(in) :: stride
+      integer(int32), intent(in) :: corners_per_face
+      integer(int32), intent(in) :: n_faces
+      integer(int32), intent(in) :: vertex_ids(*)
+      integer(int32), intent(in) :: index_base
+      real(c_double), intent(in) :: half_thickness
+      real(c_double), intent(in) :: tolerance
+      real(c_double), intent(in) :: scale
+      real(c_double), intent(in) :: rotation_axis(3)
+      real(c_double), intent(in) :: rotation_angle
+      real(c_double), intent(in) :: translation(3)
+      real(c_double), intent(in) :: offset
+      integer(int64), intent(inout) :: surface
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_offset_arrays
+
+    subroutine riisf_surface_offset_arrays_64(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, &
+        index_base, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, offset, surface, &
+        status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: n_vertices
+      real(c_double), intent(in) :: x(*)
+      real(c_double), intent(in) :: y(*)
+      real(c_double), intent(in) :: z(*)
+      integer(int64), intent(in) :: stride
+      integer(int32), intent(in) :: corners_per_face
+      integer(int64), intent(in) :: n_faces
+      integer(int64), intent(in) :: vertex_ids(*)
+      integer(int32), intent(in) :: index_base
+      real(c_double), intent(in) :: half_thickness
+      real(c_double), intent(in) :: tolerance
+      real(c_double), intent(in) :: scale
+      real(c_double), intent(in) :: rotation_axis(3)
+      real(c_double), intent(in) :: rotation_angle
+      real(c_double), intent(in) :: translation(3)
+      real(c_double), intent(in) :: offset
+      integer(int64), intent(inout) :: surface
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_offset_arrays_64
+
     subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx, vy, vz, velocity_stride, &
         corners_per_face, n_faces, vertex_ids, index_base, status)
       use, intrinsic :: iso_c_binding, only: c_double
@@ -886,6 +962,26 @@ module riisf
       integer(int64), intent(inout) :: surface
       integer(riis_status), intent(out) :: status
     end subroutine riisf_surface_from_keyframes
+
+    subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, tolerance, scale, rotation_axis, &
+        rotation_angle, translation, offset, surface, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: keyframes
+      real(c_double), intent(in) :: time
+      real(c_double), intent(in) :: dt
+      real(c_double), intent(in) :: half_thickness
+      real(c_double), intent(in) :: tolerance
+      real(c_double), intent(in) :: scale
+      real(c_double), intent(in) :: rotation_axis(3)
+      real(c_double), intent(in) :: rotation_angle
+      real(c_double), intent(in) :: translation(3)
+      real(c_double), intent(in) :: offset
+      integer(int64), intent(inout) :: surface
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_offset_keyframes
 
     subroutine riisf_surface_update_keyframes(surface, keyframes, time, dt, status)
       use, intrinsic :: iso_c_binding, only: c_double

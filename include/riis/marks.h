@@ -69,12 +69,14 @@ enum {
 
 /* The term K (u - u_surface) of the momentum equation, with the fluid velocity u and the surface velocity u_surface
  * (paper, 2.1; docs/theory/marks.md, "Resistance"). At a distance d < eps, K = (R / eps) delta(d) with
- * delta(d) = (1 + cos(pi d / eps)) / (2 eps). At larger distances K is 0. */
+ * delta(d) = (1 + cos(pi d / eps)) / (2 eps). At larger distances K is 0. With the offset o of the surface, d is the distance
+ * from the middle of the band, |s - o eps|, also for the eps of this resistance (riis_surface_create). */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
   double R;              /* 0 to 1e60, mass / (length time): kg/(m s). A flat closed valve in a flow of
                             velocity u has a pressure drop of (R / eps) u. Default NaN, which is refused */
-  double half_thickness; /* eps, 1e-50 to the distance limit. Default RIIS_AUTO: the marking's half thickness */
+  double half_thickness; /* eps, at least 1e-50. With the offset o, (1 + |o|) eps is at most the distance limit. Default
+                            RIIS_AUTO: the marking's half thickness */
   int32_t rim;           /* RIIS_RIM_*, default RIIS_RIM_ROUND */
   int32_t reserved;      /* 0 */
 } riis_resistance;
@@ -83,8 +85,9 @@ RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t s
 /* Options of a marking. */
 typedef struct riis_mark_options {
   int64_t struct_size;       /* set by the init function */
-  double distance_limit;     /* the search finds nodes up to this distance; half thickness to 1e60. Default
-                                RIIS_AUTO: the half thickness. The limit does not change the marked nodes */
+  double distance_limit;     /* the search finds nodes up to this distance, from (1 + |o|) half thicknesses with the offset o
+                                to 1e60. Default RIIS_AUTO: the list within the limit has the marked nodes only. The limit
+                                does not change the marked nodes */
   const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out, but must be finite. NULL: all nodes */
   const riis_resistance *resistance; /* requests riis_mark_list.K and, if the last update of the surface gave
                                         velocities, riis_mark_list.K_u_surface. Default NULL: neither */
@@ -98,7 +101,7 @@ typedef struct riis_mark_options {
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size); /* the defaults */
 
 /* Finds every node near the surface: the nodes within the half thickness (marked), and within the distance limit.
- * The reported distance decides, in double precision.
+ * The reported distance decides, in double precision. With an offset, the nodes in the band are marked (riis_surface_create).
  *   marks  its content is replaced
  * The log warns if the units of mesh and surface seem to differ. They do if the largest sides of their boxes differ by
  * more than a factor of 50, or if one side is less than the half thickness. It warns once per surface and mesh, at most
@@ -109,8 +112,8 @@ RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mes
 
 /* The lists of a marking. */
 enum {
-  RIIS_LIST_MARKED = 0,      /* the nodes within the half thickness */
-  RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not */
+  RIIS_LIST_MARKED = 0,      /* the nodes within the half thickness, or with an offset the nodes in the band */
+  RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not. Without a limit: the marked nodes */
 };
 /* A list of nodes, ascending by node_id. Lengths are in mesh units. The arrays from `point` on are NULL unless
  * options.fields requested them. riis_closest_point gives the same values, to the last bit. */
@@ -145,7 +148,8 @@ typedef struct riis_mark_list {
                                  distance has a kink there. The distance also has a kink at nodes with several nearest
                                  places */
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. It is 0
-                                 beyond the half thickness and beyond a cut rim; NULL without a resistance */
+                                 beyond the half thickness and beyond a cut rim; NULL without a resistance. With an
+                                 offset, on the surface n is the surface's normal, and at a rim the normal turns too */
 } riis_mark_list;
 /* Gives a list of the last marking. It is valid until the next riis_mark_nodes with these marks, or their destruction.
  *   which  RIIS_LIST_* */
@@ -171,7 +175,7 @@ RIIS_API riis_status riis_marks_get_dense(const riis_marks *marks, const riis_de
 /* How the last marking went. */
 typedef struct riis_mark_stats {
   int64_t n_nodes;      /* of the mesh, masked out or not */
-  int64_t n_marked;     /* nodes within the half thickness */
+  int64_t n_marked;     /* the length of RIIS_LIST_MARKED */
   int64_t n_within_limit; /* nodes within the distance limit, marked or not */
   int64_t n_queries;    /* number of closest-point queries, of nodes and of parts of the mesh */
   double seconds;       /* wall time of riis_mark_nodes */

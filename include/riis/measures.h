@@ -55,7 +55,9 @@ typedef struct riis_orifice {
                             is moved inwards by rim_reach * half_thickness. To first order the result is area -
                             rim_reach * half_thickness * perimeter. It is never below 0 */
   double rim_reach;      /* the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70
-                            to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md */
+                            to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md. With an offset o, c is
+                            smaller by the factor max(0, 1 - o / 1.05) (round) or max(0, 1 - o / 0.85) (cut), for mitral
+                            valves max(0, 1 - o / 0.8) (cut). For bileaflet valves it stays */
   double half_thickness; /* eps of the resistance */
   double radius;         /* the radius of the disc; 0 for other outlines */
   double axis[3];        /* unit vector; 0 for arrays and keyframes without an outline */
@@ -63,8 +65,8 @@ typedef struct riis_orifice {
   int32_t reserved;      /* 0 */
 } riis_orifice;
 /* Measures the orifice of a surface.
- *   resistance  only half_thickness and rim are used. RIIS_AUTO stands for the surface's half thickness. NULL
- *               stands for the defaults */
+ *   resistance  only half_thickness and rim are used, with the surface's offset. RIIS_AUTO stands for the surface's half
+ *               thickness. NULL stands for the defaults */
 RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                               riis_orifice *orifice, int64_t struct_size);
 /* Measures the orifice inside a wall: a ring or a tube around leaflets that do not reach it, such as those of a mechanical valve
@@ -148,7 +150,8 @@ RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, do
                                                  riis_coaptation *coaptation, int64_t struct_size);
 
 /* Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The
- * bileaflet housing does not count in the area. The leak in a solver differs from the ideal (docs/solvers.md).
+ * bileaflet housing does not count in the area. With an offset o, the area is that of the surface moved by o eps along its
+ * normals. The leak in a solver differs from the ideal (docs/solvers.md).
  *   resistance  only R, 1e-60 to 1e60, and half_thickness are used. RIIS_AUTO stands for the surface's half thickness
  *   drop        upstream pressure minus downstream pressure, magnitude at most 1e30
  *   flow        in the unit of drop * area * eps / R, which is m^3/s in SI units

@@ -43,7 +43,7 @@ typedef struct riis_flow_arrays {
 RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
 /* The caller's arrays for the forces and moments of the flow, which are added to them. NULL leaves a sum out. The arrays
  * must not overlap. A node's force is weight K (velocity - u_surface), and acts at the node's closest point. The power of
- * a rigid surface is therefore force times velocity plus moment times angular velocity. */
+ * a rigid surface is therefore force times velocity plus moment times angular velocity, also with an offset. */
 typedef struct riis_reaction {
   int64_t struct_size;      /* set by the init function */
   double about[3];          /* the reference point of moment and leaflet_moment; magnitude at most 1e60.
@@ -109,14 +109,16 @@ typedef struct riis_band_sums {
 /* A band around the surface, and a value at the nodes. */
 typedef struct riis_band {
   int64_t struct_size;  /* set by the init function */
-  double inner, outer;  /* distances, 0 <= inner <= outer <= distance limit of the marking. Default 0 */
+  double inner, outer;  /* distances d with 0 <= inner <= d <= outer. outer + |o| eps is at most the marking's distance
+                           limit, with the offset o. Default 0 */
   int64_t n_nodes;      /* the number of nodes of the marking, which must have RIIS_FIELD_SIDE and RIIS_FIELD_RIM */
   const double *value;  /* (n_nodes), such as the pressure; NULL only for 0 nodes */
   const double *weight; /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
 } riis_band;
 RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* the defaults */
 /* Gives the sums of the value over the nodes in the band, by side. It leaves out nodes whose closest point is
- * on the rim, and nodes on neither side. With an open valve the two sides have no meaning.
+ * on the rim, and nodes on neither side. With an open valve the two sides have no meaning. With the offset o of the surface,
+ * distances are |s - o eps|, and the sign of s - o eps is the side. s is the signed distance, and eps the marking's.
  * Errors: RIIS_INVALID_ARGUMENT also for a field that the marks lack. */
 RIIS_API riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *band,
                                               riis_band_sums *sums, int64_t struct_size);

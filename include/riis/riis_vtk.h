@@ -92,9 +92,9 @@ RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t
 /* Makes the part of the mesh's adjacency that riis_find_leaks needs, in one pass over the cells. It consists of the
  * edges that are longer than a given length and whose bounding box meets the surface's bounding box. It borrows
  * nothing. Use it only for riis_find_leaks: a search cannot go far along so few edges.
- *   longer_than       twice the half thickness of the marking. 0 gives all edges near the surface. Use 0 after a
- *                     marking by RIIS_SEARCH_PAPER, or if distances were not measured to the triangles. Edges that
- *                     are shorter by up to a billionth are also included
+ *   longer_than       2 (1 - |o|) half thicknesses of the marking, with the offset o. 0 gives all edges near the
+ *                     surface. Use 0 after a marking by RIIS_SEARCH_PAPER, or if distances were not measured to the
+ *                     triangles. Edges that are shorter by up to a billionth are also included
  *   n_cells_left_out  as in riis_vtk_mesh_get_volume_cells
  * Errors: RIIS_INVALID_ARGUMENT if longer_than is below 0 or not finite. */
 RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,

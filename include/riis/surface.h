@@ -84,6 +84,8 @@ typedef struct riis_surface_options {
   int32_t flip_normals;    /* 1 turns every triangle over: normal and side change sign; default 0 */
   int32_t n_threads;       /* default 0 */
   int32_t reserved;        /* 0 */
+  double offset;           /* o, in half thicknesses, above -1 and below 1, default 0. The band steps aside by this along the
+                              normals, as flip_normals leaves them. Not with other measures than RIIS_MEASURE_TRIANGLES */
 } riis_surface_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
@@ -94,7 +96,12 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
  * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of
  * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring they point outwards. Triangles of zero area
  * are skipped. They lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges.
+ * The band around a surface has the thickness 2 eps, with the half thickness eps. With an offset o its middle lies o eps beside
+ * the triangles, where normals point. Let s be the signed distance of a node, with the sign of its side. The band holds the
+ * nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, it holds the nodes x with
+ * |x - p - o eps n| <= eps (docs/theory/marks.md, "Offset"). Distances, sides and closest points stay those of the triangles.
  * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range;
+ * RIIS_INVALID_SURFACE with an offset, for two triangles that run along a shared edge in the same direction;
  * RIIS_LIMIT_EXCEEDED if a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than the rounding
  * of coordinates. */
 RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options,
@@ -168,6 +175,7 @@ typedef struct riis_surface_info {
   double error_bound;        /* the largest possible difference between a point's distances to the triangles and to the smooth
                                 valve; at most tolerance * half_thickness. 0 for a surface from arrays */
   int64_t largest_leaflet_id; /* of the triangles */
+  double offset;             /* of the band, in half thicknesses */
 } riis_surface_info;
 /* Gives the size of the surface, and the seconds that it took. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,

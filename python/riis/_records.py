@@ -43,6 +43,7 @@ class SurfaceInfo(NamedTuple):
     error_bound: float  #: distances to the triangles and to the smooth valve differ by at most this length
     #: velocities of the triangles and of the smooth valve, at the same patch, u and v, differ by at most this
     largest_leaflet_id: int  #: of the triangles
+    offset: float  #: of the band, in half thicknesses
 
 
 class Triangles(NamedTuple):

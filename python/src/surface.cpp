@@ -12,7 +12,7 @@ namespace {
   ", flip_normals: bool | None = None, measure: typing.Literal['triangles', 'sampling', "                         \
   "'minimization'] | None = None, measure_tolerance: float | typing.Literal['auto'] | None = None, "              \
   "triangulation: typing.Literal['adapted', 'fixed'] | None = None, zero_area: typing.Literal['refuse', "         \
-  "'skip'] | None = None, n_threads: int | None = None"
+  "'skip'] | None = None, offset: float | None = None, n_threads: int | None = None"
 #define RIIS_POINTS "numpy.typing.NDArray[numpy.float64]"
 #define RIIS_FACES "numpy.typing.NDArray[numpy.integer]"
 
@@ -167,7 +167,7 @@ nb::object info(Surface &surface) {
   return record("SurfaceInfo")(found.n_vertices, found.n_triangles, found.n_zero_area, found.half_thickness, found.area,
                                array_of(found.lower, "float64"), array_of(found.upper, "float64"),
                                found.seconds_triangles, found.seconds_scene, found.error_bound,
-                               found.largest_leaflet_id);
+                               found.largest_leaflet_id, found.offset);
 }
 
 riis_triangles triangles_of(const Surface &surface) {
@@ -282,6 +282,7 @@ measure             'triangles'; the paper's 'sampling' and 'minimization' serve
 measure_tolerance  for 'sampling' and 'minimization', in half thicknesses; 'auto': tolerance
 triangulation       'adapted', or 'fixed': the same triangles at every opening
 zero_area           whether from_arrays should 'refuse' or 'skip' triangles without area
+offset              0: by how many half thicknesses the band steps aside along the normals, above -1 and below 1
 n_threads           0: 1 per 4096 triangles, at most 1 per processor
 
 An update keeps the options that it does not name. Arrays of a surface are copies, made once after each update.)");

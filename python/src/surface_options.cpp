@@ -63,6 +63,8 @@ const Keyword keywords[] = {
            choice(value, name, {{"adapted", RIIS_TRIANGULATION_ADAPTED}, {"fixed", RIIS_TRIANGULATION_FIXED}});
      },
      false},
+    {"offset", [](riis_surface_options &o, nb::handle value, const char *name) { o.offset = number(value, name); },
+     false},
     {"n_threads",
      [](riis_surface_options &o, nb::handle value, const char *name) { o.n_threads = thread_count(value, name); },
      false},

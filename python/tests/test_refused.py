@@ -132,6 +132,7 @@ REFUSED = {
     "text in translation": (TypeError, "translation: must be a number, not str",
                             lambda o: riis.Surface(o.valve, translation=("0", "0", "0"))),
     "translation": (TypeError, "translation: must be three numbers, not float", lambda o: riis.Surface(o.valve, translation=1.0)),
+    "offset": (Argument, "offset is 1", lambda o: riis.Surface(o.valve, offset=1)),
     "flip_normals": (TypeError, "flip_normals: must be True or False, not int", lambda o: riis.Surface(o.valve, flip_normals=1)),
     "measure": (Argument, "measure: is 'exact'; it must be one of 'triangles'", lambda o: riis.Surface(o.valve, measure="exact")),
     "triangulation": (Argument, "triangulation: is ''", lambda o: riis.Surface(o.valve, triangulation="")),

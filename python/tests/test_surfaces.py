@@ -48,6 +48,18 @@ def test_normals_flip(valve):
     assert numpy.array_equal(plain.normal, -flipped.normal) and plain.side == -flipped.side != 0
 
 
+def test_the_band_steps_aside_along_the_normals(valve):
+    surface = riis.Surface(valve, half_thickness=0.1, offset=0.75)
+    assert surface.info.offset == 0.75
+    normal, middle = surface.closest_point((0.1, 0.2, 0.3)).normal, surface.closest_point((0.1, 0.2, 0.3)).point
+    heights = numpy.array([-0.026, -0.024, 0.0, 0.075, 0.174, 0.176])
+    mesh = riis.Mesh(middle + heights[:, None] * normal)
+    marks = riis.mark(surface, mesh, R=1.0)
+    assert marks.marked.node_id.tolist() == [1, 2, 3, 4] and marks.marked.K.argmax() == 2
+    surface.update(valve, flip_normals=True)
+    assert riis.mark(surface, mesh).marked.node_id.tolist() == [0, 1, 2]
+
+
 def test_directions_are_differences_of_vertices(valve):
     surface = riis.Surface(valve, triangulation="fixed", scale=2.0)
     step = 1e-5

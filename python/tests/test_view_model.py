@@ -750,7 +750,7 @@ def test_the_program_marks_a_surface_from_a_file(tmp_path, small):
     i = model.add_surface(read.points, read.regular_faces, path=tmp_path / "ball.vtp", half_thickness=0.15)
     model.place(i, (0.1, 0.2, 0.3), axis=(1.0, 1.0, 0.0), scale=1.2)
     assert model.valves[i].name == "ball"
-    with pytest.raises(riis.InvalidArgumentError, match="name: is 'gap'; a surface has half_thickness, resistance and scale"):
+    with pytest.raises(riis.InvalidArgumentError, match="name: is 'gap'; a surface has half_thickness, offset, resistance"):
         model.set(i, "gap", 1.0)
     for kinds in ([], ["coapting"]):
         for kind in kinds:

@@ -26,8 +26,8 @@ constexpr scalar openShare = 1e-5;  // the resistance of blood outside the band,
 constexpr scalar leastShare = 0.2;  // calibration refuses a closed valve that drops less of (R / eps) u
 
 // Returns -1 for each cell upstream of the closed band, and 1 for each cell downstream. Cells in the band, and in pockets that it
-// encloses, get 0. All entries are 0 if the band does not part the blood.
-labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list &marked) {
+// encloses, get 0. All entries are 0 if the band does not part the blood. `middle` is how far the band steps aside.
+labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list &marked, scalar middle) {
   labelList band(mesh.nCells(), 0), bandBeyond;
   forAll(K, cell) band[cell] = K[cell] > 0;
   syncTools::swapBoundaryCellList(mesh, band, bandBeyond);
@@ -42,7 +42,7 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
   labelList regionBeyond;
   syncTools::swapBoundaryCellList(mesh, region, regionBeyond);
 
-  // A face between the band and another region lies on one side of the leaflet. Its area votes for this side.
+  // A face between the band and another region lies on one side of the middle of the band. Its area votes for this side.
   scalarField votes(region.nRegions(), 0), all(region.nRegions(), 0), volume(region.nRegions(), 0);
   labelList entry(mesh.nCells(), -1);
   for (int64_t i = 0; i < marked.n_nodes; ++i) {
@@ -55,7 +55,7 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
         mesh.faceCentres()[face] - vector(marked.point[3 * i], marked.point[3 * i + 1], marked.point[3 * i + 2]);
     const scalar along = away & vector(marked.normal[3 * i], marked.normal[3 * i + 1], marked.normal[3 * i + 2]);
     const scalar area = mag(mesh.faceAreas()[face]);
-    votes[other] += along > 0 ? area : -area;
+    votes[other] += along > middle ? area : -area;
     all[other] += area;
   };
   forAll(blocked, face) {
@@ -258,7 +258,7 @@ void riisValve::estimateDrop() {
   check(riis_marks_get_list(marks.get(), RIIS_LIST_MARKED, &list, sizeof list));
   scalarField K(mesh_.nCells());
   computeResistance(marks.get(), resistance_, check, K, nullptr);
-  const labelList side = sidesOf(mesh_, K, list);
+  const labelList side = sidesOf(mesh_, K, list, placement_.offset * halfThickness_);
   if (!returnReduce(gMax(mag(scalarField(K))()) > 0 && side.found(-1), orOp<bool>())) {
     return without("blood passes the closed band in this mesh");
   }

@@ -75,7 +75,7 @@ void riisValve::readAll() {
   refuseOthers(coeffs_,
                {"type",     "active",  "libs",      "selectionMode", "fields",        "U",          "p",         "phi",
                 "rho",      "valve",   "placement", "warp",          "halfThickness", "resistance", "calibrate", "rim",
-                "velocity", "opening", "nThreads",  "writeLeaflets"});
+                "velocity", "opening", "nThreads",  "writeLeaflets", "offset"});
   rho_.read(coeffs_);
   if (!(rho_.value() > 0)) {
     FatalIOErrorInFunction(coeffs_) << "rho is " << rho_.value() << ", and must be positive" << exit(FatalIOError);
@@ -108,6 +108,7 @@ void riisValve::readAll() {
   follow_.reset(placement.found("follow") ? new riisFollow(mesh_, placement.subDict("follow")) : nullptr);
   halfThickness_ = dimensionedScalar("halfThickness", dimLength, coeffs_).value();
   placementAtRest_.half_thickness = halfThickness_;
+  placementAtRest_.offset = coeffs_.getOrDefault<scalar>("offset", 0);
   // By default the library uses one thread in each rank, as the solver does.
   placementAtRest_.n_threads = coeffs_.getOrDefault<label>("nThreads", 1);
   readWarp(coeffs_.subOrEmptyDict("warp"));
@@ -230,7 +231,8 @@ void riisValve::restart() {
 
 void riisValve::restartFactor() {
   if (!calibrate_ || !state_.found("factor")) return;
-  if (state_.get<scalar>("resistance") != resistance_.R || state_.get<scalar>("halfThickness") != halfThickness_)
+  if (state_.get<scalar>("resistance") != resistance_.R || state_.get<scalar>("halfThickness") != halfThickness_ ||
+      state_.getOrDefault<scalar>("offset", 0) != placement_.offset)
     return;
   factor_ = state_.get<scalar>("factor");
   estimated_ = true;
@@ -266,6 +268,7 @@ void riisValve::keepState() {
     state_.add("factor", factor_);
     state_.add("resistance", resistance_.R);
     state_.add("halfThickness", halfThickness_);
+    state_.add("offset", placement_.offset);
   }
   keepLaw();
   state_.add("parameters", parameters());

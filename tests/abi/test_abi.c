@@ -53,7 +53,7 @@ TEST(test_structs) {
   FIELD(riis_parameter, other_name, 80, 8);
   FIELD(riis_parameter, other_factor, 88, 8);
 
-  SIZE(riis_surface_options, 120);
+  SIZE(riis_surface_options, 128);
   FIELD(riis_surface_options, struct_size, 0, 8);
   FIELD(riis_surface_options, half_thickness, 8, 8);
   FIELD(riis_surface_options, tolerance, 16, 8);
@@ -68,6 +68,7 @@ TEST(test_structs) {
   FIELD(riis_surface_options, flip_normals, 108, 4);
   FIELD(riis_surface_options, n_threads, 112, 4);
   FIELD(riis_surface_options, reserved, 116, 4);
+  FIELD(riis_surface_options, offset, 120, 8);
 
   SIZE(riis_surface_arrays, 144);
   FIELD(riis_surface_arrays, struct_size, 0, 8);
@@ -101,7 +102,7 @@ TEST(test_structs) {
   FIELD(riis_keyframe_arrays, interpolation, 48, 4);
   FIELD(riis_keyframe_arrays, real_bits, 52, 4);
 
-  SIZE(riis_surface_info, 120);
+  SIZE(riis_surface_info, 128);
   FIELD(riis_surface_info, n_vertices, 0, 8);
   FIELD(riis_surface_info, n_triangles, 8, 8);
   FIELD(riis_surface_info, n_zero_area, 16, 8);
@@ -113,6 +114,7 @@ TEST(test_structs) {
   FIELD(riis_surface_info, seconds_scene, 96, 8);
   FIELD(riis_surface_info, error_bound, 104, 8);
   FIELD(riis_surface_info, largest_leaflet_id, 112, 8);
+  FIELD(riis_surface_info, offset, 120, 8);
 
   SIZE(riis_attachment, 40);
   FIELD(riis_attachment, n_edges, 0, 8);

@@ -199,6 +199,23 @@ C     and there are no triangles.
       CALL RIISF_SURFACE_MEASURE(SURF, VALVE, 0.12D0, 0.05D0, 1D0, AXIS,
      &  0D0, ZERO, RIIS_MEASURE_MINIMIZATION, 7D0, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'measure_tolerance is 7')
+
+C     A band that steps aside marks other nodes. A limit must hold it.
+      CALL RIISF_SURFACE_OFFSET(SURF, VALVE, 0.12D0, 0.05D0, 1D0, AXIS,
+     &  0D0, ZERO, 0.5D0, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MARK_NODES(SURF, MESH, RIIS_AUTO, RIIS_SEARCH_AUTO,
+     &  1, RES, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MARKED(RES, NN, N2, NODE2, DIST2, STAT)
+      CALL OK(STAT)
+      IF (N2 .EQ. 0) CALL FAILED('a band that steps aside')
+      DO 55 I = 1, N2
+        IF (DIST2(I) .GT. 0.18D0) CALL FAILED('beyond the band')
+   55 CONTINUE
+      CALL RIISF_MARK_NODES(SURF, MESH, 0.17D0, RIIS_SEARCH_AUTO,
+     &  1, RES, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'with the offset 0.5')
       CALL RIISF_SURFACE_PLACE(SURF, VALVE, 0.12D0, 0.05D0, 1D0, AXIS,
      &  0D0, ZERO, STAT)
       CALL OK(STAT)

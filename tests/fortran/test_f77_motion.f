@@ -228,7 +228,7 @@ C     A square moves between z = 0 and z = 0.3. The marked nodes above
 C     the square show its height and its speed.
       SUBROUTINE FRAMES
       INCLUDE 'riisf.h'
-      INTEGER*8 KEYS, KEYS2, SURF, BIG, IDSL(3,2)
+      INTEGER*8 KEYS, KEYS2, SURF, OTHER, BIG, IDSL(3,2)
       DOUBLE PRECISION XYZ(3,4,3), T(3), AXIS(3), ZERO(3)
       INTEGER STAT, IDS(3,2), I, J, NLEAF, LEAF
       DOUBLE PRECISION AREA, EDGE
@@ -248,6 +248,13 @@ C     the square show its height and its speed.
      &  STAT)
       CALL OK(STAT)
       CALL ABOVE(SURF, 0.6D0, 2.4D0)
+C     A band that steps aside leaves the distances as they are.
+      OTHER = 0
+      CALL RIISF_SURFACE_OFFSET_KEYFRAMES(KEYS, 0.25D0, 0.25D0, 0.5D0,
+     &  0.05D0, 2D0, AXIS, 0D0, ZERO, 0.5D0, OTHER, STAT)
+      CALL OK(STAT)
+      CALL ABOVE(OTHER, 0.6D0, 2.4D0)
+      CALL RIISF_SURFACE_DESTROY(OTHER)
       CALL RIISF_SURFACE_UPDATE_KEYFRAMES(SURF, KEYS, 7.625D0, 0.375D0,
      &  STAT)
       CALL OK(STAT)
@@ -294,7 +301,7 @@ C     the square show its height and its speed.
 
       SUBROUTINE ARRAYS
       INCLUDE 'riisf.h'
-      INTEGER*8 SURF, SURF2, BIG, QUADL(4,1)
+      INTEGER*8 SURF, SURF2, OTHER, BIG, QUADL(4,1)
       DOUBLE PRECISION XYZ(3,4), X(4), Y(4), Z(4), V(3,4), ZERO(4)
       DOUBLE PRECISION AXIS(3)
       INTEGER STAT, QUAD(4,1), FLAT(3,1), I
@@ -315,6 +322,15 @@ C     the square show its height and its speed.
       CALL RIISF_SURFACE_FROM_ARRAYS(4, X, Y, Z, 1, 4, 1, QUAD, 0,
      &  0.5D0, 0.05D0, 2D0, AXIS, 0D0, ZERO, SURF, STAT)
       CALL OK(STAT)
+      OTHER = 0
+      CALL RIISF_SURFACE_OFFSET_ARRAYS(4, X, Y, Z, 1, 4, 1, QUAD, 0,
+     &  0.5D0, 0.05D0, 2D0, AXIS, 0D0, ZERO, 1D0, OTHER, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'options.offset is 1')
+      CALL RIISF_SURFACE_OFFSET_ARRAYS_64(BIG, XYZ(1,1), XYZ(2,1),
+     &  XYZ(3,1), BIG - 1, 4, BIG / 4, QUADL, 1, 0.5D0, 0.05D0, 2D0,
+     &  AXIS, 0D0, ZERO, 0.5D0, OTHER, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_DESTROY(OTHER)
       CALL RIISF_SURFACE_UPDATE_ARRAYS(SURF, 4, X, Y, Z, 1, ZERO, ZERO,
      &  ZERO, 1, 4, 1, QUAD, 0, STAT)
       CALL OK(STAT)

@@ -28,6 +28,7 @@ program test_resistance
   call test_fields()
   call test_fields_not_asked_for()
   call test_resistance_of_plate()
+  call test_offset()
   call test_reaction()
   call test_band_sums()
   call test_errors()
@@ -382,6 +383,38 @@ contains
     if (d < half_thickness .and. .not. (cuts_rim .and. any(beside > 0))) &
       k = R / half_thickness * (1 + cos(pi * d / half_thickness)) / (2 * half_thickness)
   end function resistance_at
+
+  ! The band steps aside along the normals, which flip_normals turns.
+  subroutine test_offset()
+    type(riis_valve) :: square
+    type(riis_surface) :: surface
+    type(riis_surface_info) :: info
+    type(riis_marks) :: result
+    real(c_double), allocatable :: coefficient(:)
+    real(c_double) :: corners(3, 4), d
+    integer :: i, turn
+    corners = reshape([-9d0, -9d0, 0d0, 9d0, -9d0, 0d0, 9d0, 9d0, 0d0, -9d0, 9d0, 0d0], [3, 4])
+    call square%create_from_patches([1, 1, 1, 1], corners(:, [1, 2, 4, 3, 1, 4, 2, 3]), reshape([1, 2, 3, 4], [4, 1]))
+    call surface%create(square, half_thickness=eps, offset=0.5d0)
+    allocate (coefficient(n_nodes))
+    do turn = 1, -1, -2
+      if (turn < 0) call surface%update(square, flip_normals=.true.)
+      call surface%get_info(info)
+      call check(same(info%offset, 0.5d0), 'an update keeps the offset')
+      call riis_mark_nodes(surface, mesh, result)
+      coefficient = 0
+      call result%add_resistance(R, coefficient)
+      do i = 1, n_nodes
+        d = abs(xyz(3, i) - 0.5d0 * eps * turn)
+        call check(abs(coefficient(i) - merge(R / (2 * eps**2) * (1 + cos(pi * d / eps)), 0d0, d < eps)) < 1d-11, 'K beside')
+      end do
+    end do
+    call surface%update(square, offset=-1d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.offset is -1')
+    call square%destroy()
+    call surface%destroy()
+    call result%destroy()
+  end subroutine test_offset
 
   subroutine test_resistance_of_plate()
     type(riis_marks) :: result

@@ -388,9 +388,15 @@ TEST(struct_sizes_are_checked) {
   memset(&options, 0x5a, sizeof options);
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 119|120", riis_surface_options_init(&options, 119));
   char parts[40];
-  snprintf(parts, sizeof parts, "options is 128|riis %s ", riis_version_string());
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, parts, riis_surface_options_init(&options, 128));
-  assert_int_equal(options.zero_area, 0x5a5a5a5a); /* a field that the caller's struct lacks is untouched */
+  snprintf(parts, sizeof parts, "options is 136|riis %s ", riis_version_string());
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, parts, riis_surface_options_init(&options, 136));
+  assert_int_equal(options.zero_area, 0x5a5a5a5a);    /* a field that the caller's struct lacks is untouched */
+  CHECK_OK(riis_surface_options_init(&options, 120)); /* a caller that was compiled before the offset */
+  double offset;
+  memcpy(&offset, &options.offset, sizeof offset);
+  assert_true(offset > 1); /* 0x5a5a...: untouched, and never read, because struct_size is 120 */
+  riis_surface *old = aortic_surface(&options);
+  assert_true(info_of(old).offset == 0);
   riis_surface *surface = NULL;
   riis_valve *valve = new_valve("aortic");
   options.struct_size = 0; /* as if no init function had filled the struct */

@@ -122,6 +122,8 @@ def case_of(
         valve["rotate"] = list(state.rotation)
         valve["translate"] = list(state.origin)
         valve["half_thickness"] = state.half_thickness
+        if state.offset != 0.0:
+            valve["offset"] = state.offset
         valve["resistance"] = state.resistance if with_unit else _resistance(state, unit)
         root["valves"].append(valve)
     return json.dumps(root, indent=2) + "\n"
@@ -165,7 +167,10 @@ def command_of(
     words.append(f"--unit={unit}" if with_unit else f"--scale={state.scale!r}")
     words += [f"--rotate={_numbers(state.rotation)}", f"--translate={_numbers(state.origin)}"]
     resistance = state.resistance if with_unit else _resistance(state, unit)  # without --unit it is in the mesh's units
-    words += [f"--half-thickness={state.half_thickness!r}", f"--resistance={resistance!r}", f"--output={output}"]
+    words.append(f"--half-thickness={state.half_thickness!r}")
+    if state.offset != 0.0:
+        words.append(f"--offset={state.offset!r}")
+    words += [f"--resistance={resistance!r}", f"--output={output}"]
     return shlex.join(words)
 
 
@@ -272,7 +277,8 @@ def openfoam_of(states: tuple[ValveState, ...], unit: str | None, density: float
         lines += [state.name, "{", "    type riisValve;", '    libs ("libriisFvOption.so");', "",
                   f"    rho {density!r};                  // [kg/m3]",
                   f"    resistance {state.resistance!r};  // [kg/(m s)]",
-                  f"    halfThickness {metres * state.half_thickness!r};  // [m]", ""]
+                  f"    halfThickness {metres * state.half_thickness!r};  // [m]"]
+        lines += ([f"    offset {state.offset!r};"] if state.offset != 0.0 else []) + [""]
         lines += ["    valve", "    {", f"        kind {state.kind};"]
         lines += [f"        {name} {_foam(value) if isinstance(value, tuple) else repr(value)};"
                   for name, value in state.parameters.items()]
@@ -307,7 +313,7 @@ def session_of(
             "name": state.name, "kind": state.kind, "parameters": _nested(state.parameters), "opening": state.opening,
             "half_thickness": state.half_thickness, "resistance": state.resistance, "scale": state.scale,
             "rotate": list(state.rotation), "origin": list(state.origin), "triangulation": state.triangulation,
-            "time": state.time,
+            "time": state.time, "offset": state.offset,
         }
         if state.cycle is not None:
             valve["cycle"] = {"source": state.cycle.source, "period": state.cycle.period, "law": _law(state.cycle.law)}
@@ -360,6 +366,7 @@ def _state_from(value: Mapping[str, Any]) -> ValveState:
         resistance=at_least_zero(value["resistance"], "resistance"), scale=above_zero(value["scale"], "scale"),
         rotation=(axis_x, axis_y, axis_z, angle), origin=(x, y, z), parameters=MappingProxyType(parameters),
         triangulation=value["triangulation"], time=number(value["time"], "time"),
+        offset=number(value.get("offset", 0.0), "offset"),  # sessions of earlier versions have none
         cycle=None if cycle is None else Cycle(cycle["source"], _law_from(cycle["law"]), above_zero(cycle["period"], "period")),
         surface=None if surface is None else SurfaceSource(
             _unpacked(surface["vertices"]), _unpacked(surface["faces"]),

@@ -102,6 +102,7 @@ class ValveState:
     cycle: Cycle | None = None
     surface: SurfaceSource | None = None
     time: float = 0.0  #: of a surface that moves
+    offset: float = 0.0  #: of the band, in half thicknesses along the normals
 
     @property
     def matrix(self) -> Reals:
@@ -132,6 +133,8 @@ class ValveState:
         made = {"half_thickness": self.half_thickness, **self.placement}
         if self.triangulation != "adapted":
             made["triangulation"] = self.triangulation
+        if self.offset != 0.0:
+            made["offset"] = self.offset
         return made
 
     def valve(self) -> Valve | None:

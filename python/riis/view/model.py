@@ -231,7 +231,7 @@ class Model(Valves):
             self._replace(i, None, kind=kind, parameters=MappingProxyType({}), name=name)
 
     def set(self, i: int, name: str, value: Any) -> None:
-        """Sets a parameter, or "opening", "half_thickness", "resistance", "scale", "triangulation" or "name", of a valve.
+        """Sets a parameter of a valve, or "opening", "half_thickness", "offset", "resistance", "scale", "triangulation", "name".
 
         Lengths of parameters are in centimetres, the half thickness is in mesh units. The resistance is in kg/(m s) if the mesh
         has a unit, and a text such as "1e5 g/(cm s)" then has its own. Otherwise it is in mesh units. A surgeon's name, such as
@@ -244,6 +244,8 @@ class Model(Valves):
             self._replace(i, key, opening=share(value, name))
         elif name in ("half_thickness", "scale"):
             self._replace(i, key, **{name: above_zero(value, name)})
+        elif name == "offset":
+            self._replace(i, key, offset=number(value, name))
         elif name == "resistance":
             self._replace(i, key, resistance=at_least_zero(self._resistance(value), name))
         elif name == "triangulation":
@@ -271,7 +273,7 @@ class Model(Valves):
         state = self._at(i).state
         valve = state.valve()
         if valve is None:
-            raise refuse(f"name: is {name!r}; a surface has half_thickness, resistance and scale")
+            raise refuse(f"name: is {name!r}; a surface has half_thickness, offset, resistance and scale")
         check_name(state.kind, name)
         if numpy.ndim(value) == 0:
             valve[name] = number(value, name)

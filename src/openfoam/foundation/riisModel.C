@@ -101,7 +101,7 @@ void riisModel::readAll(const dictionary &whole) {
   const word part = type() + "Coeffs";
   if (whole.found(part)) refuseOthers(whole, {"type", "libs", part.c_str()});
   const dictionary &dict = whole.optionalSubDict(part);
-  refuseOthers(dict, {"type", "libs", "U", "rho", "valve", "placement", "halfThickness", "resistance", "rim",
+  refuseOthers(dict, {"type", "libs", "U", "rho", "valve", "placement", "halfThickness", "offset", "resistance", "rim",
                       "velocity", "source", "netSource", "opening", "nThreads"});
   rho_ = dimensionedScalar("rho", dimDensity, dict).value();
   if (!(rho_ > 0)) {
@@ -125,6 +125,7 @@ void riisModel::readAll(const dictionary &whole) {
   refuseOthers(placement, {"scale", "rotationAxis", "rotationAngle", "translation", "flipNormals"});
   readPlacement(placement, placement_);
   placement_.half_thickness = dimensionedScalar("halfThickness", dimLength, dict).value();
+  placement_.offset = getOr<scalar>(dict, "offset", 0);
   placement_.n_threads = getOr<label>(dict, "nThreads", 1);
   readResistance(dict, check, resistance_);
   surface_ =

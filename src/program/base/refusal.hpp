@@ -28,6 +28,7 @@ inline std::string with_option_named(const std::string &text) {
                                                                 {"options.rotation_angle ", "--rotate: the angle "},
                                                                 {"options.translation ", "--translate "},
                                                                 {"options.half_thickness ", "--half-thickness "},
+                                                                {"options.offset ", "--offset "},
                                                                 {"options.tolerance ", "--tolerance "},
                                                                 {"options.distance_limit ", "--distance-limit "},
                                                                 {"options.measure_tolerance ", "--distance-tolerance "},

@@ -193,6 +193,8 @@ void declare_placement(Command &command, ValveOptions &options) {
 void declare_half_thickness(Command &command, ValveOptions &options) {
   command.parsed("--half-thickness", "L", "Half thickness of the band (default 0.1 times the scale)",
                  options.surface_options.half_thickness, parse_positive);
+  command.parsed("--offset", "O", "Shift of the band along the normals, in half thicknesses, -1 to 1 (default 0)",
+                 options.surface_options.offset, parse_number);
 }
 
 // Declares all options that determine a placed surface, except for its half thickness.

@@ -223,9 +223,9 @@ in the file. A valve's own "resistance" stays. riis check leaks, riis check cros
 A valve has "valve", a kind or a file of patches, or it has "surface", a file or a list of files, one for each leaflet. A
 surface is at rest unless the file is a .pvd or .dat. Such a file may have a "period", and a .dat a "time_step". A valve may
 have "parameters" and "open_parameters", each an object or a file, and "scale", "surface_unit", "rotate", "translate",
-"half_thickness", "resistance", "tolerance", "triangulation", "flip_normals", "leaflets", "skip_zero_area", "skirt" and
-"wall", as the options of these names. A resistance is a number or a text such as '1e5 g/(cm s)' (riis help units). "opening" is a
-number or one of
+"half_thickness", "offset", "resistance", "tolerance", "triangulation", "flip_normals", "leaflets", "skip_zero_area", "skirt"
+and "wall", as the options of these names. A resistance is a number or a text such as '1e5 g/(cm s)' (riis help units).
+"opening" is a number or one of
   {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
   {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
   {"opening_start": 0.4, "opening_duration": 0.05, "closing_start": 0.7, "closing_duration": 0.05, "closed": 0, "open": 1,
@@ -266,9 +266,10 @@ They have the unit of --unit.
     {"leaks", "edges and passages through the band",
      R"(
 The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats give the number
-of leaking edges, and the half thickness that closes them. Edges of at most two half thicknesses do not leak. Leaks are
-unknown in a mesh without volume cells, if no node is marked, and at cells whose edges are not known. Leaking edges do
-not show gaps between leaflets, nor ways round the valve. riis check leaks MESH --between FROM TO finds these. FROM and TO
+of leaking edges, and the half thickness that closes them. Edges of at most two half thicknesses do not leak. With --offset O
+the length is 2 sqrt(1 - O^2) half thicknesses, for the sharpest corners of a rim. Leaks are unknown in a mesh without volume
+cells, if no node is marked, and at cells whose edges are not known. Leaking edges do not show gaps between leaflets, nor ways
+round the valve. riis check leaks MESH --between FROM TO finds these. FROM and TO
 are points of the mesh on either side of the valve, each as X,Y,Z.
 The program says whether unmarked nodes join the points. It also gives the place of the widest passage, and the half
 thickness that closes it. The distance of the points from the valve must be larger than the width of the passage. A case has
@@ -338,7 +339,8 @@ NumPy and SciPy, or the Python that RIIS_PYTHON names. Without them only the dro
 )"},
     {"meshing", "the edge lengths of riis size-field",
      R"(
-A mesh whose edges are at most two half thicknesses long does not leak (riis help leaks). riis size-field writes edge lengths
+A mesh whose edges are at most two half thicknesses long does not leak, with --offset O at most 2 sqrt(1 - O^2) half
+thicknesses (riis help leaks). riis size-field writes edge lengths
 that are small near the valve only: --band-edge half thicknesses in the band of every state of the valve, and larger outside
 it. The states are openings from 0 to 1, in number --count, or the times of --times or of a case. The file is a grid, which
 gmsh's field "Structured" reads with TextFormat = 1. The lines for the .geo file go to stdout. gmsh makes some edges longer

@@ -14,9 +14,18 @@
 namespace riis::program {
 namespace {
 
+// Returns advice on the band, which no parameter of a valve sets.
+std::string advice_on_band(const std::string &kind) {
+  if (kind == "bileaflet") return "band: leave --offset at 0, because the flow passes on both sides of the leaflets\n";
+  return "band: with a cut rim and a skirt, --offset 0.75 makes an open valve as wide as it is, if the half thickness "
+         "is at\n"
+         "least twice the gap of the closed valve. Take 0.5 from one gap on, and 0 for a wider gap (README.md)\n";
+}
+
 void print_params(const ParamsOptions &options) {
   const Valve valve = make_valve(options, OpeningCheck::no);
-  write_text("-", options.describe ? parameter_table(valve) : json_template(valve) + "\n");
+  write_text("-", options.describe ? parameter_table(valve) + "\n" + advice_on_band(options.valve)
+                                   : json_template(valve) + "\n");
 }
 
 // Runs the command to which the options belong.

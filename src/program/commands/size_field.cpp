@@ -48,16 +48,13 @@ Case case_of(const SizeFieldOptions &options) {
   return all;
 }
 
-// The edge lengths around one valve: `band` up to `half_thickness` from its surface. They grow with the distance, up to
-// `largest`.
+// The edge lengths around one valve: `band` up to `band_reach` from its surface. They grow with the distance, up to `largest`.
 struct Edges {
-  double half_thickness, band, growth, largest;
+  double half_thickness, band_reach, band, growth, largest;
 
-  double at(double distance) const {
-    return std::min(largest, band + growth * std::max(0.0, distance - half_thickness));
-  }
+  double at(double distance) const { return std::min(largest, band + growth * std::max(0.0, distance - band_reach)); }
   // The distance at which the edge length reaches its largest value.
-  double reach() const { return half_thickness + (largest - band) / growth; }
+  double reach() const { return band_reach + (largest - band) / growth; }
 };
 
 std::vector<Edges> edges_of(const SizeFieldOptions &options, const std::vector<MovingValve> &valves) {
@@ -65,7 +62,8 @@ std::vector<Edges> edges_of(const SizeFieldOptions &options, const std::vector<M
   double thickest = 0;
   for (const MovingValve &valve : valves) {
     const riis_surface_info info = info_of(valve.surface());
-    edges.push_back({info.half_thickness, options.band_edge * info.half_thickness, options.growth, 0});
+    edges.push_back({info.half_thickness, (1 + std::abs(info.offset)) * info.half_thickness,
+                     options.band_edge * info.half_thickness, options.growth, 0});
     thickest = std::max(thickest, info.half_thickness);
   }
   const double largest = options.largest_edge.value_or(4 * thickest);
@@ -202,8 +200,10 @@ void print_summary(const SizeFieldOptions &options, const Case &all, const std::
   const bool has_openings = options.series.case_file.empty() && options.series.times.empty();
   std::string text = "states    " + counted(static_cast<std::int64_t>(all.options.series.times.size()), "state") +
                      (has_openings && all.options.series.times.size() > 1 ? ", openings from 0 to 1\n" : "\n");
-  text += "edges     " + shown(least.band) + " within the half thickness of " + shown(least.half_thickness) +
-          ", growing by " + shown(least.growth) + " a length, up to " + shown(least.largest) + "\n";
+  text += "edges     " + shown(least.band) + " within " +
+          (least.band_reach > least.half_thickness ? "the reach of the band, " : "the half thickness of ") +
+          shown(least.band_reach) + ", growing by " + shown(least.growth) + " a length, up to " + shown(least.largest) +
+          "\n";
   text += "grid      " + counted(grid.n_points(), "point") + ", spacing " + shown(grid.spacing) + "\n";
   text += "written   " + options.field + "\n";
   write_text("-", text + gmsh_lines(options, least.largest));

@@ -21,13 +21,13 @@ namespace riis::program {
 
 namespace {
 
-const std::vector<std::string> case_keys = {"mesh",  "unit",   "half_thickness", "distance_limit", "resistance",
-                                            "times", "valves", "check_leaks",    "cells_where"};
+const std::vector<std::string> case_keys = {"mesh",       "unit",  "half_thickness", "offset",      "distance_limit",
+                                            "resistance", "times", "valves",         "check_leaks", "cells_where"};
 const std::vector<std::string> valve_keys = {
     "name",      "valve",          "surface",      "leaflets",       "parameters",    "open_parameters",
     "opening",   "half_thickness", "resistance",   "scale",          "surface_unit",  "rotate",
     "translate", "tolerance",      "flip_normals", "skip_zero_area", "triangulation", "period",
-    "warp",      "skirt",          "wall",         "time_step"};
+    "warp",      "skirt",          "wall",         "time_step",      "offset"};
 
 class CaseReader {
  public:
@@ -57,6 +57,7 @@ class CaseReader {
       options.has_half_thickness = true;
       options.surface_options.half_thickness = *length;
     }
+    if (const auto offset = values.number("offset")) options.surface_options.offset = *offset;
     const auto limit = values.above_zero("distance_limit");
     if (limit && options.mark_options.distance_limit == RIIS_AUTO) options.mark_options.distance_limit = *limit;
     const auto resistance = resistance_of(values);
@@ -195,6 +196,7 @@ class CaseReader {
       options.has_half_thickness = true;
       surface.half_thickness = *own;
     }
+    if (const auto offset = values.number("offset")) surface.offset = *offset;
     options.surface_unit = values.unit("surface_unit");
     if (options.surface_unit && !options.unit) values.refuse("surface_unit", "it needs \"unit\", the unit of the mesh");
     const bool is_file = !options.surface.empty() || is_valve_file(options.valve);

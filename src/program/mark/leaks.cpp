@@ -115,13 +115,16 @@ void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const s
       (is_one ? "1 edge of length " + length + " crosses it between two unmarked nodes"
               : grouped(leaks.n_edges) + " edges cross it between two unmarked nodes, the longest (" + length + ")") +
       " at " + place_text(options, leaks.longest_middle, leaks.longest_length);
+  // At a sharp corner of a rim, shorter edges leak from a band with an offset.
+  const double offset = options.surface_options.offset, safe = 2 * std::sqrt((1 - offset) * (1 + offset));
   std::string advice = "; ";
   if (report.closing_half_thickness > 0)
     advice += "--half-thickness " + shortest(report.closing_half_thickness) +
               (report.closing_skirt > 0 ? " or --skirt " + shortest(report.closing_skirt) : "") + " closes " +
               (is_one ? "it; " : "them; ");
   warn({{Cause::leaks, text,
-         advice + "edges of at most two half thicknesses (" + shortest(2 * half_thickness) + ") do not leak"}});
+         advice + "edges of at most " + (offset == 0 ? "two" : shown(safe)) + " half thicknesses (" +
+             (offset == 0 ? shortest(2 * half_thickness) : shown(safe * half_thickness)) + ") do not leak"}});
 }
 
 }  // namespace
@@ -149,8 +152,9 @@ void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks
   // Short edges may also leak if marks may be missing, or if distances are not measured to the triangles.
   const bool is_exact = is_complete && options_.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const std::int32_t n_threads = options_.mark_options.n_threads;
-  const auto adjacency = create<Adjacency>(riis_vtk_mesh_create_long_edges, piece.file, surface,
-                                           is_exact ? 2 * half_thickness : 0, n_threads, nullptr);
+  const auto adjacency =
+      create<Adjacency>(riis_vtk_mesh_create_long_edges, piece.file, surface,
+                        is_exact ? 2 * (1 - std::abs(info_.offset)) * half_thickness : 0, n_threads, nullptr);
   const FileNodes::Lent lent(*piece.mesh, get<riis_csr>(riis_adjacency_get_csr, adjacency));
   const auto leaks = create<Leaks>(riis_leaks_create);
   const riis_mark_options how = surface == surface_ ? options_.mark_options : how_to_mark_again(options_);

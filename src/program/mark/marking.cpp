@@ -19,14 +19,21 @@ namespace riis::program {
 namespace {
 
 // Returns one surface of all valves at their present positions, or null for one valve. Refuses valves of different half
-// thicknesses.
+// thicknesses or offsets.
 Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valves) {
   if (valves.size() == 1) return nullptr;
   const MovingValve &first = valves[0];
   auto together = defaults<riis_surface_options>();
   together.half_thickness = info_of(first.surface()).half_thickness;
+  together.offset = info_of(first.surface()).offset;
   for (const MovingValve &valve : valves) {
-    const double half_thickness = info_of(valve.surface()).half_thickness;
+    const riis_surface_info info = info_of(valve.surface());
+    const double half_thickness = info.half_thickness, offset = info.offset;
+    if (offset != together.offset)
+      throw Refusal{all.options.check_leaks->exit_code,
+                    all.options.check_leaks->subject + ": the valves must have one offset; that of " +
+                        first.options().prefix + " is " + shown(together.offset) + ", that of " +
+                        valve.options().prefix + " " + shown(offset)};
     if (half_thickness != together.half_thickness)
       all.options.check_leaks->refuse("the valves must have one half thickness; that of " + first.options().prefix +
                                       " is " + shown(together.half_thickness) + ", that of " + valve.options().prefix +

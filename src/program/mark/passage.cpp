@@ -281,6 +281,7 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
 PassageReport find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
                            const PieceEnd (&ends)[2]) {
   const riis_surface_info info = info_of(surface);
+  if (info.offset != 0) options.check_leaks->refuse("a passage in a mesh in pieces needs the offset 0");
   // A path comes at least as near to the surface as its ends, which are nearer than this.
   double farthest = 0;
   for (const PieceEnd &end : ends)

@@ -440,6 +440,8 @@ std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, c
 }  // namespace
 
 void export_uris(const ExportOptions &options) {
+  if (options.surface_options.offset != 0)
+    refuse_usage("--offset: svMultiPhysics interpolates distances, and has no offset");
   check_whole_folder(options.folder, "FOLDER");
   const UrisMotion motion = uris_motion_of(options);
   std::optional<Stage> stage(std::in_place, "making the leaflets of all frames", options.quiet);

@@ -33,11 +33,16 @@ const riis_reaction default_reaction{
 const riis_band default_band{sizeof(riis_band), 0, 0, 0, nullptr, nullptr};
 const riis_passage_ends default_ends{sizeof(riis_passage_ends), 0, nullptr, 0, nullptr};
 
-double limit_of(const riis_mark_options &options, double half_thickness) {
-  if (options.distance_limit == RIIS_AUTO) return half_thickness;
-  if (!(options.distance_limit >= half_thickness && options.distance_limit <= 1e60))
+double limit_of(const riis_mark_options &options, const riis::Band &band) {
+  if (options.distance_limit == RIIS_AUTO) return band.reach();
+  if (!(options.distance_limit >= band.reach() && options.distance_limit <= 1e60)) {
+    if (!band.steps_aside())
+      riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is ", options.distance_limit,
+                 "; it must be from the half thickness, ", band.half_thickness, ", to 1e+60");
     riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is ", options.distance_limit,
-               "; it must be from the half thickness, ", half_thickness, ", to 1e+60");
+               "; it must be from the reach of the band with the offset ", band.offset, ", ", band.reach(),
+               ", to 1e+60");
+  }
   return options.distance_limit;
 }
 
@@ -157,7 +162,7 @@ riis::Threads threads_of(const riis_mark_options &options, const riis::Mesh &mes
 
 riis::SearchRequest request_of(const riis::Surface &surface, const riis_mesh *mesh, const riis_mark_options &options) {
   check_search(options.search);
-  return {{surface, limit_of(options, surface.half_thickness()), options.node_mask, threads_of(options, mesh->mesh),
+  return {{surface, limit_of(options, surface.band()), options.node_mask, threads_of(options, mesh->mesh),
            instructions_asked_for(options.instructions)},
           mesh->mesh};
 }
@@ -175,7 +180,7 @@ std::optional<riis::Resistance> resistance_of(const riis::SearchRequest &request
   if (!options.resistance) return std::nullopt;
   const riis::Resistance checked =
       riis::checked_resistance(whole_of(options.resistance, "options.resistance"), "options.resistance",
-                               request.surface.half_thickness(), request.distance_limit);
+                               request.surface.band(), request.distance_limit);
   if (const riis::PatchDistance *other = request.surface.other_distance(); other && checked.cuts_rim)
     riis::fail(RIIS_INVALID_ARGUMENT, "options.resistance.rim is RIIS_RIM_CUT, but the surface's distances are by ",
                other->name(), ", which does not know the rim");
@@ -202,9 +207,13 @@ void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
 void check_are_of_marking(const riis::SearchRequest &request, const riis::Marks &marks) {
   require_adjacency(request.mesh, "which a search for leaks needs");
   check_are_of_mesh(request.mesh, marks);
-  if (marks.half_thickness != request.surface.half_thickness())
-    riis::fail(RIIS_INVALID_ARGUMENT, "marks are of a surface with the half thickness ", marks.half_thickness,
-               ", surface has ", request.surface.half_thickness(), ": mark the nodes again");
+  const riis::Band &now = request.surface.band();
+  if (marks.band.half_thickness != now.half_thickness)
+    riis::fail(RIIS_INVALID_ARGUMENT, "marks are of a surface with the half thickness ", marks.band.half_thickness,
+               ", surface has ", now.half_thickness, ": mark the nodes again");
+  if (marks.band.offset != now.offset)
+    riis::fail(RIIS_INVALID_ARGUMENT, "marks are of a surface with the offset ", marks.band.offset, ", surface has ",
+               now.offset, ": mark the nodes again");
 }
 
 // Checks the nodes of one end of a passage. `name` is the end's name, "from" or "to".
@@ -243,7 +252,11 @@ riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, 
     const riis_mark_options whole = whole_of(options);
     const riis::SearchRequest request = request_of(content, mesh, whole);
     const std::optional<riis::Resistance> resistance = resistance_of(request, whole);
-    riis::mark_nodes(request, {whole.search, whole.fields, resistance ? &*resistance : nullptr}, marks->marks);
+    const bool lists_marked = content.band().steps_aside() && whole.distance_limit == RIIS_AUTO;
+    riis::mark_nodes(
+        request,
+        {whole.search, whole.fields, resistance ? &*resistance : nullptr, lists_marked ? &content.band() : nullptr},
+        marks->marks);
     riis::check_proportions(
         {mesh->mesh.nodes().n, mesh->mesh.bounds(), request.surface.scene().bounds(), request.surface.half_thickness()},
         surface->number, mesh->mesh.warned_surfaces());
@@ -332,6 +345,12 @@ riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *b
     if (!(whole.inner >= 0 && whole.inner <= whole.outer))
       riis::fail(RIIS_INVALID_ARGUMENT, "band.inner is ", whole.inner, "; it must be from 0 to band.outer, which is ",
                  whole.outer);
+    const riis::Band &around = content.band;
+    if (around.steps_aside() &&
+        !(whole.outer + std::abs(around.offset) * around.half_thickness <= content.distance_limit))
+      riis::fail(RIIS_INVALID_ARGUMENT, "band.outer is ", whole.outer, "; with the offset ", around.offset,
+                 " it must be at most ", content.distance_limit - std::abs(around.offset) * around.half_thickness,
+                 ", so that the band is within the distance limit of the marking, ", content.distance_limit);
     if (!(whole.outer <= content.distance_limit))
       riis::fail(RIIS_INVALID_ARGUMENT, "band.outer is ", whole.outer,
                  "; it must be at most the distance limit of the marking, ", content.distance_limit);
@@ -397,7 +416,7 @@ riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_marks *mar
     const riis::Adjacency &adjacency = require_adjacency(nodes, "which a search for regions needs");
     check_are_of_mesh(nodes, content);
     check_search(whole.search);
-    limit_of(whole, content.half_thickness);
+    limit_of(whole, content.band);
     instructions_asked_for(whole.instructions);
     check_n_nodes("n_nodes", n_nodes, content);
     if (n_nodes > 0) require(label, "label");

@@ -40,7 +40,7 @@ riis_resistance resistance_for(const riis_resistance *resistance, const riis::Su
 
 // `wall` is null, or bounds the orifice.
 riis_orifice orifice_of(const riis::Surface &surface, const riis::Surface *wall, const riis_resistance &resistance) {
-  const double c = resistance.rim == RIIS_RIM_CUT ? riis::rim_reach_cut : riis::rim_reach_round;
+  const double c = riis::rim_reach(surface, resistance.rim);
   const double eps = resistance.half_thickness;
   const riis::OrificeLimits limits{c * eps, 0.1 * eps};
   const riis::SourceValve *source = surface.source() ? &*surface.source() : nullptr;
@@ -209,8 +209,11 @@ riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resist
     check_range("resistance", "R", whole.R, 1e-60, 1e60);
     check_range("", "drop", drop, -1e30, 1e30);
     require(flow, "flow");
-    const double area =
-        content.source() ? riis::area_without(content.leaflets(), content.source()->housing) : content.area();
+    const std::int32_t housing = content.source() ? content.source()->housing : -1;
+    const riis::Band band = content.band().with(whole.half_thickness);
+    const double area = band.steps_aside() ? riis::moved_area(content, band.offset * band.half_thickness, housing)
+                        : content.source() ? riis::area_without(content.leaflets(), housing)
+                                           : content.area();
     *flow = drop * (whole.half_thickness / whole.R) * area;
   });
 }

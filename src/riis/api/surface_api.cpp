@@ -56,7 +56,7 @@ void check_precision(const riis_surface_options &options, const char *name, doub
 
 // Returns the request. It keeps an n_threads of 0, because the surface then chooses the number of threads itself.
 riis::SurfaceRequest request_of(const riis_surface_options &options) {
-  return {riis::half_thickness_of(options), riis::placement_of(options), options.flip_normals != 0, options.n_threads};
+  return {riis::band_of(options), riis::placement_of(options), options.flip_normals != 0, options.n_threads};
 }
 
 // The state before a moving update, and the time since then.
@@ -280,7 +280,8 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
                                          surface->updatable.seconds().triangles,
                                          surface->updatable.seconds().scene,
                                          set.error_bound,
-                                         content.leaflet_ids().back()});
+                                         content.leaflet_ids().back(),
+                                         content.band().offset});
   });
 }
 

@@ -29,6 +29,7 @@ const riis_surface_options default_surface_options{sizeof(riis_surface_options),
                                                    RIIS_ZERO_AREA_REFUSE,
                                                    0,
                                                    0,
+                                                   0,
                                                    0};
 
 void check_placement(const riis_surface_options &options, const char *name) {
@@ -58,6 +59,11 @@ void check_options(const riis_surface_options &options) {
   if (options.measure_tolerance != RIIS_AUTO)
     check_range("options", "measure_tolerance", options.measure_tolerance, 1e-6, 1.0);
   check_reserved("options.reserved", options.reserved);
+  if (!(options.offset > -1 && options.offset < 1))
+    fail(RIIS_INVALID_ARGUMENT, "options.offset is ", options.offset, "; it must be above -1 and below 1");
+  if (options.offset != 0 && options.measure != RIIS_MEASURE_TRIANGLES)
+    fail(RIIS_INVALID_ARGUMENT, "options.offset is ", options.offset, ", but options.measure is ", options.measure,
+         ", which knows no side: it must be RIIS_MEASURE_TRIANGLES, 0, or the offset 0");
 }
 
 Placement placement_of(const riis_surface_options &options) {
@@ -72,5 +78,7 @@ Placement placement_of(const riis_surface_options &options) {
 double half_thickness_of(const riis_surface_options &options) {
   return options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
 }
+
+Band band_of(const riis_surface_options &options) { return {half_thickness_of(options), options.offset}; }
 
 }  // namespace riis

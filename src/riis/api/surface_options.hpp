@@ -5,6 +5,7 @@
 #include <riis/riis.h>
 
 #include "geometry/placement.hpp"
+#include "scene/band.hpp"
 
 namespace riis {
 
@@ -16,5 +17,6 @@ void check_options(const riis_surface_options &options);
 
 Placement placement_of(const riis_surface_options &options);
 double half_thickness_of(const riis_surface_options &options);
+Band band_of(const riis_surface_options &options);
 
 }  // namespace riis

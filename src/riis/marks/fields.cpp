@@ -30,6 +30,8 @@ void for_each_array(const FieldSet &fields, const Visit &visit) {
   if (has(RIIS_FIELD_RIM)) visit(&NodeFields::rim, std::int64_t{1});
   if (has(RIIS_FIELD_PATCH)) visit(&NodeFields::patch_id, std::int64_t{1});
   if (has(RIIS_FIELD_GRADIENT)) visit(&NodeFields::distance_gradient, fields.n_directions);
+  if (has(field_height)) visit(&NodeFields::height, std::int64_t{1});
+  if (has(field_height) && has(RIIS_FIELD_GRADIENT)) visit(&NodeFields::height_gradient, fields.n_directions);
 }
 
 // The mean of the velocities of the leaflets that tie at a node. A leaflet's velocity is the mean over its tied points. The
@@ -90,6 +92,8 @@ class TriangleFields {
         normals_(need_normals(request.surface, fields, list.size()) ? &request.surface.pseudonormals() : nullptr),
         at_vertices_(scratch.at_vertices.data()),
         ties_(view(scratch.ties)),
+        normal_rates_(view(scratch.normal_rates)),
+        least_way_(1e-9 * request.surface.half_thickness()),
         list_(list),
         made_(made) {
     for (std::int64_t i = 0; has(RIIS_FIELD_GRADIENT) && i < request.surface.n_directions(); ++i)
@@ -120,8 +124,11 @@ class TriangleFields {
         if (next_node(tie) == tie) {
           i = std::lower_bound(list_.node_id.begin() + i, list_.node_id.end(), ties_[tie].point) -
               list_.node_id.begin();
+          if (i == list_.size() || view(list_.node_id)[i] != ties_[tie].point) continue;
           mean = {view(list_.leaflet_id)[i], vector_at(made_.velocity.data() + 3 * i)};
         }
+        // A band that steps aside lists fewer nodes than the search found ties for.
+        if (i == list_.size() || view(list_.node_id)[i] != ties_[tie].point) continue;
         mean.add(view(set_.leaflet_id)[ties_[tie].triangle.triangle], vector_at(mixed[tie - first].number));
         if (next_node(tie + 1) == tie + 1) put_vector(made_.velocity.data(), i, mean.mean());
       }
@@ -153,6 +160,7 @@ class TriangleFields {
     if (has(RIIS_FIELD_NORMAL))
       for (std::int64_t lane = 0; lane < n; ++lane)
         put_vector(made_.normal.data(), first + lane, normal(triangle[lane]));
+    if (has(field_height)) write_heights(eight, first, n);
     if (has(RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) {
       std::int32_t side[pairs_at_once], is_on_rim[pairs_at_once];
       eight.find_sides(*normals_, simd_, has(RIIS_FIELD_SIDE) ? side : nullptr,
@@ -171,6 +179,38 @@ class TriangleFields {
     std::copy_n(list_.distance.data() + first, n, distance);
     simd_.differentiate(eight.pairs, eight.on, distance, vertex, rates_.data(), n_directions(),
                         static_cast<std::int32_t>(n), made_.distance_gradient.data() + n_directions() * first);
+  }
+
+  void write_heights(const EightPoints &eight, std::int64_t first, std::int64_t n) const {
+    alignas(64) double distance[pairs_at_once] = {}, height[pairs_at_once];
+    std::int32_t is_on_rim[pairs_at_once];
+    std::copy_n(list_.distance.data() + first, n, distance);
+    eight.find_heights(*normals_, simd_, distance, height, is_on_rim);
+    std::copy_n(height, n, made_.height.data() + first);
+    for (std::int64_t lane = 0; has(RIIS_FIELD_GRADIENT) && lane < n; ++lane)
+      for (std::int64_t k = 0; k < n_directions(); ++k) {
+        const std::int64_t at = n_directions() * (first + lane) + k;
+        // At an edge or a vertex the way from the closest point is the normal, unless rounding decides its direction.
+        const bool has_way = (eight.on.at_border >> lane & 1) != 0 && !is_on_rim[lane] && distance[lane] > least_way_;
+        view(made_.height_gradient)[at] = has_way ? (height[lane] > 0 ? 1 : -1) * view(made_.distance_gradient)[at]
+                                                  : height_rate(eight, lane, k, is_on_rim[lane] != 0);
+      }
+  }
+
+  // Returns the rate of a height n.(x - p), which is n'.(x - p) - n.V. V is the rate of the closest point p, and n' is the rate
+  // of the unit normal n there. Off the rim n' does not count, because it is at right angles to x - p.
+  double height_rate(const EightPoints &eight, std::int64_t lane, std::int64_t direction, bool is_on_rim) const {
+    const std::int64_t triangle = eight.triangle[lane], *const id = set_.vertex_id.data() + 3 * triangle;
+    const Vec3 weights = EightPoints::lane_of(eight.on.barycentric, lane);
+    const double *const rates = view(rates_)[direction];
+    const auto rate_of = [&](int k) { return vector_at(rates + 3 * id[k]); };
+    const Vec3 rate = weights.x * rate_of(0) + weights.y * rate_of(1) + weights.z * rate_of(2);
+    const Vec3 sum = normals_->at(triangle, {weights.x, weights.y, weights.z}).normal;
+    const double of_point = -dot((1 / length(sum)) * sum, rate);
+    if (!is_on_rim) return of_point;
+    const Vec3 turn = normals_->rate_at_rim(normal_rates_[direction], set_, rates, triangle, weights);
+    return of_point +
+           dot(turn, EightPoints::lane_of(eight.pairs.point, lane) - EightPoints::lane_of(eight.on.point, lane));
   }
 
   std::int64_t n_directions() const { return view(rates_).size(); }
@@ -228,6 +268,8 @@ class TriangleFields {
   const Pseudonormals *normals_;  // null if no field needs them
   const VertexNumbers *at_vertices_;
   ArrayView<const Tie> ties_;
+  ArrayView<const Pseudonormals::Rates> normal_rates_;
+  double least_way_;  // a shorter way from the closest point has no certain direction
   const NodeList &list_;
   NodeFields &made_;
   Vector<const double *> rates_;  // of the vertices, for each direction
@@ -284,7 +326,8 @@ bool NodeFields::has_room(const FieldSet &fields, std::int64_t n) const {
 }
 
 void NodeFields::resize(const FieldSet &fields, std::int64_t n) {
-  for_each_array({all_fields & ~fields.bits, 0}, [&](auto member, std::int64_t) { (this->*member).clear(); });
+  for_each_array({(all_fields | field_height) & ~fields.bits, 0},
+                 [&](auto member, std::int64_t) { (this->*member).clear(); });
   // Resizes the arrays without clearing old entries, because every entry will be written.
   for_each_array(fields, [&](auto member, std::int64_t per_node) { riis::resize(this->*member, per_node * n); });
 }
@@ -292,6 +335,11 @@ void NodeFields::resize(const FieldSet &fields, std::int64_t n) {
 void FieldScratch::prepare(const SearchRequest &request, std::int32_t fields, const FoundNodes &found) {
   if (fields & (RIIS_FIELD_VELOCITY | RIIS_FIELD_UV))
     reserve_amply(at_vertices, request.surface.triangles().n_vertices());
+  normal_rates.clear();
+  if ((fields & field_height) && (fields & RIIS_FIELD_GRADIENT))
+    for (std::int64_t i = 0; i < request.surface.n_directions(); ++i)
+      normal_rates.push_back(
+          request.surface.pseudonormals().rates_of(request.surface.triangles(), request.surface.rates(i).data()));
   std::int64_t n = 0;
   for (const Ties &of_thread : found.ties_by_thread) n += view(of_thread.found).size();
   ties.clear();
@@ -341,7 +389,7 @@ void check_fields(const Surface &surface, std::int32_t fields) {
 
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes) {
   if (surface.other_distance()) return false;
-  if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) return true;
+  if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM | field_height)) return true;
   // If there are fewer triangles than nodes, a normal for each triangle costs less than a normal for each node.
   return (fields & RIIS_FIELD_NORMAL) && n_nodes > surface.triangles().n_triangles();
 }

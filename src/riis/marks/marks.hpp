@@ -71,9 +71,12 @@ struct NodeList {
 // force.
 // In: nodes within the limit, each with the closest triangle that the search found. Out: an array for each requested field.
 
+// A field of every marking with an offset, which no caller can request: NodeFields::height.
+inline constexpr std::int32_t field_height = 1 << 30;
+
 // Fields, and the number of the surface's directions, which RIIS_FIELD_GRADIENT needs.
 struct FieldSet {
-  std::int32_t bits;  // a sum of RIIS_FIELD_*
+  std::int32_t bits;  // a sum of RIIS_FIELD_* and field_height
   std::int64_t n_directions;
 };
 
@@ -82,6 +85,8 @@ struct NodeFields {
   UnfilledVector<double> point, normal, barycentric, velocity;  // (3, n)
   UnfilledVector<double> uv;                                    // (2, n)
   UnfilledVector<double> distance_gradient;                     // (n_directions, n)
+  UnfilledVector<double> height;                                // (n), as Band takes it
+  UnfilledVector<double> height_gradient;                       // (n_directions, n), with height and distance_gradient
   UnfilledVector<std::int32_t> side, rim, patch_id;             // (n)
 
   // Reserves memory for n nodes. After that, resize(m) with m <= n does not throw.
@@ -93,7 +98,8 @@ struct NodeFields {
 // Memory that the next marking's fields reuse.
 struct FieldScratch {
   UnfilledVector<VertexNumbers> at_vertices;
-  std::vector<Tie> ties;  // by node, then by leaflet; a leaflet's closest triangle comes first
+  std::vector<Tie> ties;                           // by node, then by leaflet; a leaflet's closest triangle comes first
+  std::vector<Pseudonormals::Rates> normal_rates;  // for each direction, with an offset
 
   // Reserves memory for the fields of the nodes that a search found, and sorts their ties.
   void prepare(const SearchRequest &request, std::int32_t fields, const FoundNodes &found);
@@ -192,13 +198,13 @@ struct ListedNodes {
 };
 
 struct Marks {
-  ListedNodes within;       // nodes within the distance limit
+  ListedNodes within;       // nodes within the distance limit, or in a band that steps aside
   ListedNodes marked;       // used only if the limit is wider than the half thickness; otherwise `within` has them
   bool was_marked = false;  // false until the first marking
   WantedData data;          // the data of the last marking
   bool limit_is_wider = false;
   double distance_limit = 0;
-  double half_thickness = 0;
+  Band band;                              // of the last marking
   Threads n_threads = 1;                  // number of threads of the last marking
   std::vector<std::int32_t> leaflet_ids;  // the ids of the surface's leaflets, ascending
   riis_mark_stats stats{};

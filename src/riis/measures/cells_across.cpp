@@ -40,7 +40,7 @@ riis_cells_across cells_across(const Marks &marks, const Mesh &mesh, const Adjac
   });
   EdgeLengths<double> all;
   for (const EdgeLengths<double> &block : by_block) all.add(block);
-  return all.across(marks.half_thickness);
+  return all.across(marks.band.half_thickness);
 }
 
 }  // namespace riis

@@ -45,11 +45,19 @@ struct OrificeLimits {
   double slit;   // how far inwards the edge of the perimeter is moved
 };
 
+// Returns the factor c of a surface's band. An offset opens an orifice, because the flow then passes nearer to the leaflet. The
+// zeros of c are fits to flows through trileaflet and mitral valves. A bileaflet valve has flow on both sides, so c stays.
+double rim_reach(const Surface &surface, std::int32_t rim);
+
 // Measures the orifice. `source` is null for triangles from arrays, whose outline is their longest boundary.
 Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const OrificeLimits &limits);
 // Measures the orifice inside the outline of a wall. The wall's own triangles cover nothing.
 Orifice measure_orifice_in_wall(const TriangleSet &set, const SourceValve *source, const TriangleSet &wall,
                                 const OrificeLimits &limits);
+
+// Returns the area of the surface after each vertex has moved by `shift` along its unit normal. The triangles of one leaflet are
+// left out; -1 leaves out none.
+double moved_area(const Surface &surface, double shift, std::int32_t left_out);
 
 // The coaptation of leaflets: their parts within a distance of another leaflet.
 // In: triangles, free edges, a distance. Out: areas and lengths.

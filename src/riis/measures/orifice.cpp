@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measures/measures.hpp"
 
+#include <algorithm>
+#include <array>
 #include <optional>
 
 #include "common/array_view.hpp"
@@ -45,6 +47,31 @@ Orifice measured(const TriangleSet &set, const SeenOutline &from, std::int32_t k
 }
 
 }  // namespace
+
+double rim_reach(const Surface &surface, std::int32_t rim) {
+  const double without = rim == RIIS_RIM_CUT ? rim_reach_cut : rim_reach_round, offset = surface.band().offset;
+  const ValveKind *const kind = surface.source() ? surface.source()->kind : nullptr;
+  if (offset == 0 || (kind && kind->is_rigid)) return without;
+  // The offset at which c vanishes. The flows through mitral valves had cut rims.
+  const double of_cut_rim = kind == &mitral_valve_kind() ? 0.8 : 0.85, of_round_rim = 1.05;
+  return without * std::max(0.0, 1 - offset / (rim == RIIS_RIM_CUT ? of_cut_rim : of_round_rim));
+}
+
+double moved_area(const Surface &surface, double shift, std::int32_t left_out) {
+  const TriangleSet &set = surface.triangles();
+  const Pseudonormals &normals = surface.pseudonormals();
+  double area = 0;
+  for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
+    if (view(set.leaflet_id)[i] == left_out) continue;
+    std::array<Vec3, 3> corner = set.corners(i);
+    for (std::int64_t k = 0; k < 3; ++k) {
+      const Vec3 normal = normals.at(i, {k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0}).normal;
+      view(corner)[k] = view(corner)[k] + (shift / length(normal)) * normal;
+    }
+    area += 0.5 * length(cross(corner[1] - corner[0], corner[2] - corner[0]));
+  }
+  return area;
+}
 
 Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const OrificeLimits &limits) {
   if (source && source->disc.radius > 0) return measured(set, disc_of(*source), RIIS_OUTLINE_DISC, limits);

@@ -14,17 +14,18 @@
 namespace riis {
 namespace {
 
-// Returns K at a distance d. K is (R / eps) delta(d) with delta(d) = (1 + cos(pi d / eps)) / (2 eps). K is 0 for d >= eps.
+// Returns K at a distance d from the middle of the band. K is (R / eps) delta(d) with delta(d) = (1 + cos(pi d / eps)) / (2 eps).
+// K is 0 for d >= eps.
 double coefficient_at(const Resistance &resistance, double distance) {
-  const double eps = resistance.half_thickness;
+  const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;
   return resistance.factor * (1 + std::cos(pi * (distance / eps))) / (2 * eps);
 }
 
-// Returns the derivative of K with respect to the distance at a distance d. The sine is taken from the nearer end of the band. So
-// the derivative has few roundings up to both ends, where K is flat.
+// Returns the derivative of K with respect to the distance from the middle of the band. The sine is taken from the nearer end of
+// the slope. So the derivative has few roundings up to both ends, where K is flat.
 double slope_at(const Resistance &resistance, double distance) {
-  const double eps = resistance.half_thickness;
+  const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;
   const double sine = std::sin(pi * (std::min(distance, eps - distance) / eps));
   return -(resistance.factor / (2 * eps)) * (pi / eps) * sine;
@@ -35,9 +36,34 @@ bool is_beyond_rim(const Resistance &resistance, const ListedNodes &list, std::i
   return resistance.cuts_rim && view(list.fields.rim)[i];
 }
 
+// Returns the distance from the middle of the band at entry i of a list. Outside the band it is at least the half thickness.
+double distance_from_middle(const Band &band, const ListedNodes &list, std::int64_t i) {
+  const double distance = view(list.nodes.distance)[i];
+  if (!band.steps_aside()) return distance;
+  const double height = view(list.fields.height)[i];
+  // Both tests of the band are equal up to rounding. An unmarked node never resists.
+  return band.holds(distance, height) ? band.distance_from_middle(distance, height) : band.half_thickness;
+}
+
 // Returns K at entry i of a list.
 double coefficient_at(const Resistance &resistance, const ListedNodes &list, std::int64_t i) {
-  return is_beyond_rim(resistance, list, i) ? 0 : coefficient_at(resistance, view(list.nodes.distance)[i]);
+  return is_beyond_rim(resistance, list, i)
+             ? 0
+             : coefficient_at(resistance, distance_from_middle(resistance.band, list, i));
+}
+
+// Writes the derivatives of K at entry i of a list.
+void write_gradients(const Resistance &resistance, std::int64_t n_directions, std::int64_t i, ListedNodes &list) {
+  const double from_middle = distance_from_middle(resistance.band, list, i);
+  const double slope = is_beyond_rim(resistance, list, i) ? 0 : slope_at(resistance, from_middle);
+  for (std::int64_t at = n_directions * i; at < n_directions * (i + 1); ++at) {
+    double rate = view(list.fields.distance_gradient)[at];
+    if (resistance.band.steps_aside())
+      rate = from_middle > 0 ? resistance.band.middle_rate(view(list.nodes.distance)[i], from_middle, rate,
+                                                           view(list.fields.height_gradient)[at])
+                             : 0;
+    view(list.k_gradient)[at] = slope * rate;
+  }
 }
 
 // Calls visit(i, K) for each entry i of the range whose K is above 0, in ascending order.
@@ -150,23 +176,31 @@ Vector<std::int64_t> nearest_edges(const Marks &marks, const Resistance &resista
 
 }  // namespace
 
-Resistance checked_resistance(const riis_resistance &resistance, const char *name, double half_thickness,
+Resistance checked_resistance(const riis_resistance &resistance, const char *name, const Band &band,
                               double distance_limit) {
   check_range(name, "R", resistance.R, 0, 1e60);
-  const double eps = resistance.half_thickness == RIIS_AUTO ? half_thickness : resistance.half_thickness;
-  if (!(eps >= 1e-50 && eps <= distance_limit))
-    fail(RIIS_INVALID_ARGUMENT, name, ".half_thickness is ", eps,
-         "; it must be from 1e-50 to the distance limit of the marking, ", distance_limit);
+  const double eps = resistance.half_thickness == RIIS_AUTO ? band.half_thickness : resistance.half_thickness;
+  const Band own = band.with(eps);
+  if (!(eps >= 1e-50 && own.reach() <= distance_limit)) {
+    if (!band.steps_aside())
+      fail(RIIS_INVALID_ARGUMENT, name, ".half_thickness is ", eps,
+           "; it must be from 1e-50 to the distance limit of the marking, ", distance_limit);
+    fail(RIIS_INVALID_ARGUMENT, name, ".half_thickness is ", eps, ", so with the offset ", band.offset,
+         " its band reaches ", own.reach(),
+         "; the half thickness must be at least 1e-50, and its band must be within "
+         "the distance limit of the marking, ",
+         distance_limit);
+  }
   if (resistance.rim != RIIS_RIM_ROUND && resistance.rim != RIIS_RIM_CUT)
     fail(RIIS_INVALID_ARGUMENT, name, ".rim is ", resistance.rim, "; it must be RIIS_RIM_ROUND or RIIS_RIM_CUT");
   if (resistance.reserved != 0)
     fail(RIIS_INVALID_ARGUMENT, name, ".reserved is ", resistance.reserved, "; it must be 0");
-  return {resistance.R / eps, eps, resistance.rim == RIIS_RIM_CUT};
+  return {resistance.R / eps, own, resistance.rim == RIIS_RIM_CUT};
 }
 
 Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks) {
   if (!marks.was_marked) fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
-  const Resistance checked = checked_resistance(resistance, "resistance", marks.half_thickness, marks.distance_limit);
+  const Resistance checked = checked_resistance(resistance, "resistance", marks.band, marks.distance_limit);
   if (checked.cuts_rim) require_field(marks, RIIS_FIELD_RIM, "RIIS_FIELD_RIM", "RIIS_RIM_CUT");
   return checked;
 }
@@ -184,11 +218,7 @@ void list_resistance(const Resistance *resistance, const WantedData &data, const
       if (data.k_u_surface)
         for (std::int64_t at = 3 * i; at < 3 * i + 3; ++at)
           view(list.k_u_surface)[at] = k * view(list.fields.velocity)[at];
-      if (data.n_directions == 0) continue;
-      const double slope =
-          is_beyond_rim(*resistance, list, i) ? 0 : slope_at(*resistance, view(list.nodes.distance)[i]);
-      for (std::int64_t at = data.n_directions * i; at < data.n_directions * (i + 1); ++at)
-        view(list.k_gradient)[at] = slope * view(list.fields.distance_gradient)[at];
+      if (data.n_directions > 0) write_gradients(*resistance, data.n_directions, i, list);
     }
   });
 }
@@ -267,11 +297,14 @@ riis_band_sums band_sums(const Marks &marks, const riis_band &band) {
   require_field(marks, RIIS_FIELD_RIM, "RIIS_FIELD_RIM", "riis_marks_get_band_sums");
   riis_band_sums sums{};
   const NodeList &within = marks.within.nodes;
-  const auto distance = view(within.distance);
   for (std::int64_t i = 0; i < within.size(); ++i) {
-    const std::int32_t side = view(marks.within.fields.side)[i];
-    if (view(marks.within.fields.rim)[i] || side == 0) continue;
-    if (!(distance[i] >= band.inner && distance[i] <= band.outer)) continue;
+    if (view(marks.within.fields.rim)[i]) continue;
+    double distance = view(within.distance)[i], side = view(marks.within.fields.side)[i];
+    if (marks.band.steps_aside()) {
+      side = marks.band.height_over_middle(view(marks.within.fields.height)[i]);
+      distance = std::abs(side);
+    }
+    if (side == 0 || !(distance >= band.inner && distance <= band.outer)) continue;
     const std::int64_t node = view(within.node_id)[i];
     const std::size_t at = side < 0 ? 0 : 1;
     sums.sum[at] += band.weight[node] * band.value[node];

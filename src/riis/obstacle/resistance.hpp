@@ -9,15 +9,15 @@
 
 namespace riis {
 
-// The checked numbers of a riis_resistance. K is above 0 only at nodes within the half thickness.
+// The checked numbers of a riis_resistance. K is above 0 only at nodes in the band.
 struct Resistance {
-  double factor;          // R / eps
-  double half_thickness;  // eps
+  double factor;  // R / eps
+  Band band;      // eps and the surface's offset
   bool cuts_rim;
 };
 
-// Checks the argument `name`, a resistance, for a marking with this half thickness and this distance limit.
-Resistance checked_resistance(const riis_resistance &resistance, const char *name, double half_thickness,
+// Checks the argument `name`, a resistance, for a marking with this band and this distance limit.
+Resistance checked_resistance(const riis_resistance &resistance, const char *name, const Band &band,
                               double distance_limit);
 // Computes K and K u_surface at the nodes of the list, and stores both in the list. The fields of the nodes are already in the
 // list. `resistance` is null if `data` requests neither array.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/make_surface.hpp"
 
+#include <array>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -10,6 +12,7 @@
 #include "base/errors.hpp"
 #include "base/log.hpp"
 #include "base/recycled.hpp"
+#include "common/array_view.hpp"
 #include "paper_distances/patch_distance.hpp"
 #include "pipeline/skirt_of_arrays.hpp"
 #include "triangulate/triangulate.hpp"
@@ -31,6 +34,19 @@ class Stopwatch {
 // Bounds the difference between two approximations of the smooth surface. It adds both errors and a margin for rounding.
 double largest_difference(double triangle_error, const PatchDistance &distance) {
   return (triangle_error + distance.patches().largest_error()) * (1 + 1e-6);
+}
+
+// An offset needs normals that agree. The check makes the normals, which every marking with an offset needs.
+void check_normals_agree(const Surface &surface) {
+  if (!surface.band().steps_aside()) return;
+  const std::array<std::int64_t, 2> triangles = surface.pseudonormals().disagreeing();
+  if (triangles[0] < 0) return;
+  const auto id = [&](std::int64_t triangle) { return view(surface.triangles().triangle_id)[triangle]; };
+  fail(RIIS_INVALID_SURFACE, "options.offset is ", surface.band().offset, ", but the triangles ", id(triangles[0]),
+       " and ", id(triangles[1]),
+       " run along their shared edge in the same direction, so their normals disagree: turn one of them over, or take "
+       "the "
+       "offset 0");
 }
 
 SurfaceSeconds logged(const Surface &surface, const SurfaceSeconds &seconds) {
@@ -68,7 +84,8 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
   if (accuracy.measure != RIIS_MEASURE_TRIANGLES)
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
   // Turns triangles into the scene that answers queries for closest points.
-  surface.make(std::move(triangles), request.half_thickness, request.n_threads);
+  surface.make(std::move(triangles), request.band, request.n_threads);
+  check_normals_agree(surface);
   surface.is_of_valve({placement, valve.disc(), valve.kind().housing, &valve.kind(), valve.is_warped()});
   surface.is_of_patches(std::move(patches));
   if (distance) {
@@ -85,7 +102,8 @@ SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &a
                                                 surface.take_triangles());
   add_skirt_of_arrays(faces, request.placement.scale, request.flip_normals, triangles);
   const double seconds_triangles = stopwatch.lap();
-  surface.make(std::move(triangles), request.half_thickness, request.n_threads);
+  surface.make(std::move(triangles), request.band, request.n_threads);
+  check_normals_agree(surface);
   return logged(surface, {seconds_triangles, stopwatch.lap()});
 }
 

@@ -36,7 +36,7 @@ class FixedTriangulation {
 
 // The values that every surface is made with. Lengths are in mesh units.
 struct SurfaceRequest {
-  double half_thickness;
+  Band band;
   Placement placement;
   bool flip_normals;
   int n_threads;
@@ -72,7 +72,8 @@ struct SurfaceSeconds {
 // Both functions replace the content of `surface` and reuse its memory. After a failure, `surface` can only be made again. The
 // first function fails as the stages of the pipeline do. It also fails with RIIS_INVALID_PARAMETER if the valve has no area or
 // if the two states come from valves of different builds. Without an earlier state the vertices have no velocity. `fixed` is
-// null unless accuracy.is_fixed.
+// null unless accuracy.is_fixed. With an offset, both functions fail with RIIS_INVALID_SURFACE if two triangles run along a
+// shared edge in the same direction.
 SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const SurfaceRequest &request,
                             const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface);
 SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,

@@ -8,6 +8,7 @@
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
+#include "search/band_nodes.hpp"
 
 namespace riis {
 namespace {
@@ -82,12 +83,25 @@ WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked
   WantedData data;
   data.fields = data.given_fields = asked.fields;
   data.k = asked.resistance != nullptr;
+  if (request.surface.band().steps_aside()) data.fields |= field_height;
   if (asked.fields & RIIS_FIELD_GRADIENT) data.n_directions = request.surface.n_directions();
   if (!data.k) return data;
   if (asked.resistance->cuts_rim) data.fields |= RIIS_FIELD_RIM;
   data.k_u_surface = !request.surface.other_distance() && !request.surface.triangles().velocity.empty();
   if (data.k_u_surface) data.fields |= RIIS_FIELD_VELOCITY;
   return data;
+}
+
+// Copies the nodes in the band from a list with heights.
+void take_marked(const Band &band, const ListedNodes &within, NodeList &marked) {
+  std::int64_t n = 0;
+  for (std::int64_t i = 0; i < within.nodes.size(); ++i) {
+    const double distance = view(within.nodes.distance)[i];
+    if (!band.holds(distance, view(within.fields.height)[i])) continue;
+    marked.set(n++, view(within.nodes.node_id)[i], distance, view(within.nodes.triangle_id)[i],
+               view(within.nodes.leaflet_id)[i]);
+  }
+  marked.resize(n);
 }
 
 // Gives both lists room for their new entries. If one list lacks room, both are replaced, but only after all memory for the
@@ -127,18 +141,24 @@ void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks
   const WantedData data = wanted_data(request, marking);
   request.ties = ties_for(request.surface, data.fields);
   const auto [search, report] = run(request, search_for(request, marking.search), marks);
-  const bool limit_is_wider = request.distance_limit > request.surface.half_thickness();
+  const Band &band = request.surface.band();
+  const bool limit_is_wider =
+      band.steps_aside() ? !marking.listed : request.distance_limit > request.surface.half_thickness();
+  // With an offset, only the fields tell which nodes are marked.
+  const bool sorts_marked = limit_is_wider && !band.steps_aside();
+  if (marking.listed) keep_in_band(request, *marking.listed, marks.found);
   // Everything that may fail comes first, so that a failure leaves the old lists intact.
   marks.field_scratch.prepare(request, data.fields, marks.found);
   if (need_normals(request.surface, data.fields, marks.found.size())) request.surface.pseudonormals();
   marks.leaflet_ids.reserve(request.surface.leaflet_ids().size());
-  make_room(data,
-            prepare_order(request.surface, marks.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
-                          marks.order_scratch),
-            marks);
-  put_in_order(request.surface, limit_is_wider, request.mesh.nodes().n, request.n_threads, marks.order_scratch,
+  OrderScratch::Counts n = prepare_order(request.surface, marks.found, sorts_marked, request.mesh.nodes().n,
+                                         request.n_threads, marks.order_scratch);
+  if (limit_is_wider && !sorts_marked) n.n_marked = n.n_within;
+  make_room(data, n, marks);
+  put_in_order(request.surface, sorts_marked, request.mesh.nodes().n, request.n_threads, marks.order_scratch,
                marks.within.nodes, marks.marked.nodes);
   make_fields(request, data.fields, marks.within.nodes, marks.field_scratch, marks.within.fields);
+  if (limit_is_wider && !sorts_marked) take_marked(band, marks.within, marks.marked.nodes);
   if (limit_is_wider)
     select_fields(data.field_set(), marks.within.nodes, marks.within.fields, marks.marked.nodes, marks.marked.fields);
   for (ListedNodes *list : {&marks.within, &marks.marked})
@@ -148,7 +168,7 @@ void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks
   marks.was_marked = true;
   marks.limit_is_wider = limit_is_wider;
   marks.distance_limit = request.distance_limit;
-  marks.half_thickness = request.surface.half_thickness();
+  marks.band = band;
   marks.n_threads = request.n_threads;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   marks.stats = {request.mesh.nodes().n,

@@ -6,6 +6,7 @@
 
 #include "marks/marks.hpp"
 #include "obstacle/resistance.hpp"
+#include "scene/band.hpp"
 #include "search/search.hpp"
 
 namespace riis {
@@ -15,6 +16,7 @@ struct MarkingRequest {
   std::int32_t search;           // RIIS_SEARCH_*
   std::int32_t fields;           // a sum of RIIS_FIELD_*
   const Resistance *resistance;  // null if not wanted
+  const Band *listed = nullptr;  // if not null, only the nodes of this band are listed. It must step aside
 };
 
 // Marks the nodes. If it fails, the marks' lists keep their content and their addresses.

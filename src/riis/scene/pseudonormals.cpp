@@ -31,6 +31,9 @@ std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
   return {at_a, at_b, std::max(0.0, pi - at_a - at_b)};
 }
 
+// The normals of faces folded onto each other cancel up to rounding. A triangle's own normal then replaces such a sum.
+bool has_direction(Vec3 sum) { return dot(sum, sum) > 1e-18; }
+
 // Sorts edges by their upper ends. Most lists are short and already in the order of their slots. Edges with equal ends keep that
 // order. The standard library's stable sort would allocate memory.
 template <class Edge>
@@ -137,7 +140,10 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
     while (first != end) {
       Vec3 sum{0, 0, 0};
       const Edge *last = first;
-      for (; last != end && last->upper == first->upper; ++last) sum = sum + view(face_)[last->slot / 3];
+      for (; last != end && last->upper == first->upper; ++last) {
+        sum = sum + view(face_)[last->slot / 3];
+        for (const Edge *other = first; other != last; ++other) note_directions(other->slot, last->slot);
+      }
       if (set.rim_sides.empty() && last - first == 1) note_rim(first->slot);
       for (; first != last; ++first) view(edge_)[first->slot] = sum;
     }
@@ -149,6 +155,12 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
 void Pseudonormals::note_rim(std::int64_t slot) {
   const auto [lower, upper] = ends_of(slot);
   view(edge_is_rim_)[slot] = view(corner_is_rim_)[lower] = view(corner_is_rim_)[upper] = 1;
+}
+
+// Records two triangles whose edges with the same ends run in the same direction.
+void Pseudonormals::note_directions(std::int64_t slot, std::int64_t other) {
+  if (disagreeing_[0] >= 0 || view(position_)[slot] != view(position_)[other]) return;
+  disagreeing_ = {slot / 3, other / 3};
 }
 
 void Pseudonormals::note_rim_sides(const TriangleSet &set) {
@@ -186,8 +198,107 @@ Pseudonormals::Feature Pseudonormals::at_border(std::int64_t triangle, Vec3 bary
   const bool is_vertex = kind == Kind::vertex;
   const Vec3 normal = is_vertex ? view(corner_)[position] : view(edge_)[slot];
   const bool is_on_rim = (is_vertex ? view(corner_is_rim_)[position] : view(edge_is_rim_)[slot]) != 0;
-  // The normals of faces folded onto each other cancel up to rounding. The triangle's own normal is then used.
-  return {dot(normal, normal) > 1e-18 ? normal : of_face(triangle), is_on_rim};
+  return {has_direction(normal) ? normal : of_face(triangle), is_on_rim};
+}
+
+namespace {
+
+// The corners of a triangle and their rates.
+struct MovingTriangle {
+  std::array<Vec3, 3> corner, rate;
+
+  MovingTriangle(const TriangleSet &set, const double *rates, std::int64_t triangle) : corner(set.corners(triangle)) {
+    const std::int64_t *const id = set.vertex_id.data() + 3 * triangle;
+    for (std::int64_t k = 0; k < 3; ++k) {
+      const double *const v = rates + 3 * id[k];
+      view(rate)[k] = {v[0], v[1], v[2]};
+    }
+  }
+
+  // Both edges of a corner, and their rates.
+  struct Edges {
+    Vec3 ab, ac, ab_rate, ac_rate;
+  };
+  Edges edges_of(std::int64_t k) const {
+    const std::int64_t b = (k + 1) % 3, c = (k + 2) % 3;
+    return {view(corner)[b] - view(corner)[k], view(corner)[c] - view(corner)[k], view(rate)[b] - view(rate)[k],
+            view(rate)[c] - view(rate)[k]};
+  }
+
+  Vec3 normal_rate(Vec3 normal) const {
+    const auto [ab, ac, ab_rate, ac_rate] = edges_of(0);
+    const Vec3 moved = cross(ab_rate, ac) + cross(ab, ac_rate);
+    return (1 / length(cross(ab, ac))) * (moved - dot(normal, moved) * normal);
+  }
+
+  struct Angle {
+    double value, rate;
+  };
+  Angle angle_at(std::int64_t k, Vec3 normal) const {
+    const auto [ab, ac, ab_rate, ac_rate] = edges_of(k);
+    const double sine = length(cross(ab, ac)), cosine = dot(ab, ac);
+    const double sine_rate = dot(normal, cross(ab_rate, ac) + cross(ab, ac_rate)),
+                 cosine_rate = dot(ab_rate, ac) + dot(ab, ac_rate);
+    return {std::atan2(sine, cosine), (cosine * sine_rate - sine * cosine_rate) / (sine * sine + cosine * cosine)};
+  }
+};
+
+}  // namespace
+
+Pseudonormals::Rates Pseudonormals::rates_of(const TriangleSet &set, const double *rates) const {
+  const std::int64_t n = set.n_triangles();
+  Rates made;
+  resize(made.rim_edge, 3 * n);
+  resize(made.corner, view(corner_).size());
+  // The edges of all triangles with the ends of an edge of the rim, in the order of their ends.
+  struct Edge {
+    Ends ends;
+    std::int64_t slot;
+  };
+  Vector<Edge> edges;
+  for (std::int64_t slot = 0; slot < 3 * n; ++slot) {
+    const Ends ends = ends_of(slot);
+    if (view(corner_is_rim_)[ends.lower] && view(corner_is_rim_)[ends.upper]) edges.push_back({ends, slot});
+  }
+  const auto precedes = [](const Edge &a, const Edge &b) {
+    return a.ends.lower != b.ends.lower   ? a.ends.lower < b.ends.lower
+           : a.ends.upper != b.ends.upper ? a.ends.upper < b.ends.upper
+                                          : a.slot < b.slot;
+  };
+  std::sort(edges.begin(), edges.end(), precedes);
+  Vector<Vec3> of_face;
+  resize(of_face, n);
+  for (std::int64_t i = 0; i < n; ++i) {
+    const MovingTriangle moving(set, rates, i);
+    const Vec3 normal = view(face_)[i], rate = view(of_face)[i] = moving.normal_rate(normal);
+    for (std::int64_t k = 0; k < 3; ++k) {
+      const MovingTriangle::Angle angle = moving.angle_at(k, normal);
+      Vec3 &sum = view(made.corner)[view(position_)[3 * i + k]];
+      sum = sum + angle.rate * normal + angle.value * rate;
+    }
+  }
+  for (auto first = edges.begin(); first != edges.end();) {
+    Vec3 sum{0, 0, 0};
+    auto last = first;
+    const auto is_same = [&](const Edge &edge) {
+      return edge.ends.lower == first->ends.lower && edge.ends.upper == first->ends.upper;
+    };
+    for (; last != edges.end() && is_same(*last); ++last) sum = sum + view(of_face)[last->slot / 3];
+    for (; first != last; ++first) view(made.rim_edge)[first->slot] = sum;
+  }
+  return made;
+}
+
+Vec3 Pseudonormals::rate_at_rim(const Rates &rates, const TriangleSet &set, const double *vertex_rates,
+                                std::int64_t triangle, Vec3 barycentric) const {
+  const auto [kind, corner] = simplex_of(barycentric);
+  const std::int64_t slot = 3 * triangle + corner, position = view(position_)[slot];
+  const Vec3 sum = kind == Kind::vertex ? view(corner_)[position] : view(edge_)[slot];
+  if (!has_direction(sum)) return MovingTriangle(set, vertex_rates, triangle).normal_rate(view(face_)[triangle]);
+  const Vec3 rate = kind == Kind::vertex ? view(rates.corner)[position] : view(rates.rim_edge)[slot];
+  const double size = length(sum);
+  const Vec3 normal = (1 / size) * sum;
+  return (1 / size) * (rate - dot(normal, rate) * normal);
 }
 
 }  // namespace riis

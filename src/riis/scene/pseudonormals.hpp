@@ -3,7 +3,7 @@
 // on an edge or a vertex (J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted pseudonormal", IEEE
 // TVCG 11(3), 2005). On an open surface, the side refers to the nearest piece of the surface. The same edges and vertices
 // also give the rim of the surface.
-// In: triangles. Out: a normal for any closest point, and whether the point is on the rim.
+// In: triangles. Out: a normal for any closest point, its rate, and whether the point is on the rim.
 #pragma once
 
 #include <array>
@@ -50,6 +50,20 @@ class Pseudonormals {
   // Returns the normal and the rim for a point that may be on an edge or a vertex.
   Feature at_border(std::int64_t triangle, Vec3 barycentric) const;
 
+  // Returns two triangles that run along a shared edge in the same direction, or -1 for both if no two do.
+  const std::array<std::int64_t, 2> &disagreeing() const { return disagreeing_; }
+
+  // The rates of the sums of normals while the vertices move. An edge of the rim and a vertex have such a sum.
+  struct Rates {
+    Vector<Vec3> rim_edge;  // three for each triangle; 0 for edges off the rim
+    Vector<Vec3> corner;    // one for each distinct position
+  };
+  // Computes the rates, if the vertices of the set move at `rates`, (3, n_vertices).
+  Rates rates_of(const TriangleSet &set, const double *rates) const;
+  // Returns the rate of the unit normal at a closest point on the rim.
+  Vec3 rate_at_rim(const Rates &rates, const TriangleSet &set, const double *vertex_rates, std::int64_t triangle,
+                   Vec3 barycentric) const;
+
  private:
   // The vertex, edge or face on which barycentric weights lie. `corner` is the vertex, or the corner where the edge begins.
   enum class Kind { face, edge, vertex };
@@ -66,6 +80,7 @@ class Pseudonormals {
   Ends ends_of(std::int64_t slot) const;
 
   void note_rim(std::int64_t slot);
+  void note_directions(std::int64_t slot, std::int64_t other);
   void note_rim_sides(const TriangleSet &set);
 
   UnfilledShortVector<Vec3> face_;              // one for each triangle
@@ -73,6 +88,7 @@ class Pseudonormals {
   Vector<Vec3> corner_;                         // one for each distinct position
   UnfilledShortVector<std::int32_t> position_;  // three for each triangle: the number of each corner's position
   Vector<std::uint8_t> edge_is_rim_, corner_is_rim_;
+  std::array<std::int64_t, 2> disagreeing_{-1, -1};
 };
 
 }  // namespace riis

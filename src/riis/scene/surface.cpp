@@ -46,9 +46,9 @@ void collect_leaflets(const TriangleSet &set, std::vector<std::int32_t> &ids) {
 
 }  // namespace
 
-void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) {
+void Surface::make(TriangleSet triangles, const Band &band, int n_threads) {
   triangles_ = std::move(triangles);
-  half_thickness_ = half_thickness;
+  band_ = band;
   collect_leaflets(triangles_, leaflet_ids_);
   attachment_.forget() = {};
   leaflets_.forget() = {};

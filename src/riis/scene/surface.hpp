@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface that answers queries. It has triangles, their scene, the half thickness, and optionally another method to measure
+// A surface that answers queries. It has triangles, their scene, the band around them, and optionally another method to measure
 // distances.
 // In: triangles. Out: closest triangles, sides.
 #pragma once
@@ -14,6 +14,7 @@
 #include "geometry/placement.hpp"
 #include "motion/vertex_rates.hpp"
 #include "paper_distances/patch_distance.hpp"
+#include "scene/band.hpp"
 #include "scene/edges.hpp"
 #include "scene/pseudonormals.hpp"
 #include "scene/triangle_scene.hpp"
@@ -34,7 +35,7 @@ struct SourceValve {
 class Surface {
  public:
   // Makes the surface. After a motion, another call reuses its memory. After a failure the surface must not be used.
-  void make(TriangleSet triangles, double half_thickness, int n_threads);
+  void make(TriangleSet triangles, const Band &band, int n_threads);
   // Moves the triangles out, so that the next surface's triangles can reuse their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }
   // Sets another method to measure distances. Before this call, distances are to the triangles.
@@ -59,7 +60,8 @@ class Surface {
 
   const TriangleSet &triangles() const { return triangles_; }
   const TriangleScene &scene() const { return scene_; }
-  double half_thickness() const { return half_thickness_; }
+  const Band &band() const { return band_; }
+  double half_thickness() const { return band_.half_thickness; }
   // The leaflet ids of the triangles, each once, ascending.
   const std::vector<std::int32_t> &leaflet_ids() const { return leaflet_ids_; }
   // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
@@ -93,7 +95,7 @@ class Surface {
 
   TriangleSet triangles_;
   TriangleScene scene_;
-  double half_thickness_ = 0;
+  Band band_;
   std::vector<std::int32_t> leaflet_ids_;
   // The area is computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
   mutable std::atomic<double> area_{not_known};

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <tuple>
 
 #include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
+#include "search/band_nodes.hpp"
 #include "search/search.hpp"
 
 namespace riis {
@@ -22,18 +22,20 @@ struct Edge {
 };
 
 // Returns a length such that no edge of at most this length leaks. If such an edge meets the surface in a point, its nearer node
-// is at most half the length from that point. So the node is within the half thickness and marked. The margins are several times
-// the rounding, so this also holds for computed distances. Returns -1 if marks may be missing, or if they do not follow the
-// distances to the triangles. In this case no edge counts as short.
+// is at most half the length from that point. So the node is within the half thickness and marked. With an offset, only smaller
+// distances are sure to be in the band. The margins are several times the rounding, so this also holds for computed distances.
+// Returns -1 if marks may be missing, or if they do not follow the distances to the triangles. In this case no edge counts as
+// short.
 double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
   if (surface.other_distance() || !marks.stats.complete) return -1;
-  return 2 * surface.half_thickness() * (1 - 0x1p-40) - 4 * surface.scene().rounding();
+  return 2 * surface.band().sure_distance() * (1 - 0x1p-40) - 4 * surface.scene().rounding();
 }
 
 // The search of one thread and its memory.
 struct alignas(64) Finder {
   const SearchRequest *request = nullptr;
   const std::vector<std::int64_t> *marked = nullptr;
+  const NodePlaces *places = nullptr;
   double too_short = 0;
   std::vector<std::int32_t> room;
   std::vector<Edge> found;
@@ -51,6 +53,13 @@ struct alignas(64) Finder {
       crosses = crosses || segment_meets_triangle(p, q, {{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}}});
     });
     return crosses;
+  }
+
+  // With an offset, an edge may have both ends outside the band on one side, where a fold of the surface is sharp.
+  bool only_cuts_off_fold(Vec3 p, Vec3 q) const {
+    if (!request->surface.band().steps_aside()) return false;
+    const NodePlace from = places->of(p), to = places->of(q);
+    return !from.is_beyond_rim && !to.is_beyond_rim && from.side == to.side;
   }
 
   // Returns false only if no point of the surface is within the radius of p. One such query often replaces the queries of many
@@ -81,7 +90,8 @@ struct alignas(64) Finder {
       const double length = distance(p, q);
       if (length <= too_short || !is_open(j)) return;
       // Each edge is followed from the end with the lower number, even if the edge was found in the other end's row.
-      if (crosses(i < j ? p : q, i < j ? q : p)) found.push_back({std::min(i, j), std::max(i, j), length});
+      if (crosses(i < j ? p : q, i < j ? q : p) && !only_cuts_off_fold(p, q))
+        found.push_back({std::min(i, j), std::max(i, j), length});
     });
   }
 };
@@ -94,9 +104,11 @@ std::vector<Edge> leaking_edges(const SearchRequest &request, const Marks &marks
   if (edges.longest <= too_short) return found;
   std::vector<Finder> finders;
   resize(finders, request.n_threads);
+  const NodePlaces places(request);
   for (Finder &finder : finders) {
     finder.request = &request;
     finder.marked = &marks.marked_nodes().node_id;
+    finder.places = &places;
     finder.too_short = too_short;
   }
   const auto n_blocks = view(edges.blocks).size();
@@ -111,19 +123,11 @@ std::vector<Edge> leaking_edges(const SearchRequest &request, const Marks &marks
   return found;
 }
 
-// Returns the distance of the edge's nearer node, with the same bits as in the marking.
-double closing_distance(const SearchRequest &request, const Edge &edge) {
-  const StridedPoints &nodes = request.mesh.nodes();
-  return with_distances(request.surface, request.instructions, [&](const auto &distances) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return std::sqrt(std::min(distances.closest(nodes[edge.a], infinity).distance_sq,
-                              distances.closest(nodes[edge.b], infinity).distance_sq));
-  });
-}
-
 Leaks listed(const SearchRequest &request, const std::vector<Edge> &edges) {
   constexpr std::int64_t edges_per_task = 64, few = 512;
   const int n_threads = request.n_threads.for_part(view(edges).size(), few);
+  const StridedPoints &nodes = request.mesh.nodes();
+  const NodePlaces places(request);
   Leaks list;
   list.node_id.resize(2 * edges.size());
   list.length.resize(edges.size());
@@ -134,7 +138,9 @@ Leaks listed(const SearchRequest &request, const std::vector<Edge> &edges) {
       view(list.node_id)[2 * i] = edge.a;
       view(list.node_id)[2 * i + 1] = edge.b;
       view(list.length)[i] = edge.length;
-      view(list.distance)[i] = closing_distance(request, edge);
+      // The least half thickness that marks an end, with the same bits as in the marking.
+      view(list.distance)[i] =
+          std::min(places.of(nodes[edge.a]).half_thickness, places.of(nodes[edge.b]).half_thickness);
     }
   });
   return list;

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -13,36 +12,39 @@
 #include "base/recycled.hpp"
 #include "parallel/parallel_for.hpp"
 #include "pipeline/mark_nodes.hpp"
+#include "search/band_nodes.hpp"
 #include "search/search.hpp"
 
 namespace riis {
 namespace {
 
-// Returns the largest distance of the nodes to the surface. Refuses nodes in the band.
-double largest_distance(const SearchRequest &request, const char *name, ArrayView<const std::int64_t> ids) {
+// Nodes are ordered by the half thickness that marks each. Without an offset, this is the distance of the node.
+
+// Returns the largest half thickness that marks one of the nodes. Refuses nodes in the band.
+double largest_thickness(const SearchRequest &request, const char *name, ArrayView<const std::int64_t> ids) {
   constexpr std::int64_t nodes_per_task = 256, few = 2048;
   const int n_threads = request.n_threads.for_part(ids.size(), few);
   const double half_thickness = request.surface.half_thickness();
-  std::vector<double> distance;
-  resize(distance, ids.size());
-  with_distances(request.surface, request.instructions, [&](const auto &distances) {
-    parallel_for_ranges(ids.size(), nodes_per_task, n_threads, [&](const Range &range, int) {
-      for (std::int64_t i = range.begin; i < range.end; ++i) {
-        const Vec3 p = checked_point(request.mesh.nodes(), ids[i], "node", RIIS_INVALID_MESH);
-        const double d = std::sqrt(distances.closest(p, std::numeric_limits<double>::infinity()).distance_sq);
-        if (!(d > half_thickness))
-          fail(RIIS_INVALID_ARGUMENT, "ends.", name, "[", i, "] is node ", ids[i],
-               ", in the band: its distance to the surface, ", d, ", is at most the half thickness, ", half_thickness);
-        view(distance)[i] = d;
-      }
-    });
+  const NodePlaces places(request);
+  std::vector<double> marking;
+  resize(marking, ids.size());
+  parallel_for_ranges(ids.size(), nodes_per_task, n_threads, [&](const Range &range, int) {
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
+      const Vec3 p = checked_point(request.mesh.nodes(), ids[i], "node", RIIS_INVALID_MESH);
+      const double d = view(marking)[i] = places.of(p).half_thickness;
+      if (!(d > half_thickness))
+        fail(RIIS_INVALID_ARGUMENT, "ends.", name, "[", i, "] is node ", ids[i], ", in the band: ",
+             request.surface.band().steps_aside() ? "the half thickness that marks it, "
+                                                  : "its distance to the surface, ",
+             d, ", is at most the half thickness, ", half_thickness);
+    }
   });
-  return *std::max_element(distance.begin(), distance.end());
+  return *std::max_element(marking.begin(), marking.end());
 }
 
 // A node that is not open yet.
 struct Candidate {
-  double distance;
+  double distance;  // the half thickness that marks it
   std::int64_t node;
 
   // Puts the farthest node first. Among equal distances, the lowest id comes first.
@@ -73,11 +75,12 @@ class Opening {
     std::sort(to_ids_.begin(), to_ids_.end());
   }
 
-  // Opens the nodes beyond the limit. Returns whether they join the ends.
+  // Opens the nodes that the half thickness `limit` leaves unmarked. Returns whether they join the ends.
   bool joins_beyond(double limit) {
+    const Band band = request_.surface.band().with(limit);
     SearchRequest within = request_;
-    within.distance_limit = limit;
-    mark_nodes(within, {RIIS_SEARCH_AUTO, 0, nullptr}, near_);
+    within.distance_limit = band.reach();
+    mark_nodes(within, {RIIS_SEARCH_AUTO, 0, nullptr, band.steps_aside() ? &band : nullptr}, near_);
     label_open_regions({adjacency_, request_.node_mask, near_.within.nodes.node_id}, request_.n_threads, view(parent_));
     OpenSets sets = this->sets();
     sets.open(from_);
@@ -116,9 +119,14 @@ class Opening {
 
   std::vector<Candidate> candidates(double nearest) const {
     const NodeList &within = near_.within.nodes;
+    const Band &band = near_.band;
     std::vector<Candidate> made;
-    for (std::int64_t i = 0; i < within.size(); ++i)
-      if (view(within.distance)[i] > nearest) made.push_back({view(within.distance)[i], view(within.node_id)[i]});
+    for (std::int64_t i = 0; i < within.size(); ++i) {
+      const double distance = view(within.distance)[i];
+      const double marking =
+          band.steps_aside() ? band.marking_thickness(distance, view(near_.within.fields.height)[i]) : distance;
+      if (marking > nearest) made.push_back({marking, view(within.node_id)[i]});
+    }
     std::sort(made.begin(), made.end());
     return made;
   }
@@ -150,17 +158,17 @@ class Opening {
   UnfilledVector<std::int64_t> parent_;
 };
 
-// No node has so large a distance.
-constexpr double beyond_all = 10 * max_coordinate;
+// Returns a half thickness that marks every node.
+double thickest(const Band &band) { return 10 * max_coordinate / (1 - std::abs(band.offset)); }
 
 }  // namespace
 
 riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends) {
   const auto start = std::chrono::steady_clock::now();
-  const double half_thickness = request.surface.half_thickness();
-  // The least distance of a path is at most the distance of each of its ends.
+  const double half_thickness = request.surface.half_thickness(), beyond_all = thickest(request.surface.band());
+  // The least half thickness that marks a node of a path is at most the half thickness for each of its ends.
   const double widest =
-      std::min(largest_distance(request, "from", ends.from), largest_distance(request, "to", ends.to));
+      std::min(largest_thickness(request, "from", ends.from), largest_thickness(request, "to", ends.to));
   Opening opening(request, ends);
   double limit = half_thickness, beyond = -1, growth = 2;
   for (int step = 0; opening.joins_beyond(limit); ++step) {

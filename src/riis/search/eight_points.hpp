@@ -2,6 +2,7 @@
 // Up to eight points, each with its closest triangle. The kernels compute the data about their closest points together.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -41,6 +42,22 @@ struct EightPoints {
       if (is_on_rim) is_on_rim[lane] = feature.is_on_rim ? 1 : 0;
     }
     if (side) simd.find_sides(pairs, on, normal_there, side);
+  }
+
+  // Finds the height of each point over its closest point, as Band takes it, and whether the closest point is on the rim. The
+  // height is at most the point's distance in magnitude.
+  void find_heights(const Pseudonormals &normals, const Kernels &simd, const double *distance, double *height,
+                    std::int32_t *is_on_rim) const {
+    std::int32_t side[pairs_at_once];
+    find_sides(normals, simd, side, is_on_rim);
+    for (std::int64_t lane = 0; lane < pairs_at_once; ++lane) height[lane] = side[lane] * distance[lane];
+    for (std::uint32_t lanes = on.at_border; lanes; lanes &= lanes - 1) {
+      const std::int64_t lane = __builtin_ctz(lanes);
+      if (!is_on_rim[lane]) continue;
+      const Vec3 normal = normals.at_border(triangle[lane], lane_of(on.barycentric, lane)).normal;
+      const double over = dot(lane_of(pairs.point, lane) - lane_of(on.point, lane), normal) / length(normal);
+      height[lane] = std::max(-distance[lane], std::min(over, distance[lane]));
+    }
   }
 
   static void set_lane(Lanes &to, std::int64_t lane, Vec3 v) {
