@@ -10,13 +10,14 @@ sources=$(readlink -f "$1") scratch=$2
 plant() {
   local long
   rm -rf "$scratch"
-  mkdir -p "$scratch/src" "$scratch/build-lint"
+  mkdir -p "$scratch/src" "$scratch/build-lint/src/riis/CMakeFiles/riis_objects.dir/Unity"
   cd "$scratch"
   cp "$sources/.clang-format" "$sources/.clang-tidy" .
   printf -v long '%0150d' 0
   printf '#include <string>\n\nstd::string twice(const std::string &text) { return text + text; }\n' >src/twice.cpp
   printf '[{"directory": "%s",\n  "command": "c++ -std=c++17 -c src/twice.cpp",\n  "file": "%s/src/twice.cpp"\n}]\n' \
     "$PWD" "$PWD" >build-lint/compile_commands.json
+  echo "#include \"$PWD/src/twice.cpp\"" >build-lint/src/riis/CMakeFiles/riis_objects.dir/Unity/unity_0_cxx.cxx
   # shellcheck disable=SC2016 # the planted scripts' own variables
   printf '#!/bin/bash\n# shellcheck source=steps.sh\n. steps.sh\nstep "$1"\n' >run
   # shellcheck disable=SC2016
@@ -57,7 +58,7 @@ other_version=$(
 "$lint" "$sources" tools
 
 plant
-for part in format shell columns python tidy; do accepts "$part"; done
+for part in format shell columns python includes tidy; do accepts "$part"; done
 echo 'int  f( ){return 0;}' >>src/twice.cpp
 refuses format 'src/twice.cpp:4:'
 # shellcheck disable=SC2016
@@ -81,6 +82,8 @@ printf '\n```sh\n%0131d\n```\n' 0 >>page.md
 refuses columns 'page.md:14: 131 columns; at most 130'
 echo 'import os' >>tool.py
 refuses python "'os' imported but unused"
+echo 'std::vector<int> numbers;' >>src/twice.cpp
+refuses includes "'vector' in namespace 'std' does not name a template type"
 printf '\nstd::string lost(std::string text) {\n  std::string kept = std::move(text);\n  return kept + text;\n}\n' >>src/twice.cpp
 refuses tidy bugprone-use-after-move
 rm -rf "$scratch"

@@ -6,6 +6,7 @@
 #   shell    shellcheck reports nothing; a script without #! is checked as part of the script that reads it
 #   columns  no line is too long (check_columns.py)
 #   python   pyflakes reports nothing
+#   includes each file of the core compiles alone, though other builds read the core in batches or with a precompiled header
 #   tidy     clang-tidy 14 (.clang-tidy) reports nothing in the files of build-lint/compile_commands.json
 #   tools    the programs for the other parts are installed; status 77 if one is missing or of another version
 # shellcheck disable=SC2317 # the parts are called by their names
@@ -88,6 +89,12 @@ columns() {
 python() {
   ending '\.py$'
   "$python" -m pyflakes "${found[@]}"
+}
+
+includes() {
+  mapfile -t found < <(sed -nE 's/^#include "(.*)"$/\1/p' build-lint/src/riis/CMakeFiles/riis_objects.dir/Unity/*.cxx)
+  printf '%s\0' "${found[@]}" | xargs -0 -P "$(nproc)" -n 4 \
+    g++ -std=c++17 -fopenmp -DRIIS_X86_KERNELS -Iinclude -Isrc/riis -Isrc -w -fsyntax-only
 }
 
 tidy() {
