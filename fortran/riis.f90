@@ -53,7 +53,7 @@ module riis
   use, intrinsic :: iso_fortran_env, only: int32
   use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_c_text, &
     riis_c_text_length, riis_last_error, riis_band_sums, riis_passage, riis_leaflet, riis_orifice, riis_coaptation, riis_gap, &
-    riis_first_passage, riis_cells_across, riis_warp_info, &
+    riis_first_passage, riis_area_range, riis_cells_across, riis_warp_info, &
     RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, &
     RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, RIIS_INTERNAL_ERROR, &
     RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
@@ -70,7 +70,7 @@ module riis
     RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE, &
     RIIS_OUTLINE_NONE, RIIS_OUTLINE_DISC, RIIS_OUTLINE_ATTACHMENT, RIIS_OUTLINE_BOUNDARY, RIIS_OUTLINE_WALL, &
     RIIS_FIRST_PASSAGE_FOUND, RIIS_FIRST_PASSAGE_ALWAYS, &
-    RIIS_FIRST_PASSAGE_NEVER, RIIS_FIRST_PASSAGE_NONE, RIIS_ALL_LEAFLETS, &
+    RIIS_FIRST_PASSAGE_NEVER, RIIS_FIRST_PASSAGE_NONE, RIIS_ALL_LEAFLETS, RIIS_AREA_GEOMETRIC, RIIS_AREA_EFFECTIVE, &
     RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COAPTATION, RIIS_LANDMARK_ANNULUS, &
     RIIS_LANDMARK_ANTERIOR_HORN, RIIS_LANDMARK_POSTERIOR_HORN, RIIS_LANDMARK_TRIGONE, RIIS_LANDMARK_POSTEROMEDIAL, &
     RIIS_LANDMARK_ANTEROLATERAL, RIIS_LANDMARK_HINGE, RIIS_LANDMARK_ATTACHMENT, RIIS_SIZE_KEPT, RIIS_SIZE_DETERMINED, &
@@ -91,7 +91,7 @@ module riis
     riis_get_coaptation, riis_get_gap, &
     riis_set_skirt_to_wall, &
     riis_get_leak, riis_get_cells_across, &
-    riis_get_swept_volume, riis_find_first_passage
+    riis_get_swept_volume, riis_find_by_area, riis_find_first_passage
   use riis_placing, only: riis_place
   use riis_laws, only: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, &
     riis_opening_angle_state, riis_opening_from_table, riis_opening_from_times, riis_opening_advance
@@ -101,11 +101,11 @@ module riis
     riis_marks, riis_mark_list, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks, riis_leak_list, &
     riis_keyframes, riis_label_open_regions, riis_find_passage, riis_passage, riis_find_crossings, riis_crossings, &
     riis_crossing_list, riis_attachment, riis_triangles, riis_leaflet, riis_orifice, riis_coaptation, riis_gap, &
-    riis_first_passage, riis_cells_across, riis_warp, riis_warp_info, riis_valve_patches
+    riis_first_passage, riis_area_range, riis_cells_across, riis_warp, riis_warp_info, riis_valve_patches
   public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_orifice_in_wall, &
     riis_get_coaptation, riis_get_gap, &
     riis_set_skirt_to_wall, riis_get_leak, riis_get_cells_across, &
-    riis_get_swept_volume, riis_find_first_passage
+    riis_get_swept_volume, riis_find_by_area, riis_find_first_passage
   public :: riis_place, riis_placement, &
     RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COAPTATION, RIIS_LANDMARK_ANNULUS, &
     RIIS_LANDMARK_ANTERIOR_HORN, RIIS_LANDMARK_POSTERIOR_HORN, RIIS_LANDMARK_TRIGONE, RIIS_LANDMARK_POSTEROMEDIAL, &
@@ -132,7 +132,7 @@ module riis
     RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE, &
     RIIS_OUTLINE_NONE, RIIS_OUTLINE_DISC, RIIS_OUTLINE_ATTACHMENT, RIIS_OUTLINE_BOUNDARY, RIIS_OUTLINE_WALL, &
     RIIS_FIRST_PASSAGE_FOUND, RIIS_FIRST_PASSAGE_ALWAYS, &
-    RIIS_FIRST_PASSAGE_NEVER, RIIS_FIRST_PASSAGE_NONE, RIIS_ALL_LEAFLETS
+    RIIS_FIRST_PASSAGE_NEVER, RIIS_FIRST_PASSAGE_NONE, RIIS_ALL_LEAFLETS, RIIS_AREA_GEOMETRIC, RIIS_AREA_EFFECTIVE
 
   integer, parameter, public :: riis_id = c_int64_t         !< The kind of node, triangle and vertex ids. It is for codes in
                                                             !! Fortran 2003, which has no int64.

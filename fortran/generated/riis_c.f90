@@ -118,6 +118,9 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_OUTLINE_BOUNDARY = 3
   integer(c_int32_t), parameter :: RIIS_OUTLINE_WALL = 4
 
+  integer(c_int32_t), parameter :: RIIS_AREA_GEOMETRIC = 0
+  integer(c_int32_t), parameter :: RIIS_AREA_EFFECTIVE = 1
+
   integer(c_int32_t), parameter :: RIIS_ALL_LEAFLETS = -1
 
   integer(c_int32_t), parameter :: RIIS_FIRST_PASSAGE_FOUND = 0
@@ -575,6 +578,29 @@ module riis_c
     integer(c_int32_t) :: outline    !< RIIS_OUTLINE_*
     integer(c_int32_t) :: reserved   !< 0
   end type riis_orifice
+
+  type, bind(c) :: riis_area_search
+    integer(c_int64_t) :: struct_size
+    type(c_ptr) :: surface    !< type(riis_surface_options), (*), c_loc of a riis_surface_options; or c_null_ptr
+    type(c_ptr) :: resistance !< type(riis_resistance), (*), c_loc of a riis_resistance; or c_null_ptr
+    real(c_double) :: from, to
+    real(c_double) :: tolerance
+    integer(c_int32_t) :: n_samples
+    integer(c_int32_t) :: area
+  end type riis_area_search
+
+  !> The areas of a valve over the values that riis_find_by_area searched.
+  type, bind(c) :: riis_area_range
+    real(c_double) :: from, to          !< the values that were searched
+    real(c_double) :: least, most       !< the least and the largest area
+    real(c_double) :: least_at, most_at !< a value with that area
+    real(c_double) :: turns(4)          !< the first values at which the area stops growing or falling; NaN: no more. A
+                                        !! change by less than 1e-4 of the largest area does not count
+    real(c_double) :: seconds           !< wall time of riis_find_by_area
+    integer(c_int64_t) :: n_turns       !< the number of turns. Without a turn, the area grows or falls over all values
+    integer(c_int64_t) :: n_surfaces    !< the number of surfaces that were made, which is the cost of the search
+    integer(c_int64_t) :: n_refused     !< sampled values that make no valve or no orifice, and are left out
+  end type riis_area_range
 
   !> The coaptation of a surface's leaflets: their parts that touch another leaflet. Lengths are in mesh units.
   type, bind(c) :: riis_coaptation
@@ -1644,6 +1670,34 @@ module riis_c
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
     end function riis_surface_get_orifice_in_wall
+
+    !>   struct_size  c_sizeof(search)
+    function riis_area_search_init(search, struct_size) result(status) bind(c, name='riis_area_search_init')
+      import :: c_int64_t, riis_area_search, riis_status
+      implicit none
+      type(riis_area_search), intent(inout) :: search
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_area_search_init
+
+    !>   search           if left out: all defaults
+    !!   values, reached  if left out: not wanted
+    !!   range            if left out: not wanted
+    !!   struct_size      c_sizeof(range)
+    function riis_find_by_area(valve, name, n_areas, areas, search, values, reached, range, struct_size) &
+        result(status) bind(c, name='riis_find_by_area')
+      import :: c_char, c_double, c_int64_t, c_ptr, riis_area_range, riis_area_search, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int64_t), value :: n_areas
+      real(c_double), intent(in) :: areas(*)
+      type(riis_area_search), intent(in), optional :: search
+      real(c_double), intent(inout), optional :: values(*), reached(*)
+      type(riis_area_range), intent(inout), optional :: range
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_find_by_area
 
     !>   struct_size  c_sizeof(coaptation)
     function riis_surface_get_coaptation(surface, reach, leaflet_id, coaptation, struct_size) result(status) &

@@ -4047,6 +4047,117 @@ subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaf
   status = riis_valve_get_swept_volume(c_handle_of(valve), opening_from, opening_to, options, leaflet_id, volume)
 end subroutine riisf_valve_swept_volume
 
+!> Finds the openings, or the sizes, at which the orifice of a valve has given areas. Of several openings the least is taken, and
+!! of several sizes the one nearest to the present size. Effective areas are those of a round rim. Errors: RIIS_INVALID_ARGUMENT
+!! naming the area, counted from 0, and the range if it is out of reach; RIIS_INVALID_PARAMETER for a name that is unknown, has
+!! three values or does not change the area, and for a valve with one state or no orifice.
+subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, tolerance, scale, rotation_axis, &
+    rotation_angle, translation, n_threads, area_kind, values, reached, least, most, n_turns, status)
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_loc, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, end_for_c
+  use riis_c, only: RIIS_OK, riis_area_range, riis_area_search, riis_area_search_init, riis_find_by_area, riis_status, &
+      riis_surface_options, riis_surface_options_init
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect on openings.
+  character(len=*), intent(in) :: name                    !< 'opening', 'scale' or a parameter with one value.
+  integer(int32), intent(in) :: n_areas                   !< At least 0.
+  real(c_double), intent(in) :: areas(*)                  !< (n_areas), mesh units squared.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_GEOMETRIC or RIIS_AREA_EFFECTIVE.
+  real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes.
+  real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
+  real(c_double), intent(inout) :: least                  !< The least area that can be reached.
+  real(c_double), intent(inout) :: most                   !< The largest area that can be reached.
+  integer(int32), intent(inout) :: n_turns                !< The number of turns. Without a turn, the area grows or falls over
+                                                          !! all values.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  character(len=len_trim(name) + 1, kind=c_char) :: c_name
+  type(riis_area_search) :: search
+  type(riis_area_range) :: range
+  type(riis_surface_options), target :: surface
+  status = riis_area_search_init(search, c_sizeof(search))
+  if (status == RIIS_OK) status = riis_surface_options_init(surface, c_sizeof(surface))
+  if (status /= RIIS_OK) return
+  call end_for_c(name, c_name)
+  surface%half_thickness = half_thickness
+  surface%tolerance = tolerance
+  surface%scale = scale
+  surface%rotation_axis = rotation_axis
+  surface%rotation_angle = rotation_angle
+  surface%translation = translation
+  surface%n_threads = n_threads
+  search%area = area_kind
+  search%surface = c_loc(surface)
+  status = riis_find_by_area(c_handle_of(valve), c_name, int(n_areas, int64), areas, search, values, reached, range, &
+      c_sizeof(range))
+  if (status /= RIIS_OK) return
+  least = range%least
+  most = range%most
+  n_turns = int(range%n_turns, int32)
+end subroutine riisf_find_by_area
+
+!> Does the same as riisf_find_by_area, with counts and ids of INTEGER*8.
+subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, tolerance, scale, rotation_axis, &
+    rotation_angle, translation, n_threads, area_kind, values, reached, least, most, n_turns, status)
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_loc, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, end_for_c
+  use riis_c, only: RIIS_OK, riis_area_range, riis_area_search, riis_area_search_init, riis_find_by_area, riis_status, &
+      riis_surface_options, riis_surface_options_init
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect on openings.
+  character(len=*), intent(in) :: name                    !< 'opening', 'scale' or a parameter with one value.
+  integer(int64), intent(in) :: n_areas                   !< At least 0.
+  real(c_double), intent(in) :: areas(*)                  !< (n_areas), mesh units squared.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_GEOMETRIC or RIIS_AREA_EFFECTIVE.
+  real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes.
+  real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
+  real(c_double), intent(inout) :: least                  !< The least area that can be reached.
+  real(c_double), intent(inout) :: most                   !< The largest area that can be reached.
+  integer(int64), intent(inout) :: n_turns                !< The number of turns. Without a turn, the area grows or falls over
+                                                          !! all values.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  character(len=len_trim(name) + 1, kind=c_char) :: c_name
+  type(riis_area_search) :: search
+  type(riis_area_range) :: range
+  type(riis_surface_options), target :: surface
+  status = riis_area_search_init(search, c_sizeof(search))
+  if (status == RIIS_OK) status = riis_surface_options_init(surface, c_sizeof(surface))
+  if (status /= RIIS_OK) return
+  call end_for_c(name, c_name)
+  surface%half_thickness = half_thickness
+  surface%tolerance = tolerance
+  surface%scale = scale
+  surface%rotation_axis = rotation_axis
+  surface%rotation_angle = rotation_angle
+  surface%translation = translation
+  surface%n_threads = n_threads
+  search%area = area_kind
+  search%surface = c_loc(surface)
+  status = riis_find_by_area(c_handle_of(valve), c_name, n_areas, areas, search, values, reached, range, &
+      c_sizeof(range))
+  if (status /= RIIS_OK) return
+  least = range%least
+  most = range%most
+  n_turns = range%n_turns
+end subroutine riisf_find_by_area_64
+
 !> Finds the opening at which riisf_find_passage first finds a passage: it tries 0, 1/8, 2/8, ... until one is open, and then
 !! halves the last step. Errors: those of riisf_surface_create and riisf_find_passage, with the opening.
 subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num, half_thickness, tolerance, scale, &

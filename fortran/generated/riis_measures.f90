@@ -5,7 +5,7 @@
 module riis_measures
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
-  use riis_c, c_find_first_passage => riis_find_first_passage
+  use riis_c, c_find_by_area => riis_find_by_area, c_find_first_passage => riis_find_first_passage
   use riis_support
   use riis_calls
   use riis_valves, only: riis_valve
@@ -16,12 +16,18 @@ module riis_measures
   private
   public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_orifice_in_wall, &
     riis_get_coaptation, riis_get_gap, &
-    riis_set_skirt_to_wall, riis_get_leak, riis_get_cells_across, riis_get_swept_volume, riis_find_first_passage
+    riis_set_skirt_to_wall, riis_get_leak, riis_get_cells_across, riis_get_swept_volume, riis_find_by_area, &
+    riis_find_first_passage
 
   !> Finds the opening at which a valve first leaves a passage through a mesh.
   interface riis_find_first_passage
     module procedure find_first_passage_int32, find_first_passage_int64
   end interface riis_find_first_passage
+
+  !> Finds the openings, or the sizes, at which the orifice of a valve has given areas.
+  interface riis_find_by_area
+    module procedure find_by_area
+  end interface riis_find_by_area
 
 contains
 
@@ -226,6 +232,84 @@ contains
       code = riis_valve_get_swept_volume(valve%c_handle(), opening_from, opening_to, options, id, volume)
     call finish(code, status)
   end subroutine riis_get_swept_volume
+
+  !> Finds the openings, or the sizes, at which the orifice of a valve has given areas. Of several openings the least is taken,
+  !! and of several sizes the one nearest to the present size. Errors: RIIS_INVALID_ARGUMENT naming the area, counted from 0, and
+  !! the range if it is out of reach; RIIS_INVALID_PARAMETER for a name that is unknown, has three values or does not change the
+  !! area, and for a valve with one state or no orifice.
+  subroutine find_by_area(valve, areas, values, name, reached, range, effective, from, to, half_thickness, tolerance, scale, &
+      rotation_axis, rotation_angle, translation, triangulation, rim, area_tolerance, n_samples, n_threads, status)
+    class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect on openings.
+    real(c_double), intent(in), contiguous :: areas(:)      !< Mesh units squared.
+    real(c_double), intent(inout), contiguous :: values(:)  !< As many: the openings or sizes. Unchanged on an error.
+    character(len=*), intent(in), optional :: name          !< 'scale' or a parameter with one value. Default 'opening'.
+    real(c_double), intent(inout), contiguous, optional :: reached(:) !< As many: the areas at these values.
+    type(riis_area_range), intent(inout), optional :: range !< The areas that can be reached. Unchanged on an error.
+    logical, intent(in), optional :: effective              !< .true. for effective areas. Default .false.
+    real(c_double), intent(in), optional :: from            !< The least value to search. Default as in riis_area_search.
+    real(c_double), intent(in), optional :: to              !< The largest value to search.
+    real(c_double), intent(in), optional :: half_thickness  !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: tolerance       !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: scale           !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: rotation_axis(3) !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: rotation_angle  !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: translation(3)  !< As for riis_surface%create.
+    class(*), intent(in), optional :: triangulation         !< integer, RIIS_TRIANGULATION_*.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND.
+    real(c_double), intent(in), optional :: area_tolerance  !< 1e-12 to 1e-2, as a share of an area. Default 1e-8.
+    class(*), intent(in), optional :: n_samples             !< integer, 2 to 100001. Default 33.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_surface_options), target :: surface
+    type(riis_resistance), target :: model
+    type(riis_area_search) :: search
+    integer(riis_status) :: code
+    code = check_created(valve%c_handle(), 'the valve')
+    if (code == RIIS_OK) code = riis_surface_options_init(surface, c_sizeof(surface))
+    if (code == RIIS_OK) code = riis_area_search_init(search, c_sizeof(search))
+    call get_resistance(rim=rim, made=model, code=code)
+    if (present(half_thickness)) surface%half_thickness = half_thickness
+    if (present(tolerance)) surface%tolerance = tolerance
+    if (present(scale)) surface%scale = scale
+    if (present(rotation_axis)) surface%rotation_axis = rotation_axis
+    if (present(rotation_angle)) surface%rotation_angle = rotation_angle
+    if (present(translation)) surface%translation = translation
+    call get_integer(triangulation, 'triangulation', surface%triangulation, code)
+    call get_integer(n_samples, 'n_samples', search%n_samples, code)
+    call get_integer(n_threads, 'n_threads', surface%n_threads, code)
+    if (present(effective)) search%area = merge(RIIS_AREA_EFFECTIVE, RIIS_AREA_GEOMETRIC, effective)
+    if (present(from)) search%from = from
+    if (present(to)) search%to = to
+    if (present(area_tolerance)) search%tolerance = area_tolerance
+    if (code == RIIS_OK) code = check_size(size(values, kind=int64), size(areas, kind=int64), 'values', 'areas')
+    if (code == RIIS_OK .and. present(reached)) &
+      code = check_size(size(reached, kind=int64), size(areas, kind=int64), 'reached', 'areas')
+    search%surface = c_loc(surface)
+    search%resistance = c_loc(model)
+    if (code == RIIS_OK) call find_values(valve, areas, search, values, name, reached, range, code)
+    call finish(code, status)
+  end subroutine find_by_area
+
+  ! The call of riis_find_by_area.
+  subroutine find_values(valve, areas, search, values, name, reached, range, code)
+    class(riis_valve), intent(in) :: valve
+    real(c_double), intent(in), contiguous :: areas(:)
+    type(riis_area_search), intent(in) :: search
+    real(c_double), intent(inout), contiguous :: values(:)
+    character(len=*), intent(in), optional :: name
+    real(c_double), intent(inout), contiguous, optional :: reached(:)
+    type(riis_area_range), intent(inout), optional :: range
+    integer(riis_status), intent(inout) :: code
+    type(riis_area_range) :: found
+    if (present(name)) then
+      code = c_find_by_area(valve%c_handle(), riis_c_string(name), size(areas, kind=int64), areas, search, values, reached, &
+        found, c_sizeof(found))
+    else
+      code = c_find_by_area(valve%c_handle(), riis_c_string('opening'), size(areas, kind=int64), areas, search, values, &
+        reached, found, c_sizeof(found))
+    end if
+    if (code == RIIS_OK .and. present(range)) range = found
+  end subroutine find_values
 
   !> Finds the first opening at which riis_find_passage finds a passage. It tries 0, 1/8, 2/8, ... until one is open, and then
   !! halves the last step. Errors: those of riis_surface%create and riis_find_passage, with the opening.

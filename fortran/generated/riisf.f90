@@ -128,6 +128,8 @@ module riisf
   public :: riisf_surface_leak
   public :: riisf_cells_across
   public :: riisf_valve_swept_volume
+  public :: riisf_find_by_area
+  public :: riisf_find_by_area_64
   public :: riisf_find_first_passage
   public :: riisf_find_first_passage_64
   public :: riisf_opening_from_table
@@ -1853,6 +1855,58 @@ module riisf
       real(c_double), intent(inout) :: volume
       integer(riis_status), intent(out) :: status
     end subroutine riisf_valve_swept_volume
+
+    subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, tolerance, scale, rotation_axis, &
+        rotation_angle, translation, n_threads, area_kind, values, reached, least, most, n_turns, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: valve
+      character(len=*), intent(in) :: name
+      integer(int32), intent(in) :: n_areas
+      real(c_double), intent(in) :: areas(*)
+      real(c_double), intent(in) :: half_thickness
+      real(c_double), intent(in) :: tolerance
+      real(c_double), intent(in) :: scale
+      real(c_double), intent(in) :: rotation_axis(3)
+      real(c_double), intent(in) :: rotation_angle
+      real(c_double), intent(in) :: translation(3)
+      integer(int32), intent(in) :: n_threads
+      integer(int32), intent(in) :: area_kind
+      real(c_double), intent(inout) :: values(*)
+      real(c_double), intent(inout) :: reached(*)
+      real(c_double), intent(inout) :: least
+      real(c_double), intent(inout) :: most
+      integer(int32), intent(inout) :: n_turns
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_find_by_area
+
+    subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, tolerance, scale, rotation_axis, &
+        rotation_angle, translation, n_threads, area_kind, values, reached, least, most, n_turns, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: valve
+      character(len=*), intent(in) :: name
+      integer(int64), intent(in) :: n_areas
+      real(c_double), intent(in) :: areas(*)
+      real(c_double), intent(in) :: half_thickness
+      real(c_double), intent(in) :: tolerance
+      real(c_double), intent(in) :: scale
+      real(c_double), intent(in) :: rotation_axis(3)
+      real(c_double), intent(in) :: rotation_angle
+      real(c_double), intent(in) :: translation(3)
+      integer(int32), intent(in) :: n_threads
+      integer(int32), intent(in) :: area_kind
+      real(c_double), intent(inout) :: values(*)
+      real(c_double), intent(inout) :: reached(*)
+      real(c_double), intent(inout) :: least
+      real(c_double), intent(inout) :: most
+      integer(int64), intent(inout) :: n_turns
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_find_by_area_64
 
     subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num, half_thickness, tolerance, scale, &
         rotation_axis, rotation_angle, translation, opening_tolerance, n_threads, state, opening, closed_opening, &

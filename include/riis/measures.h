@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * measures.h - measures of a valve for a flow: leaflets, orifice, coaptation, leak, first passage, cells across, swept volume.
+ * measures.h - measures of a valve for a flow: leaflets, orifice and its inverse, coaptation, leak, first passage, cells across,
+ * swept volume.
  * riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
@@ -73,6 +74,57 @@ RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const
 RIIS_API riis_status riis_surface_get_orifice_in_wall(const riis_surface *surface, const riis_surface *wall,
                                                       const riis_resistance *resistance, riis_orifice *orifice,
                                                       int64_t struct_size);
+
+/* Which area of an orifice riis_find_by_area takes. */
+enum {
+  RIIS_AREA_GEOMETRIC = 0, /* riis_orifice.area */
+  RIIS_AREA_EFFECTIVE = 1  /* riis_orifice.effective_area */
+};
+/* How riis_find_by_area searches. */
+typedef struct riis_area_search {
+  int64_t struct_size;                 /* set by the init function */
+  const riis_surface_options *surface; /* options of the valve's surface. NULL, the default, stands for defaults */
+  const riis_resistance *resistance;   /* as in riis_surface_get_orifice. NULL, the default, stands for defaults */
+  double from, to;    /* the values to search, from < to. Default NaN: 0 to 1 for the opening, a tenth to ten times
+                         the scale, and half to twice a parameter. A parameter that is 0 needs both */
+  double tolerance;   /* of an area, as a share of it, 1e-12 to 1e-2. Default 1e-8 */
+  int32_t n_samples;  /* the number of values that are tried first, 2 to 100,001. Default 33 */
+  int32_t area;       /* RIIS_AREA_*, default RIIS_AREA_GEOMETRIC */
+} riis_area_search;
+/* Fills *search with the defaults. */
+RIIS_API riis_status riis_area_search_init(riis_area_search *search, int64_t struct_size);
+/* The areas of a valve over the values that riis_find_by_area searched. */
+typedef struct riis_area_range {
+  double from, to;          /* the values that were searched */
+  double least, most;       /* the least and the largest area */
+  double least_at, most_at; /* a value with that area */
+  double turns[4];          /* the first values at which the area stops growing or falling; NaN: no more. A change by
+                               less than 1e-4 of the largest area does not count */
+  double seconds;           /* wall time of riis_find_by_area */
+  int64_t n_turns;          /* the number of turns. Without a turn, the area grows or falls over all values */
+  int64_t n_surfaces;       /* the number of surfaces that were made, which is the cost of the search */
+  int64_t n_refused;        /* sampled values that make no valve or no orifice, and are left out */
+} riis_area_range;
+/* Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, "From an area to
+ * a valve").
+ *   valve    its own opening is ignored if openings are found
+ *   name     "opening", "scale" (the placement's), or a parameter that riis_valve_get gives one value of
+ *   n_areas  0 to 1,000,000. With 0 areas only *range is written, and areas may be NULL
+ *   areas    (n_areas), 0 to 1e120, mesh units squared
+ *   search   NULL stands for the defaults
+ *   values   (n_areas): the openings or sizes. NULL: not wanted
+ *   reached  (n_areas): the areas at these values. NULL: not wanted
+ *   range    the areas that can be reached. NULL: not wanted
+ * The area 0 stands for the closed valve: it gives the opening with the least area, even if slits remain between the leaflets.
+ * If several openings have an area, the least of them is taken. Of several sizes, the one nearest to the present size is taken.
+ * The area of RIIS_TRIANGULATION_ADAPTED jumps by up to 1e-4 of the largest area where triangles change. An area inside a jump
+ * gives the nearer end of the jump. Parts narrower than the distance of two samples may be missed.
+ * Errors: RIIS_INVALID_ARGUMENT naming the area, and the range if it is out of reach; RIIS_INVALID_PARAMETER for an
+ * unknown name, for three values, for a valve with one state or no orifice, and if the name does not change the area;
+ * the errors of riis_surface_create, with the value. On an error nothing is written. */
+RIIS_API riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t n_areas,
+                                       const double *areas, const riis_area_search *search, double *values,
+                                       double *reached, riis_area_range *range, int64_t struct_size);
 
 /* A value for an argument leaflet_id. */
 enum {

@@ -148,6 +148,8 @@
  *   riis_surface_get_leaflet             area and free edge of a leaflet
  *   riis_surface_get_orifice             the open area
  *   riis_surface_get_orifice_in_wall     the open area inside a ring or a tube
+ *   riis_area_search_init
+ *   riis_find_by_area                    the openings or sizes at which the orifice has given areas
  *   riis_surface_get_coaptation          the area in which leaflets touch
  *   riis_surface_get_leak                the ideal leak of a closed surface
  *   riis_first_passage_options_init

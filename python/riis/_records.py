@@ -190,6 +190,22 @@ class FirstPassage(NamedTuple):
     seconds: float
 
 
+class ByArea(NamedTuple):
+    """Openings or sizes at which the orifice of a valve has given areas, and the areas that can be reached."""
+
+    values: Reals  #: (n,), the openings or sizes
+    reached: Reals  #: (n,), the areas at these values
+    least: float  #: the least area that can be reached
+    most: float  #: the largest area that can be reached
+    least_at: float  #: a value with the least area
+    most_at: float  #: a value with the largest area
+    turns: Reals  #: at most 4 values at which the area stops growing or falling
+    n_turns: int  #: the number of turns; 0: the area grows or falls over all values
+    n_surfaces: int  #: the number of surfaces that were made
+    n_refused: int  #: sampled values that make no valve or no orifice
+    seconds: float
+
+
 class LeafletSizes(NamedTuple):
     """A leaflet of a surface. Lengths are in mesh units."""
 
@@ -273,6 +289,7 @@ for _record in (
     Leaks,
     Passage,
     FirstPassage,
+    ByArea,
     LeafletSizes,
     Orifice,
     Coaptation,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures of a valve for the flow: leaflets, orifice, leak, first passage, cells across and swept volume.
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <string>
 #include <vector>
 
 #include "arguments.hpp"
@@ -149,6 +152,44 @@ nb::object find_first_passage(nb::handle valve_, nb::handle mesh_, nb::handle fr
                                 array_of(found.point, "float64"), found.n_openings, found.seconds);
 }
 
+nb::object find_by_area(nb::handle valve_, nb::handle areas_, nb::handle name_, nb::handle effective, nb::handle from,
+                        nb::handle to, nb::handle rim, nb::handle area_tolerance, nb::handle n_samples,
+                        const nb::kwargs &surface_options) {
+  Valve &valve = object<Valve>(valve_, "valve");
+  const Reading reading(valve.usage, "valve");
+  riis_surface_options surface;
+  call_shortly(riis_surface_options_init(&surface, sizeof surface));
+  set_surface_options(surface, surface_options, "find_by_area");
+  const riis_resistance model = resistance_of(nb::float_(0.0), nb::none(), rim);
+  const std::string name = text(name_, "name");
+  riis_area_search search;
+  call_shortly(riis_area_search_init(&search, sizeof search));
+  search.surface = &surface;
+  search.resistance = &model;
+  search.area = flag(effective, "effective") ? RIIS_AREA_EFFECTIVE : RIIS_AREA_GEOMETRIC;
+  search.from = number_or(from, "from_", search.from);
+  search.to = number_or(to, "to", search.to);
+  search.tolerance = number(area_tolerance, "area_tolerance");
+  if (!(search.tolerance >= 1e-12 && search.tolerance <= 1e-2))
+    refuse_value("area_tolerance", "is ", search.tolerance, "; it must be from 1e-12 to 0.01");
+  search.n_samples = integer32(n_samples, "n_samples");
+  const Array areas = Array::of<double>(areas_, "areas");
+  areas.expect({-1});
+  const std::int64_t n = areas.size(0);
+  const nb::object values = new_array("float64", {n}), reached = new_array("float64", {n});
+  const Array value = Array::of<double>(values, "values", Access::write),
+              area = Array::of<double>(reached, "reached", Access::write);
+  riis_area_range range;
+  call_library([&] {
+    return riis_find_by_area(valve.handle, name.c_str(), n, areas.data<double>(), &search, value.data<double>(),
+                             area.data<double>(), &range, sizeof range);
+  });
+  const std::size_t n_turns = std::min<std::size_t>(static_cast<std::size_t>(range.n_turns), std::size(range.turns));
+  return record("ByArea")(values, reached, range.least, range.most, range.least_at, range.most_at,
+                          copy_of(range.turns, {n_turns}), range.n_turns, range.n_surfaces, range.n_refused,
+                          range.seconds);
+}
+
 #define RIIS_RIM_MODEL "half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] = 'round'"
 #define RIIS_SWEEP "leaflet_id: int | None = None, scale: float = 1.0"
 
@@ -211,6 +252,28 @@ scale       converts lengths to the mesh's unit)");
              R"(Computes the number of mesh edges across the band, from the lengths of the edges with a marked node.
 
 mesh  the mesh of the marking)");
+  module.def(
+      "find_by_area", &find_by_area, nb::arg("valve").none(), nb::arg("areas").none(), nb::kw_only(),
+      nb::arg("name").none() = "opening", nb::arg("effective").none() = false, nb::arg("from_").none() = nb::none(),
+      nb::arg("to").none() = nb::none(), nb::arg("rim").none() = "round", nb::arg("area_tolerance").none() = 1e-8,
+      nb::arg("n_samples").none() = 33, nb::arg("options"),
+      nb::sig("def find_by_area(valve: Valve, areas: numpy.typing.NDArray[numpy.float64], *, name: str = 'opening', "
+              "effective: bool = False, from_: float | None = None, to: float | None = None, rim: "
+              "typing.Literal['round', 'cut'] = 'round', area_tolerance: float = 1e-8, n_samples: int = 33, "
+              "**options: typing.Any) -> riis._records.ByArea"),
+      R"(Finds the openings, or the sizes, at which the orifice of a valve has given areas.
+
+areas           (n,), mesh units squared; 0 stands for the closed valve
+name            'opening', 'scale' or a parameter with one value
+effective       True: effective areas, with eps as the half thickness, not geometric ones
+from_, to       the values to search; None: 0 to 1 for the opening, a tenth to ten times the scale, half to twice a parameter
+rim             'round' or 'cut', as in add_resistance
+area_tolerance  of an area, as a share of it, 1e-12 to 1e-2
+n_samples       the number of values that are tried first
+options         the options of riis.Surface
+
+Of several openings the least is taken, and of several sizes the one nearest to the present size. OpeningTable(time, values) of
+the result is the opening in time whose areas were measured.)");
   module.def("find_first_passage", &find_first_passage, nb::arg("valve").none(), nb::arg("mesh").none(),
              nb::arg("from_ids").none(), nb::arg("to_ids").none(), nb::kw_only(),
              nb::arg("opening_tolerance").none() = 1e-3, nb::arg("mask").none() = nb::none(),

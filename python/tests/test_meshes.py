@@ -169,6 +169,30 @@ def test_what_a_valve_means_for_the_flow():
         assert riis.find_passage(riis.Surface(valve, half_thickness=0.1), mesh, below, above).state == state
 
 
+def test_find_by_area():
+    valve = riis.Valve("bileaflet")
+    openings = numpy.array([0.0, 0.3, 0.8, 1.0])
+    areas = []
+    for opening in openings:
+        valve["opening"] = opening
+        areas.append(riis.Surface(valve).orifice().area if opening > 0 else 0.0)
+    found = riis.find_by_area(valve, numpy.array(areas), n_samples=5)
+    assert numpy.allclose(found.values, openings, rtol=0, atol=1e-5)
+    assert numpy.allclose(found.reached[1:], areas[1:], rtol=1e-6)
+    assert found.reached[0] == found.least
+    assert found.least_at == 0.0
+    assert found.most_at == 1.0
+    assert found.n_turns == len(found.turns) == 0
+    assert 5 <= found.n_surfaces < 40
+    law = riis.OpeningTable(numpy.arange(4.0), found.values, interpolation="cubic")
+    assert abs(law(1.0) - 0.3) < 1e-5
+    assert law.rate(1.5) > 0.4
+    scale = riis.find_by_area(valve, numpy.array([4 * areas[-1]]), name="scale", n_samples=3, scale=1.5).values
+    assert abs(scale[0] - 2) < 1e-6
+    narrow = riis.find_by_area(valve, numpy.array([1.0]), effective=True, rim="cut", from_=0.2, to=0.9, n_samples=5)
+    assert found.values[0] < narrow.values[0] < 0.9
+
+
 def test_a_mesh_gives_its_coordinates(xyz):
     assert riis.Mesh(xyz).xyz is xyz
     columns = [numpy.ascontiguousarray(xyz[:, i]) for i in range(3)]

@@ -386,6 +386,19 @@ REFUSED = {
                                 lambda o: riis.mark(o.surface, two_nodes()).cells_across(riis.Mesh(o.triangle[:2]))),
     "cells of empty marks": (Argument, "^marks are empty: call riis.mark", lambda o: riis.Marks().cells_across(chain(o))),
     "mesh of cells": (TypeError, "mesh: must be a riis.Mesh", lambda o: o.marks.cells_across(o.surface)),
+    "area out of reach": (Argument, "^area 1 is 9.0?, which is out of reach: from opening 0 to 1", lambda o: riis.find_by_area(
+        riis.Valve("bileaflet"), numpy.array([1.0, 9.0]), n_samples=3)),
+    "area": (Argument, "^area 0 is nan; it must be from 0", lambda o: riis.find_by_area(riis.Valve(), numpy.array([math.nan]))),
+    "shape of areas": (Argument, "areas: its shape", lambda o: riis.find_by_area(riis.Valve(), numpy.ones((2, 2)))),
+    "area_tolerance": (Argument, "^area_tolerance: is 0", lambda o: riis.find_by_area(
+        riis.Valve(), numpy.ones(1), area_tolerance=0.0)),
+    "n_samples of areas": (Argument, "^n_samples is 1; it must be from 2", lambda o: riis.find_by_area(
+        riis.Valve(), numpy.ones(1), n_samples=1)),
+    "range of areas": (Argument, "^from_ is 2; it must be from 0 to 1", lambda o: riis.find_by_area(
+        riis.Valve(), numpy.ones(1), from_=2.0)),
+    "scale of areas": (Argument, "^scale is 0", lambda o: riis.find_by_area(riis.Valve(), numpy.ones(1), scale=0.0)),
+    "name of a size": (Parameter, "'radus' is not a parameter of the bileaflet valve; did you mean 'radius'", lambda o:
+                       riis.find_by_area(riis.Valve("bileaflet"), numpy.ones(1), name="radus")),
     "first passage without adjacency": (Argument, "^at the opening 0: mesh has no adjacency", lambda o: riis.find_first_passage(
         riis.Valve(), o.mesh, numpy.zeros(1, int), numpy.ones(1, int))),
     "opening_tolerance": (Argument, "^opening_tolerance: is 0", lambda o: riis.find_first_passage(

@@ -404,6 +404,29 @@ TEST(test_structs) {
   FIELD(riis_gap, n_ends, 48, 8);
   FIELD(riis_gap, n_without_wall, 56, 8);
 
+  SIZE(riis_area_search, 56);
+  FIELD(riis_area_search, struct_size, 0, 8);
+  FIELD(riis_area_search, surface, 8, 8);
+  FIELD(riis_area_search, resistance, 16, 8);
+  FIELD(riis_area_search, from, 24, 8);
+  FIELD(riis_area_search, to, 32, 8);
+  FIELD(riis_area_search, tolerance, 40, 8);
+  FIELD(riis_area_search, n_samples, 48, 4);
+  FIELD(riis_area_search, area, 52, 4);
+
+  SIZE(riis_area_range, 112);
+  FIELD(riis_area_range, from, 0, 8);
+  FIELD(riis_area_range, to, 8, 8);
+  FIELD(riis_area_range, least, 16, 8);
+  FIELD(riis_area_range, most, 24, 8);
+  FIELD(riis_area_range, least_at, 32, 8);
+  FIELD(riis_area_range, most_at, 40, 8);
+  FIELD(riis_area_range, turns, 48, 32);
+  FIELD(riis_area_range, seconds, 80, 8);
+  FIELD(riis_area_range, n_turns, 88, 8);
+  FIELD(riis_area_range, n_surfaces, 96, 8);
+  FIELD(riis_area_range, n_refused, 104, 8);
+
   SIZE(riis_first_passage_options, 32);
   FIELD(riis_first_passage_options, struct_size, 0, 8);
   FIELD(riis_first_passage_options, surface, 8, 8);
@@ -629,6 +652,8 @@ TEST(test_constants) {
   assert_int_equal(RIIS_FIRST_PASSAGE_NEVER, 2);
   assert_int_equal(RIIS_FIRST_PASSAGE_NONE, 3);
   assert_int_equal(RIIS_ALL_LEAFLETS, -1);
+  assert_int_equal(RIIS_AREA_GEOMETRIC, 0);
+  assert_int_equal(RIIS_AREA_EFFECTIVE, 1);
   assert_int_equal(RIIS_PHASE_CLOSING, 0);
   assert_int_equal(RIIS_PHASE_OPENING, 1);
   assert_int_equal(RIIS_VTK_NODE_INSIDE, 0);
@@ -772,6 +797,10 @@ TEST(test_signatures) {
   SIGNATURE(riis_surface_get_orifice_in_wall, int32_t,
             (const riis_surface *, const riis_surface *, const riis_resistance *, riis_orifice *, int64_t));
   SIGNATURE(riis_surface_get_leak, int32_t, (const riis_surface *, const riis_resistance *, double, double *));
+  SIGNATURE(riis_area_search_init, int32_t, (riis_area_search *, int64_t));
+  SIGNATURE(riis_find_by_area, int32_t,
+            (const riis_valve *, const char *, int64_t, const double *, const riis_area_search *, double *, double *,
+             riis_area_range *, int64_t));
   SIGNATURE(riis_first_passage_options_init, int32_t, (riis_first_passage_options *, int64_t));
   SIGNATURE(riis_find_first_passage, int32_t,
             (const riis_valve *, const riis_mesh *, const riis_passage_ends *, const riis_first_passage_options *,

@@ -13,6 +13,7 @@ program test_measures
   call test_orifices()
   call test_walls()
   call test_swept_volumes()
+  call test_by_area()
   call test_passages()
   call finish()
 
@@ -138,6 +139,42 @@ contains
   end subroutine test_walls
 
   ! The halves of a disc turn, and a triangle translates.
+  ! The opening and the scale at which the orifice of a valve has an area.
+  subroutine test_by_area()
+    type(riis_valve) :: valve, empty
+    type(riis_surface) :: surface
+    type(riis_orifice) :: orifice
+    type(riis_area_range) :: range
+    real(c_double) :: values(2), reached(2), scales(1)
+    integer(riis_status) :: status
+    call valve%create('bileaflet')
+    call riis_find_by_area(valve, [1d0, 2d0], values, reached=reached, range=range, n_samples=5)
+    call check(values(1) > 0 .and. values(1) < values(2) .and. values(2) < 1 .and. maxval(abs(reached - [1, 2])) < 1d-6 .and. &
+      range%n_turns == 0 .and. range%n_surfaces < 30, 'openings by area')
+    call valve%set('opening', values(2))
+    call surface%create(valve, half_thickness=0.2d0)
+    call riis_get_orifice(surface, orifice, rim=RIIS_RIM_CUT)
+    call riis_find_by_area(valve, [orifice%effective_area], values(:1), effective=.true., from=0.1d0, to=0.9d0, &
+      half_thickness=0.2d0, tolerance=0.05d0, rotation_axis=[0d0, 0d0, 1d0], rotation_angle=0d0, &
+      translation=[0d0, 0d0, 0d0], triangulation=RIIS_TRIANGULATION_ADAPTED, rim=RIIS_RIM_CUT, area_tolerance=1d-6, &
+      n_samples=5_int64, n_threads=1)
+    call check(abs(values(1) - values(2)) < 1d-4, 'an opening by effective area')
+    call riis_find_by_area(valve, [8 * reached(2)], scales, name='scale', scale=2d0, n_samples=3)
+    call check(abs(scales(1) - 2 * sqrt(2d0)) < 1d-6, 'a scale by area')
+    call riis_find_by_area(valve, [9d0], scales, status=status, n_samples=3)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'area 0 is 9, which is out of reach')
+    call riis_find_by_area(valve, [1d0], scales, name='radus', status=status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, "'radus' is not a parameter")
+    call riis_find_by_area(valve, [1d0], values, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'values')
+    call riis_find_by_area(valve, [1d0], scales, reached=values, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'reached')
+    call riis_find_by_area(empty, [1d0], scales, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
+    call surface%destroy()
+    call valve%destroy()
+  end subroutine test_by_area
+
   subroutine test_swept_volumes()
     type(riis_valve) :: valve, empty
     real(c_double) :: whole, half, back

@@ -52,6 +52,8 @@ constexpr std::int64_t first_size_of(const riis_passage *) { return 56; }
 constexpr std::int64_t first_size_of(const riis_passage_ends *) { return 40; }
 constexpr std::int64_t first_size_of(const riis_leaflet *) { return 32; }
 constexpr std::int64_t first_size_of(const riis_orifice *) { return 88; }
+constexpr std::int64_t first_size_of(const riis_area_search *) { return 56; }
+constexpr std::int64_t first_size_of(const riis_area_range *) { return 112; }
 constexpr std::int64_t first_size_of(const riis_first_passage_options *) { return 32; }
 constexpr std::int64_t first_size_of(const riis_first_passage *) { return 72; }
 constexpr std::int64_t first_size_of(const riis_cells_across *) { return 64; }

@@ -58,7 +58,7 @@ void UpdatableSurface::update_from_valve(const Valve &valve, const EarlierValve 
   faces_.leaflet_id.clear();
   if (!accuracy.is_fixed) fixed_.reset();
   if (newly_fixed) fixed_ = std::move(newly_fixed);
-  crossing_watch_.look(valve, *surface_, with_threads(request).n_threads);
+  if (!ignores_crossings_) crossing_watch_.look(valve, *surface_, with_threads(request).n_threads);
 }
 
 void UpdatableSurface::replace_by_faces(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,

@@ -60,6 +60,9 @@ class UpdatableSurface {
   void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,
                              const SurfaceRequest &request);
 
+  // Lets the next updates search no crossings, for shapes that the caller did not choose.
+  void ignore_crossings() { ignores_crossings_ = true; }
+
   // Adds a direction to the surface of a valve, until the next update.
   void add_direction(const ValveDirection &direction, std::int32_t n_threads);
 
@@ -77,6 +80,7 @@ class UpdatableSurface {
   UserFaces faces_, faces_memory_;                  // faces of the last arrays; empty after a valve or keyframes
   std::vector<double> frame_xyz_, frame_velocity_;  // memory for updates from keyframes
   CrossingWatch crossing_watch_;
+  bool ignores_crossings_ = false;
 };
 
 }  // namespace riis

@@ -199,6 +199,12 @@ void Valve::get(std::string_view name, std::int64_t n_values, double *out) const
   for (int k = 0; k < spec.n_values; ++k) out[k] = factor * view(state_.values[position])[k];
 }
 
+std::array<double, 2> Valve::range_of(std::string_view name) const {
+  const ParameterSpec &spec = kind_->parameters[position_of(name)];
+  const double factor = naming(spec, name).factor;
+  return {factor * spec.minimum, factor * spec.maximum};
+}
+
 bool Valve::is_set(std::string_view name) const { return state_.is_set[position_of(name)] != 0; }
 
 void Valve::set_open_state(const Valve &open) {

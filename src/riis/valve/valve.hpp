@@ -110,6 +110,8 @@ class Valve {
   // A name without a leaflet sets the parameter of that name for every leaflet that has one.
   void set(std::string_view name, std::int64_t n_values, const double *new_values);
   void get(std::string_view name, std::int64_t n_values, double *out) const;
+  // Returns the least and the largest value of the one parameter of that name.
+  std::array<double, 2> range_of(std::string_view name) const;
   // Returns a parameter to its default or to its rule.
   void unset(std::string_view name);
   bool is_set(std::string_view name) const;

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The inverse of an area that depends on one number, such as the orifice of a valve by its opening. The area may jump by a
+// little, may grow in one part and fall in another, and has no derivative.
+// In: a function and a range. Out: numbers at which the area has given values.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace riis {
+
+class AreaSearch {
+ public:
+  // Returns the area at a value, or nothing if there is none. find() needs an area at each value.
+  using Area = std::function<std::optional<double>(double value)>;
+
+  // A change by at most this share of the largest area may be a jump.
+  static constexpr double largest_jump = 1e-4;
+
+  struct Point {
+    double value, area;
+  };
+
+  // Tries n_samples values from `from` to `to`. Their distances are equal, or grow with the value if `grows`. Then it looks for
+  // the exact places at which the area turns from growth to fall or back.
+  AreaSearch(Area area, double from, double to, std::int32_t n_samples, bool grows);
+
+  bool has_area() const { return !points_.empty(); }
+  // The next functions need an area.
+  const Point &least() const { return points_[least_]; }
+  const Point &most() const { return points_[most_]; }
+  // Returns whether all areas are equal, apart from jumps.
+  bool is_constant() const { return most().area - least().area <= largest_jump * most().area; }
+  // Returns the values at which the area turns, ascending.
+  const std::vector<double> &turns() const { return turns_; }
+  std::int64_t n_refused() const { return n_refused_; }
+
+  // Returns a value with this area, up to the tolerance as a share of the area. Of several values it takes the one nearest to
+  // `near`. If the area jumps over the wanted one, it takes the nearer end of the jump. Returns nothing if the area is out of
+  // reach.
+  std::optional<Point> find(double area, double near, double tolerance) const;
+
+ private:
+  // The points from `first` to `last`, over which the area only grows or only falls, apart from jumps. No value between them
+  // was refused.
+  struct Part {
+    std::size_t first, last;
+  };
+
+  void sample(double from, double to, std::int32_t n_samples, bool grows);
+  void add_extreme(std::size_t at);
+  void part();
+  std::optional<Point> in_part(const Part &part, double area, double near, double tolerance) const;
+  Point between(Point a, Point b, double area, double tolerance) const;
+
+  Area area_;
+  std::vector<Point> points_;           // ascending by value
+  std::vector<char> is_after_refused_;  // for each point, whether a value between it and the point before was refused
+  std::vector<Part> parts_;
+  std::vector<double> turns_;
+  std::size_t least_ = 0, most_ = 0;
+  std::int64_t n_refused_ = 0;
+};
+
+}  // namespace riis
