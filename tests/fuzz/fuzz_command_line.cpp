@@ -52,6 +52,12 @@ void check(const StatesOptions &options) {
   EXPECT(!options.output.empty() && options.n_states >= 2 && options.n_states <= 100001, "%d states", options.n_states);
 }
 
+void check(const AreaOptions &options) {
+  check_valve(options);
+  EXPECT(options.area || (!options.areas.empty() && !options.output.empty()), "neither an area nor areas");
+  EXPECT(!options.area || *options.area >= 0, "area %g", *options.area);
+}
+
 void check(const ExportOptions &options) {
   check_valve(options);
   EXPECT(!options.folder.empty() && options.time_step > 0, "an export lacks options");

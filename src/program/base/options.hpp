@@ -127,6 +127,19 @@ struct StatesOptions : ValveOptions {
   bool has_contacts = false;    // whether the table has the coaptation
 };
 
+// The options of riis from-area. Areas have the mesh's unit squared.
+struct AreaOptions : ValveOptions {
+  std::optional<Amount> given_area;
+  std::optional<double> area;            // the area of the valve, or nothing if a file has areas
+  std::string areas;                     // a file of areas in time; "": none
+  std::optional<std::string> area_unit;  // the unit of the areas in that file
+  double area_factor = 1;                // from the areas in that file to the mesh's unit
+  bool is_effective = false;             // the areas are effective areas
+  std::string solve = "opening";         // "opening", "scale" or a parameter
+  std::optional<double> from, to;        // the values to search
+  std::string output;                    // the file of the cycle; "-" is stdout, "": none
+};
+
 struct TimeSpan {
   double start, stop;
 };

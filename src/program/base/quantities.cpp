@@ -136,7 +136,7 @@ double parse_unit_of(const std::string &text, const std::string &subject, const 
   if (unit.mass == quantity.mass && unit.length == quantity.length && unit.time == quantity.time) return unit.si;
   // R / eps, which some codes call R, has one more length below.
   const bool is_over_length =
-      unit.mass == quantity.mass && unit.length == quantity.length - 1 && unit.time == quantity.time;
+      unit.mass != 0 && unit.mass == quantity.mass && unit.length == quantity.length - 1 && unit.time == quantity.time;
   refuse_usage(subject + ": '" + text + "' is not a unit of " + quantity.words + ", such as " + quantity.si +
                (is_over_length ? "; it is one of R/eps: multiply by the half thickness" : ""));
 }

@@ -35,6 +35,9 @@ inline std::string with_option_named(const std::string &text) {
                                                                 {"options.n_threads ", "--threads "},
                                                                 {"arrays.far_distance ", "--far-distance "},
                                                                 {"resistance.R ", "--resistance "},
+                                                                {"area 0 ", "--area "},
+                                                                {"search.from ", "--from "},
+                                                                {"search.to ", "--to "},
                                                                 {"where: ", "--cells-where: "},
                                                                 {"where is ", "--cells-where is "},
                                                                 {"time ", "--time "},
@@ -43,6 +46,8 @@ inline std::string with_option_named(const std::string &text) {
   for (const auto &[field, option] : options) {
     if (text.rfind(field, 0) == 0) return option + text.substr(field.size());
   }
+  const std::string surface = "search.surface: ";
+  if (text.rfind(surface, 0) == 0) return with_option_named(text.substr(surface.size()));
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "program/base/text.hpp"
 #include "program/input/mesh_reading.hpp"
@@ -156,6 +157,24 @@ void finish_solver_units(ExportOptions &options) {
   options.viscosity = in_solver_units(options.given_viscosity, a_viscosity, blood_viscosity);
 }
 
+// Turns the area into the mesh's unit. The parameters of a kind are in centimetres, so without --scale the unit is known.
+void finish_areas(AreaOptions &options) {
+  const bool is_in_centimetres = !options.has_scale && !is_valve_file(options.valve);
+  const std::optional<Unit> unit = options.unit        ? options.unit
+                                   : is_in_centimetres ? std::optional(Unit::centimetre)
+                                                       : std::nullopt;
+  if (options.given_area) {
+    const Amount &given = *options.given_area;
+    options.area = given.has_unit ? in_mesh_units(given, an_area, unit) : given.number;
+    if (!(*options.area >= 0 && std::isfinite(*options.area)))
+      refuse_usage(given.subject + ": " + given.text + " is not a finite area of at least 0");
+  }
+  if (!options.area_unit) return;
+  const double si = parse_unit_of(*options.area_unit, "--area-unit", an_area);
+  if (!unit) refuse_usage("--area-unit needs the unit of the mesh: write --unit m, cm or mm");
+  options.area_factor = si * factor_from_si(an_area, *unit);
+}
+
 }  // namespace
 
 MarkOptions finish_mark(const Command &command, MarkOptions options) {
@@ -210,6 +229,16 @@ StatesOptions finish_states(const Command &command, StatesOptions options) {
   check_surface_files(command, options);
   check_set_opening(options, "has no effect: the table has all openings");
   finish_valve(command, options);
+  return options;
+}
+
+AreaOptions finish_from_area(const Command &command, AreaOptions options) {
+  if (!options.given_area && options.areas.empty()) refuse_usage("nothing to do: --area or --areas is needed");
+  if (!options.areas.empty() && options.output.empty()) refuse_usage("--areas needs --output, the file of the cycle");
+  if (options.solve == "opening" && sets_opening(options))
+    refuse_usage("an opening has no effect: it is found; --solve scale or NAME finds a size at that opening");
+  finish_valve(command, options);
+  finish_areas(options);
   return options;
 }
 

@@ -19,7 +19,8 @@ class Option;
 namespace riis::program {
 
 // The command that the user requested, with its options. The commands riis surface and riis check also use MarkOptions.
-using Request = std::variant<MarkOptions, SizeFieldOptions, StatesOptions, ExportOptions, ParamsOptions, PlaceOptions>;
+using Request =
+    std::variant<MarkOptions, SizeFieldOptions, StatesOptions, AreaOptions, ExportOptions, ParamsOptions, PlaceOptions>;
 
 // Parses the command line. If the user requests only help or the version, prints this text and returns nothing. Throws a Refusal
 // for wrong usage.
@@ -74,6 +75,7 @@ void declare_crossings(Command command, MarkOptions &options);
 void declare_leaks(Command command, MarkOptions &options);
 void declare_size_field(Command command, SizeFieldOptions &options);
 void declare_states(Command command, StatesOptions &options);
+void declare_from_area(Command command, AreaOptions &options);
 void declare_export(Command command, ExportOptions &options);
 void declare_params(Command command, ParamsOptions &options);
 void declare_place(Command command, PlaceOptions &options);
@@ -85,6 +87,7 @@ MarkOptions finish_crossings(const Command &command, MarkOptions options);
 MarkOptions finish_leaks(const Command &command, MarkOptions options);
 SizeFieldOptions finish_size_field(const Command &command, SizeFieldOptions options);
 StatesOptions finish_states(const Command &command, StatesOptions options);
+AreaOptions finish_from_area(const Command &command, AreaOptions options);
 ExportOptions finish_export(const Command &command, ExportOptions options);
 ParamsOptions finish_params(const Command &command, ParamsOptions options);
 PlaceOptions finish_place(const Command &command, PlaceOptions options);

@@ -476,6 +476,38 @@ void declare_states(Command command, StatesOptions &options) {
   declare_half_thickness(command, options);
 }
 
+void declare_from_area(Command command, AreaOptions &options) {
+  CLI::Option *const area = command.parsed(
+      "--area", "A", "The area in the mesh's unit squared, or with a unit, such as '2.5 cm2'", options.given_area,
+      [](const std::string &text, const std::string &name) { return parse_amount(text, name, an_area); });
+  CLI::Option *const areas =
+      command.text("--areas", "FILE.csv", "Areas in time, which become a cycle of openings: time, area", options.areas);
+  area->excludes(areas);
+  command
+      .parsed("--area-unit", "UNIT", "Unit of the areas in --areas, such as cm2 (default the mesh's unit squared)",
+              options.area_unit, [](const std::string &text, const std::string &) { return text; })
+      ->needs(areas);
+  command.flag("--effective", "The areas are effective areas, which the band leaves to the flow", options.is_effective);
+  command
+      .text("--solve", "opening|scale|NAME", "What to find: the opening (default), the scale, or a parameter",
+            options.solve)
+      ->excludes(areas);
+  command.parsed("--from", "X", "Least opening or size to consider", options.from, parse_number);
+  command.parsed("--to", "X", "Largest opening or size to consider", options.to, parse_number);
+  command.text("--output", "OUT.csv|-", "The cycle, for --cycle of the other commands; - is stdout", options.output)
+      ->needs(areas);
+  command.parsed("--period", "P", "Period of --areas (default none)", options.period, parse_positive)->needs(areas);
+  declare_loudness(command, options);
+  declare_valve(command, options);
+  declare_opening(command, options);
+  declare_shape(command, options);
+  declare_tolerance(command, options);
+  command.choice("--triangulation", "Triangles adapted to each opening (default), or fixed, the same at every opening",
+                 triangulation_names(), options.surface_options.triangulation);
+  declare_unit(command, options);
+  declare_half_thickness(command, options);
+}
+
 void declare_export(Command command, ExportOptions &options) {
   command.text("FOLDER", "FOLDER", "A new or empty folder for the files of svMultiPhysics", options.folder)->required();
   command.text("MESH", "FILE", "The mesh of the solver's run: say what the solver will do in it", options.mesh);

@@ -35,6 +35,11 @@ riis help meshing explains the field.)"},
   riis states states.csv --valve mitral
   riis states - --valve prosthesis.json --count 11
 riis help states explains the table.)"},
+    {"from-area", R"(Examples:
+  riis from-area --area '2.5 cm2' --valve mitral
+  riis from-area --area 1.1 --effective --solve annulus --valve trileaflet
+  riis from-area --areas echo.csv --area-unit cm2 --period 0.8 --valve mitral --output beat.csv
+riis help areas explains what is found.)"},
     {"crossings", R"(Examples:
   riis check crossings --valve prosthesis.json
 riis help crossings explains what counts.)"},
@@ -294,6 +299,19 @@ as the annulus. Straight lines join leaflets that do not touch. A bileaflet valv
 leaflets of --surface do not reach the wall, --wall FILE, a ring or a straight tube, gives the outline. The table has no
 columns for measures that a valve lacks. The default tolerance is 0.01. A valve without an open state has one line, at
 opening 0.
+)"},
+    {"areas", "how riis from-area finds an opening or a size",
+     R"(
+riis from-area finds the opening at which the orifice has an area, such as one from echocardiography. The areas are those of
+riis states, with --effective those of its column effective_area. A plain number is in the mesh's unit squared; '2.5 cm2' has a
+unit. --solve scale finds the factor for --scale, and --solve NAME finds a parameter that is one number, at --opening or at the
+open valve. The area is first measured at 33 openings or sizes, from --from to --to: by default from 0 to 1 for the opening, a
+tenth to ten times the present scale, and half to twice a parameter. An area out of reach is refused with the range. If the
+area turns, a line on stderr says where. The least opening is taken, or the size nearest to the present one.
+--areas FILE has the columns time and area, as the file of --cycle has time and opening. --output writes such a file of
+openings, for --cycle. The area 0 stands for the closed valve. With --period the first and the last area must be equal if they
+are a period apart. With the default, adapted triangles, the area jumps by up to 1e-4 of the largest
+area; --triangulation fixed has no jumps.
 )"},
     {"export", "what riis export writes",
      R"(

@@ -26,6 +26,7 @@ ExitCode run_command(const Request &request) {
   if (const auto *options = std::get_if<MarkOptions>(&request)) return run_mark(*options);
   if (const auto *options = std::get_if<SizeFieldOptions>(&request)) return run_size_field(*options);
   if (const auto *options = std::get_if<StatesOptions>(&request)) run_states(*options);
+  if (const auto *options = std::get_if<AreaOptions>(&request)) run_from_area(*options);
   if (const auto *options = std::get_if<ExportOptions>(&request)) export_uris(*options);
   if (const auto *options = std::get_if<PlaceOptions>(&request)) run_place(*options);
   if (const auto *options = std::get_if<ParamsOptions>(&request)) print_params(*options);

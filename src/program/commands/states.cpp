@@ -47,16 +47,6 @@ struct States {
   bool has_edges() const { return why_no_edges.empty(); }
 };
 
-// The orifice of the triangles differs from that of the smooth surface. At the program's usual tolerance, the difference is up
-// to 0.3 % for the prosthesis. At this tolerance it is at most about 0.1 % for the prosthesis and for the aortic valve.
-constexpr double fine_tolerance = 0.01;
-
-riis_surface_options own_frame(const StatesOptions &options) {
-  riis_surface_options own = options.surface_options;  // this command places a valve by the scale only
-  if (!options.has_tolerance) own.tolerance = fine_tolerance;
-  return own;
-}
-
 // A valve with its surface, or a surface from a file.
 class Measured {
  public:
@@ -390,6 +380,15 @@ std::string summary_of(const States &states, const StatesOptions &options) {
 }
 
 }  // namespace
+
+riis_surface_options own_frame(const ValveOptions &options) {
+  // The orifice of the triangles differs from that of the smooth surface. At the program's usual tolerance, the difference is up
+  // to 0.3 % for the prosthesis. At this tolerance it is at most about 0.1 % for the prosthesis and for the aortic valve.
+  constexpr double fine_tolerance = 0.01;
+  riis_surface_options own = options.surface_options;
+  if (!options.has_tolerance) own.tolerance = fine_tolerance;
+  return own;
+}
 
 void run_states(const StatesOptions &options) {
   const OutputLocks locks = check_outputs(options);

@@ -22,24 +22,28 @@ void check_law(riis_status status, const std::string &subject) {
   check(status, subject);
 }
 
-double opening_from(double opening, double, const std::string &) { return opening; }
+struct OpeningAndRate {
+  double opening = 0, rate = 0;
+};
 
-double opening_from(const OpeningTable &table, double time, const std::string &subject) {
+OpeningAndRate at_time(double opening, double, const std::string &) { return {opening, 0}; }
+
+OpeningAndRate at_time(const OpeningTable &table, double time, const std::string &subject) {
   auto keys = defaults<riis_opening_table>();
   keys.n_keys = view(table.times).size();
   keys.time = table.times.data();
   keys.opening = table.openings.data();
   keys.period = table.period;
   keys.interpolation = table.interpolation;
-  double opening = 0;
-  check_law(riis_opening_from_table(&keys, time, &opening, nullptr), subject);
-  return opening;
+  OpeningAndRate made;
+  check_law(riis_opening_from_table(&keys, time, &made.opening, &made.rate), subject);
+  return made;
 }
 
-double opening_from(const riis_opening_times &times, double time, const std::string &subject) {
-  double opening = 0;
-  check_law(riis_opening_from_times(&times, time, &opening, nullptr), subject);
-  return opening;
+OpeningAndRate at_time(const riis_opening_times &times, double time, const std::string &subject) {
+  OpeningAndRate made;
+  check_law(riis_opening_from_times(&times, time, &made.opening, &made.rate), subject);
+  return made;
 }
 
 }  // namespace
@@ -53,7 +57,11 @@ OpeningLaw::OpeningLaw(const riis_opening_times &times, const std::string &subje
 }
 
 double OpeningLaw::at(double time) const {
-  return std::visit([&](const auto &law) { return opening_from(law, time, subject_); }, law_);
+  return std::visit([&](const auto &law) { return at_time(law, time, subject_).opening; }, law_);
+}
+
+double OpeningLaw::rate_at(double time) const {
+  return std::visit([&](const auto &law) { return at_time(law, time, subject_).rate; }, law_);
 }
 
 void OpeningLaw::rehearse() const { static_cast<void>(at(0)); }
@@ -88,9 +96,10 @@ std::vector<std::string> columns_of(std::string line) {
 
 }  // namespace
 
-OpeningTable read_cycle(const std::string &path, double period, std::int32_t interpolation) {
-  OpeningTable keys{{}, {}, period, interpolation};
+TimedValues read_keys(const std::string &path, const KeyColumn &column) {
+  TimedValues keys;
   std::size_t line_number = 0;
+  const std::string name = column.name;
   const auto refuse = [&](const std::string &reason) {
     refuse_file(path, "line " + std::to_string(line_number) + ": " + reason);
   };
@@ -106,19 +115,25 @@ OpeningTable read_cycle(const std::string &path, double period, std::int32_t int
     if (columns.empty() || columns[0][0] == '#') continue;
     const bool may_be_header = std::exchange(is_first, false);
     if (columns.size() != 2)
-      refuse("has " + std::to_string(columns.size()) + " columns: '" + line + "'; it must have 2, time and opening");
+      refuse("has " + std::to_string(columns.size()) + " columns: '" + line + "'; it must have 2, time and " + name);
     if (may_be_header && !number_in(columns[0]) && !number_in(columns[1])) continue;
-    const double time = number(columns[0], "the time"), opening = number(columns[1], "the opening");
+    const double time = number(columns[0], "the time"), value = number(columns[1], "the " + name);
     if (keys.times.size() == most_keys) refuse("is one key too many; there may be 1000000");
     if (std::abs(time) > largest_key_time) refuse("the time " + columns[0] + " is beyond 1e30");
     if (!keys.times.empty() && time <= keys.times.back())
       refuse("the time " + columns[0] + " is not above the time before it");
-    if (!(opening >= 0 && opening <= 1)) refuse("the opening " + columns[1] + " is not from 0 to 1");
+    if (!column.is_good(value)) refuse("the " + name + " " + columns[1] + " " + column.fault);
     keys.times.push_back(time);
-    keys.openings.push_back(opening);
+    keys.values.push_back(value);
   }
-  if (keys.times.empty()) refuse_file(path, "holds no times and openings");
+  if (keys.times.empty()) refuse_file(path, std::string("holds no times and ") + column.names);
   return keys;
+}
+
+OpeningTable read_cycle(const std::string &path, double period, std::int32_t interpolation) {
+  const auto is_good = [](double opening) { return opening >= 0 && opening <= 1; };
+  TimedValues keys = read_keys(path, {"opening", "openings", is_good, "is not from 0 to 1"});
+  return {std::move(keys.times), std::move(keys.values), period, interpolation};
 }
 
 }  // namespace riis::program

@@ -5,6 +5,7 @@
 #include <riis/riis.h>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -27,6 +28,8 @@ class OpeningLaw {
   OpeningLaw(const riis_opening_times &times, const std::string &subject);
 
   double at(double time) const;
+  // Returns the derivative of the opening by time.
+  double rate_at(double time) const;
   bool is_constant() const { return std::holds_alternative<double>(law_); }
 
  private:
@@ -43,10 +46,24 @@ double largest_opening(const OpeningLaw &law, const std::vector<double> &times);
 // Returns the names of RIIS_INTERPOLATION_*. The position of each name is the value that it stands for.
 const std::vector<std::string> &interpolation_names();
 
-// In: a CSV file of times and openings. Out: the keys. Refusals name the file, the line and the value.
+// In: a CSV file of times and values. Out: the keys. Refusals name the file, the line and the value.
 
-// The file has two columns, time and opening, separated by a comma, a semicolon, blanks or a tab. The first line may name the
-// columns. Empty lines and lines that begin with # are skipped. Times must ascend, and openings must be from 0 to 1.
+// The second column of such a file.
+struct KeyColumn {
+  const char *name, *names;             // such as "opening" and "openings"
+  std::function<bool(double)> is_good;  // whether a value is possible
+  const char *fault;                    // what is wrong with another value, such as "is not from 0 to 1"
+};
+
+struct TimedValues {
+  std::vector<double> times, values;
+};
+
+// The file has two columns, the time and the value, separated by a comma, a semicolon, blanks or a tab. The first line may name
+// the columns. Empty lines and lines that begin with # are skipped. Times must ascend.
+TimedValues read_keys(const std::string &path, const KeyColumn &column);
+
+// Reads a table of openings, which must be from 0 to 1.
 OpeningTable read_cycle(const std::string &path, double period = 0,
                         std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR);
 

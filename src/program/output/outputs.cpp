@@ -277,6 +277,12 @@ OutputLocks check_outputs(const StatesOptions &options) {
   return check_texts(inputs_of(options), {{"OUT", options.output}});
 }
 
+OutputLocks check_outputs(const AreaOptions &options) {
+  NamedFiles inputs = inputs_of(options);
+  inputs.push_back({"--areas", options.areas});
+  return check_texts(inputs, {{"--output", options.output}});
+}
+
 OutputLocks check_outputs(const PlaceOptions &options) {
   NamedFiles inputs = inputs_of(options);
   inputs.push_back({"LANDMARKS", options.landmarks});

@@ -77,6 +77,7 @@ class UnbrokenWrite {
 [[nodiscard]] OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs = {});
 [[nodiscard]] OutputLocks check_outputs(const SizeFieldOptions &options, const std::vector<std::string> &more_inputs);
 [[nodiscard]] OutputLocks check_outputs(const StatesOptions &options);
+[[nodiscard]] OutputLocks check_outputs(const AreaOptions &options);
 [[nodiscard]] OutputLocks check_outputs(const PlaceOptions &options);
 
 // place_of follows links to existing files, and returns the path of the file itself. folder_of returns the folder of a path, or

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "program/base/handles.hpp"
+#include "program/base/progress.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/commands/commands.hpp"
+#include "program/input/opening_law.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/output/outputs.hpp"
+
+namespace riis::program {
+namespace {
+
+// The areas to reach, in the mesh's unit, and their times if they come from a file.
+struct Areas {
+  std::vector<double> times, areas;
+};
+
+Areas areas_of(const AreaOptions &options) {
+  if (options.area) return {{}, {*options.area}};
+  const auto is_good = [](double area) { return area >= 0; };
+  TimedValues keys = read_keys(options.areas, {"area", "areas", is_good, "is below 0"});
+  for (double &area : keys.values) area *= options.area_factor;
+  return {std::move(keys.times), std::move(keys.values)};
+}
+
+struct Solution {
+  std::vector<double> values, reached;
+  riis_area_range range{};
+};
+
+std::string words_of(const AreaOptions &options) { return options.is_effective ? "effective area" : "area"; }
+
+// Returns a number with more digits than a summary has, so that it gives the area again.
+std::string exact(double number) { return printed("%.9g", number); }
+
+std::string text_of_range(const AreaOptions &options, const riis_area_range &range) {
+  return "from " + options.solve + " " + shown(range.from) + " to " + shown(range.to) + " the " + words_of(options) +
+         " goes from " + exact(range.least) + " to " + exact(range.most);
+}
+
+// A size belongs to the open valve, unless the user chose an opening.
+Valve valve_of(const AreaOptions &options) {
+  Valve valve = make_valve(options);
+  if (options.solve == "opening" || sets_opening(options)) return valve;
+  if (why_closed(copy_of(valve), own_frame(options)).empty()) check(riis_valve_set_scalar(valve, "opening", 1));
+  return valve;
+}
+
+class Search {
+ public:
+  explicit Search(const AreaOptions &options) : options_(options), valve_(valve_of(options)), own_(own_frame(options)) {
+    search_.surface = &own_;
+    if (options.from) search_.from = *options.from;
+    if (options.to) search_.to = *options.to;
+    search_.area = options.is_effective ? RIIS_AREA_EFFECTIVE : RIIS_AREA_GEOMETRIC;
+  }
+  Search(const Search &) = delete;
+  Search &operator=(const Search &) = delete;
+
+  const riis_valve *valve() const { return valve_; }
+
+  Solution solve(const Areas &wanted) const {
+    Solution made;
+    made.values.resize(wanted.areas.size());
+    made.reached.resize(wanted.areas.size());
+    const riis_status status = call(wanted.areas, &made);
+    if (status == RIIS_INVALID_ARGUMENT && !options_.areas.empty()) refuse_row(wanted, riis_last_error());
+    check(status, subject_of(options_));
+    return made;
+  }
+
+ private:
+  riis_status call(const std::vector<double> &areas, Solution *made) const {
+    return riis_find_by_area(valve_, options_.solve.c_str(), view(areas).size(), areas.data(), &search_,
+                             made->values.data(), made->reached.data(), &made->range, sizeof made->range);
+  }
+
+  // Refuses the first area of the file that is out of reach. Returns if the call was refused for another reason.
+  void refuse_row(const Areas &wanted, const std::string &reason) const {
+    Solution all;
+    if (call({}, &all) != RIIS_OK) throw Refusal{exit_wrong_usage, with_option_named(reason)};
+    for (std::size_t i = 0; i < wanted.areas.size(); ++i)
+      if (wanted.areas[i] < all.range.least || wanted.areas[i] > all.range.most)
+        refuse_file(options_.areas, "the area " + shown(wanted.areas[i]) + " at time " + shown(wanted.times[i]) +
+                                        " is out of reach: " + text_of_range(options_, all.range));
+    refuse_file(options_.areas, reason);
+  }
+
+  const AreaOptions &options_;
+  Valve valve_;
+  riis_surface_options own_;
+  riis_area_search search_ = defaults<riis_area_search>();
+};
+
+// Says where the area turns, because other openings or sizes then have the same area.
+void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
+  if (range.n_turns == 0) return;
+  std::vector<std::string> places;
+  for (const double turn : range.turns)
+    if (std::isfinite(turn)) places.push_back(shown(turn));
+  const std::string taken = options.solve == "opening" ? "the least opening" : "the value nearest to the present one";
+  warn("the " + words_of(options) + " does not only grow or only fall: it turns at " + options.solve + " " +
+       joined_by(places, ", ") + (range.n_turns > static_cast<std::int64_t>(places.size()) ? " and further on" : "") +
+       "; of several solutions " + taken + " was found, and --from and --to lead to the others");
+}
+
+// Jumps of an adapted triangulation are smaller than this share of the area, unless the area is small.
+constexpr double fair_error = 1e-4;
+
+void warn_of_jumps(const Areas &wanted, const Solution &found) {
+  double most = 0;
+  for (std::size_t i = 0; i < wanted.areas.size(); ++i)
+    if (wanted.areas[i] > 0) most = std::max(most, std::abs(found.reached[i] / wanted.areas[i] - 1));
+  if (most > fair_error)
+    warn("an area was missed by " + shown(most) +
+         " of itself, because the area jumps where triangles change: see --triangulation fixed");
+}
+
+std::string summary_line(const std::string &label, const std::string &text) {
+  return label + std::string(label.size() < 10 ? 10 - label.size() : 1, ' ') + text + "\n";
+}
+
+std::string text_of_cost(const riis_area_range &range) {
+  const std::string refused = range.n_refused > 0 ? ", " + std::to_string(range.n_refused) + " of them refused" : "";
+  return std::to_string(range.n_surfaces) + " surfaces in " + printed("%.2g", range.seconds) + " s" + refused;
+}
+
+std::string text_of_size(const AreaOptions &options, const riis_valve *valve, const Solution &found) {
+  double opening = 0;
+  check(riis_valve_get(valve, "opening", 1, &opening));
+  const std::string where = options.solve == "opening" ? "" : ", at opening " + shown(opening);
+  return summary_line("valve", options.valve + where) + summary_line(options.solve, exact(found.values[0])) +
+         summary_line("reached", words_of(options) + " " + exact(found.reached[0])) +
+         summary_line("range", text_of_range(options, found.range)) + summary_line("cost", text_of_cost(found.range));
+}
+
+// The fastest rate is at a key or in the middle of two keys, because the interpolation is cubic.
+std::string text_of_rate(const OpeningLaw &law, const std::vector<double> &times) {
+  double fastest = 0, at = times.front();
+  const auto look = [&](double time) {
+    const double rate = std::abs(law.rate_at(time));
+    if (rate > fastest) fastest = rate, at = time;
+  };
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    look(times[i]);
+    if (i + 1 < times.size()) look(0.5 * (times[i] + times[i + 1]));
+  }
+  return "fastest " + printed("%.3g", fastest) + " in a unit of time, at " + shown(at) + ", with --interpolation cubic";
+}
+
+void write_cycle(const AreaOptions &options, const Areas &wanted, const Solution &found) {
+  const OpeningLaw law(OpeningTable{wanted.times, found.values, options.period, RIIS_INTERPOLATION_CUBIC},
+                       options.areas);
+  std::string text = "time,opening\n";
+  for (std::size_t i = 0; i < wanted.times.size(); ++i)
+    text += shortest(wanted.times[i]) + "," + shortest(found.values[i]) + "\n";
+  write_text(options.output, text);
+  if (options.quiet || options.output == "-") return;
+  const auto [least, most] = std::minmax_element(found.values.begin(), found.values.end());
+  write_text("-", summary_line("valve", options.valve) +
+                      summary_line("cycle", counted(view(wanted.times).size(), "time") + " from " +
+                                                shown(wanted.times.front()) + " to " + shown(wanted.times.back()) +
+                                                ", openings from " + exact(*least) + " to " + exact(*most)) +
+                      summary_line("rate", text_of_rate(law, wanted.times)) +
+                      summary_line("range", text_of_range(options, found.range)) +
+                      summary_line("cost", text_of_cost(found.range)) + summary_line("written", options.output));
+}
+
+}  // namespace
+
+void run_from_area(const AreaOptions &options) {
+  const OutputLocks locks = check_outputs(options);
+  const Areas wanted = areas_of(options);
+  const Search search(options);
+  const Solution found = [&] {
+    const Stage stage("searching for the " + options.solve, options.quiet);
+    return search.solve(wanted);
+  }();
+  warn_of_turns(options, found.range);
+  warn_of_jumps(wanted, found);
+  if (!options.areas.empty()) return write_cycle(options, wanted, found);
+  if (!options.quiet) write_text("-", text_of_size(options, search.valve(), found));
+}
+
+}  // namespace riis::program
