@@ -163,7 +163,7 @@ def _constant_of(match: re.Match[str]) -> str:
 _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"riis_valve_get_parameter and riis params list them", "Valve.parameters lists them"),
     (rf"\boptions\.(fields|{'|'.join(WORDS)})( is | = )(\d+)", _word_of),
-    (rf"\bRIIS_(FIELD|INTERPOLATION|PHASE|RIM|{'|'.join(WORDS).upper()})_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
+    (rf"\bRIIS_(AREA|FIELD|INTERPOLATION|PHASE|RIM|{'|'.join(WORDS).upper()})_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
     (r"RIIS_ALL_LEAFLETS, -1, stands", "None stands"),
     (r"\briis_[a-z_]+", lambda match: _NAMES.get(match[0], match[0])),
     (r"(?<!['\w])(?:arrays|band|cells|csr|ends|faces|flow|frames|law|loads|nodes|options|patches|points|resistance|search|table|times)"

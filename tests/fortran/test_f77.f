@@ -585,6 +585,7 @@ C     valve, so flow passes even if the valve is closed.
       DOUBLE PRECISION LEAST, MEAN, MOST, EDGE, AT, BEFORE
       DOUBLE PRECISION WANTED(2), OPENED(2), REACHD(2)
       INTEGER NTURNS
+      INTEGER*8 N64, NTUR64
       DATA AXIS /0D0, 0D0, 1D0/, ZERO /3*0D0/
       INCLUDE 'riisf.h'
       VALVE = 0
@@ -612,9 +613,10 @@ C     valve, so flow passes even if the valve is closed.
      &  ABS(REACHD(2) - 2D0) .GT. 1D-4 .OR. LEAST .GT. 0.1D0 .OR.
      &  MOST .LT. 3D0 .OR. NTURNS .NE. 0) CALL FAILED('by area')
       WANTED(2) = 9D0
-      CALL RIISF_FIND_BY_AREA(VALVE, 'opening', 2, WANTED, 0.1D0,
+      N64 = 2
+      CALL RIISF_FIND_BY_AREA_64(VALVE, 'opening', N64, WANTED, 0.1D0,
      &  0.05D0, 1D0, AXIS, 0D0, ZERO, 0, RIIS_AREA_EFFECTIVE, OPENED,
-     &  REACHD, LEAST, MOST, NTURNS, STAT)
+     &  REACHD, LEAST, MOST, NTUR64, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'area 1 is 9')
       CALL RIISF_SURFACE_CREATE(VALVE, 0.1D0, 0.05D0, 1D0, AXIS, 0D0,
      &  ZERO, SURF, STAT)

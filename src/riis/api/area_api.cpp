@@ -31,7 +31,7 @@ constexpr std::int64_t most_areas = 1'000'000;
 constexpr double largest_area = 1e120;
 constexpr std::int32_t most_samples = 100'001;
 
-const riis_area_search default_search{sizeof(riis_area_search), nullptr, nullptr, no_value, no_value, 1e-8, 65,
+const riis_area_search default_search{sizeof(riis_area_search), nullptr, nullptr, no_value, no_value, 1e-8, 33,
                                       RIIS_AREA_GEOMETRIC};
 
 // What changes until the orifice has an area: the opening, the scale of the placement, or a parameter.
@@ -66,8 +66,7 @@ class AreaTrials {
     valve_.get(name_, 1, &now);
     const std::array<double, 2> range = valve_.range_of(name_);
     if (now == 0 && (std::isnan(search_.from) || std::isnan(search_.to)))
-      riis::fail(RIIS_INVALID_ARGUMENT, "search.from or search.to is NaN, but ", name_,
-                 " is 0, which gives no range to search: set both");
+      riis::fail(RIIS_INVALID_ARGUMENT, name_, " is 0, so a range to search is needed: from and to");
     return checked({std::min(now / 2, 2 * now), std::max(now / 2, 2 * now), now}, range);
   }
 
@@ -116,7 +115,7 @@ class AreaTrials {
     check_range("search", "from", from, range[0], range[1]);
     check_range("search", "to", to, range[0], range[1]);
     if (!(from < to))
-      riis::fail(RIIS_INVALID_ARGUMENT, "search.to is ", to, "; it must be above search.from, which is ", from);
+      riis::fail(RIIS_INVALID_ARGUMENT, "search.to is ", to, "; it must be above the start of the range, ", from);
     return {from, to, sought_ == Sought::opening ? from : usual.near};
   }
 
