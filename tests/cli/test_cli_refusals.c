@@ -229,6 +229,18 @@ TEST(test_new_usage) {
   assert_int_equal(scratch_exists("a.vtu"), 0);
 }
 
+/* A band that steps aside: the range, and the commands that have no sides. */
+TEST(test_offset) {
+  const char *mesh = scratch_path("in.vtu");
+  RUN_REFUSED(2, "--offset is 1; it must be above -1 and below 1", "mark", mesh, "--offset", "1");
+  RUN_REFUSED(2, "--offset: 'aside' is not a number", "mark", mesh, "--offset", "aside");
+  RUN_REFUSED(2, "--offset is 0.5, but options.measure is 1, which knows no side", "mark", mesh, "--offset", "0.5",
+              "--distance", "sampling");
+  RUN_REFUSED(2, "--offset: svMultiPhysics interpolates distances, and has no offset", "export", scratch_path("uris"),
+              "--valve", "trileaflet", "--resistance", "1", "--time-step", "0.001", "--opening-seconds", "0.1",
+              "--closing-seconds", "0.1", "--offset", "0.5");
+}
+
 /* A value that the user split into several arguments gets a hint. */
 TEST(test_hints) {
   const char *mesh = scratch_path("in.vtu");
