@@ -112,7 +112,8 @@ random_patients() {
     printf '  %4s  %6.2f %6.2f  %5.2f %5.2f %5.2f  %5.2f %7.2f  %5s  %6s  %-6s  %-4s  %5s  %5s  %7s\n' "$seed" \
       "$(of_patient "$row" placed rms)" "$(of_patient "$row" placed warped_rms)" \
       "$(gap_of "$row" least)" "$(gap_of "$row" most)" "$(gap_of "$row" mean)" \
-      "$(< "$row/noise.txt")" "$(< "$row/exact.txt")" "$(< "$row/band_edge.txt")" "$(of_patient "$row" closed n_nodes | thousands)" \
+      "$(< "$row/noise.txt")" "$(< "$row/exact.txt")" "$(< "$row/band_edge.txt")" \
+      "$(of_patient "$row" closed n_nodes | thousands)" \
       "$(of_patient "$row" closed state)" "$(of_patient "$row" open state)" "$(leaking_edges "$row")" \
       "$(of_patient "$row" crossings n_pairs)" "$(seconds_to_marks "$row")"
     [[ $(of_patient "$row" closed state) = closed && $(of_patient "$row" open state) = open &&
