@@ -93,7 +93,7 @@ python() {
 
 includes() {
   mapfile -t found < <(sed -nE 's/^#include "(.*)"$/\1/p' build-lint/src/riis/CMakeFiles/riis_objects.dir/Unity/*.cxx)
-  printf '%s\0' "${found[@]}" | xargs -0 -P "$(nproc)" -n 4 \
+  printf '%s\0' "${found[@]}" | LC_ALL=C xargs -0 -P "$(nproc)" -n 4 \
     g++ -std=c++17 -fopenmp -DRIIS_X86_KERNELS -Iinclude -Isrc/riis -Isrc -w -fsyntax-only
 }
 
