@@ -458,7 +458,7 @@ TEST(impossible_sizes_are_left_out) {
   CHECK_NEAR(area_of(valve, &usual), area, 1e-4 * area);
 }
 
-/* Without areas, the call tells the range. Nothing need be wanted. */
+/* Without areas, the call gives the range. The caller need not want any result. */
 TEST(ranges_need_no_areas) {
   riis_valve *valve = new_valve("bileaflet");
   riis_area_search search = area_search();
