@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The band that steps aside, of every kind of valve: marks, K and its derivatives, passages and leaks are compared with an
+ * Tests the band that steps aside, for every kind of valve. Marks, K and its derivatives, passages and leaks are compared with an
  * oracle that loops over all triangles, and with flood fills. RIIS_TEST_LONG=1 tries many more cases. */
 #include <riis/riis.h>
 

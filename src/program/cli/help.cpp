@@ -39,7 +39,7 @@ riis help states explains the table.)"},
   riis from-area --area '2.5 cm2' --valve mitral
   riis from-area --area 1.1 --effective --solve annulus --valve trileaflet
   riis from-area --areas echo.csv --area-unit cm2 --period 0.8 --valve mitral --output beat.csv
-riis help areas explains what is found.)"},
+riis help areas explains the search.)"},
     {"crossings", R"(Examples:
   riis check crossings --valve prosthesis.json
 riis help crossings explains what counts.)"},

@@ -14,7 +14,7 @@ namespace riis::program {
 void run_states(const StatesOptions &options);
 
 // Returns the options of a surface that is measured in the valve's own frame. Only the scale places it. Without --tolerance, the
-// triangles are finer than those that mark.
+// triangles are finer than the triangles of riis mark.
 riis_surface_options own_frame(const ValveOptions &options);
 
 // riis from-area, the inverse of riis states. In: an area, or areas in time. Out: for an area, a summary with the opening or the
