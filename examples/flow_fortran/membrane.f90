@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
 !> A toy: one cusp of a half-open valve is a membrane of springs, which the flow moves. The other two cusps stay where they are.
-!! The springs, the mass and the friction are no tissue, and nothing stops a cusp from going through another one. It shows the
-!! calls that a code for shells needs: a force at each vertex, and vertices that move with velocities.
+!! The springs, the mass and the friction are not those of tissue, and nothing stops a cusp from going through another cusp. The
+!! program shows the calls that a code for shells needs: a force at each vertex, and vertices that move with velocities.
 program membrane
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis

@@ -315,7 +315,7 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_triangulate
 
-!> Replaces the surface like riisf_surface_place, and lets the band step aside along the normals, by this many half thicknesses.
+!> Replaces the surface like riisf_surface_place, with a band that steps aside along the normals, by `offset` half thicknesses.
 !! riisf_surface_update and riisf_surface_update_moving keep the offset.
 subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, offset, status)
@@ -1314,7 +1314,7 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
   surface = handle_of(c_handle)
 end subroutine riisf_surface_with_skirt_64
 
-!> Makes a surface like riisf_surface_from_arrays, whose band steps aside along the normals, by this many half thicknesses. Later
+!> Makes a surface like riisf_surface_from_arrays, whose band steps aside along the normals, by `offset` half thicknesses. Later
 !! updates keep the offset. Errors: also RIIS_INVALID_SURFACE for two triangles that run along a shared edge in the same
 !! direction.
 subroutine riisf_surface_offset_arrays(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &

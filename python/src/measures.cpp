@@ -265,15 +265,15 @@ mesh  the mesh of the marking)");
 
 areas           (n,), mesh units squared; 0 stands for the closed valve
 name            'opening', 'scale' or a parameter with one value
-effective       True: effective areas, with eps as the half thickness, not geometric ones
+effective       True: the areas are effective areas, with eps as the half thickness; False: geometric areas
 from_, to       the values to search; None: 0 to 1 for the opening, a tenth to ten times the scale, half to twice a parameter
 rim             'round' or 'cut', as in add_resistance
 area_tolerance  of an area, as a share of it, 1e-12 to 1e-2
 n_samples       the number of values that are tried first
 options         the options of riis.Surface
 
-Of several openings the least is taken, and of several sizes the one nearest to the present size. OpeningTable(time, values) of
-the result is the opening in time whose areas were measured.)");
+Of several openings the least is taken, and of several sizes the one nearest to the present size. If the areas were measured at
+several times, OpeningTable(times, values) is the opening in time.)");
   module.def("find_first_passage", &find_first_passage, nb::arg("valve").none(), nb::arg("mesh").none(),
              nb::arg("from_ids").none(), nb::arg("to_ids").none(), nb::kw_only(),
              nb::arg("opening_tolerance").none() = 1e-3, nb::arg("mask").none() = nb::none(),

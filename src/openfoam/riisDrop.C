@@ -26,7 +26,7 @@ constexpr scalar openShare = 1e-5;  // the resistance of blood outside the band,
 constexpr scalar leastShare = 0.2;  // calibration refuses a closed valve that drops less of (R / eps) u
 
 // Returns -1 for each cell upstream of the closed band, and 1 for each cell downstream. Cells in the band, and in pockets that it
-// encloses, get 0. All entries are 0 if the band does not part the blood. `middle` is how far the band steps aside.
+// encloses, get 0. All entries are 0 if the band does not part the blood. `middle` is the distance by which the band steps aside.
 labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list &marked, scalar middle) {
   labelList band(mesh.nCells(), 0), bandBeyond;
   forAll(K, cell) band[cell] = K[cell] > 0;

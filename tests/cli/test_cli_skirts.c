@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Skirts of surfaces from files: a closed valve in a vessel that is wider than its attachment, as one file, as a file for each
- * leaflet, without the array of the attachment, as a motion and in a case. */
+ * Skirts of surfaces from files. A closed valve is in a vessel that is wider than its attachment. It is read as one file, as a
+ * file for each leaflet, without the array of the attachment, as a motion and in a case. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>

@@ -209,8 +209,8 @@ TEST(test_stdout) {
   free(text);
 }
 
-/* Without a word, an open area of which the band takes all along no perimeter looks wrong. The slit between the closed leaflets
- * has a perimeter if it is wider than a fifth of the half thickness. */
+/* An open area that the band takes entirely looks wrong without an explanation if it has no perimeter. The slit between the
+ * closed leaflets has a perimeter if it is wider than a fifth of the half thickness. */
 TEST(test_slits) {
   static const struct {
     const char *gap, *half_thickness;

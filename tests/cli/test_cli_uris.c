@@ -439,8 +439,8 @@ static ring_sums sums_with_ring(const riis_surface *whole) {
   return sums;
 }
 
-/* With the ring as a face, the solver's K is that of the whole surface. As a scaffold, nodes in both bands have the smaller
- * term more. */
+/* If the ring is a face, the solver's K is that of the whole surface. If it is a scaffold, the smaller term is added at nodes in
+ * both bands. */
 TEST(test_ring_counts_once) {
   riis_valve *valve = NULL;
   CHECK_OK(riis_valve_create("bileaflet", &valve));

@@ -22,7 +22,7 @@ void expect(bool is_right, const char *what) {
   n_faults += !is_right;
 }
 
-// Returns what the function prints on stderr, which is a file meanwhile.
+// Returns the text that the function prints on stderr, which is a file during the call.
 template <class Function>
 std::string printed_by(const Function &function) {
   std::FILE *const file = std::tmpfile();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The band that steps aside, of every kind of valve: marks, K and its derivatives, passages and leaks are compared with an
+ * Tests the band that steps aside, for every kind of valve. Marks, K and its derivatives, passages and leaks are compared with an
  * oracle that loops over all triangles, and with flood fills. RIIS_TEST_LONG=1 tries many more cases. */
 #include <riis/riis.h>
 
@@ -117,7 +117,8 @@ static void check_marking(const char *kind) {
     at += is_marked;
   }
   assert_int_equal(at, marked.n_nodes);
-  /* Every search, with and without a limit, on any number of threads. Turned normals with the opposite offset. */
+  /* Every search gives the same lists, with and without a limit, on any number of threads. So do turned normals with the opposite
+   * offset. */
   for (int k = 0; k < 4; ++k)
     for (int has_limit = 0; has_limit < 2; ++has_limit) {
       riis_mark_options again = asked;
@@ -276,7 +277,7 @@ static void check_passage(const char *kind) {
       fail_msg("%s, opening %g, offset %g: %d at %g times the half thickness %g", kind, opening, offset, is_joined,
                1 + 0.01 * sign, passage.distance);
   }
-  /* The half thickness that was told closes the node itself, to the last bit, and the next smaller number does not. */
+  /* The half thickness of the passage marks the node itself, to the last bit. The next smaller number does not mark it. */
   for (int k = 0; k < 2 && passage.distance > 1e-6; ++k) {
     riis_surface *again = same_triangles(surface, k == 0 ? passage.distance : passage.distance * (1 - 4e-16), offset);
     riis_marks *marks = new_result();
@@ -372,7 +373,7 @@ static void check_leaks(const char *kind) {
     }
   assert_int_equal(at, list.n_edges);
   if (list.n_edges == 0) return;
-  /* The told half thickness gives each edge a marked node, to the last bit. */
+  /* The half thickness of the list gives each edge a marked node, to the last bit. */
   riis_surface_options thicker = options;
   thicker.half_thickness = list.half_thickness;
   thicker.tolerance = options.tolerance * eps / list.half_thickness; /* the same triangles */

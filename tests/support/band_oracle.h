@@ -79,7 +79,7 @@ static inline void sum_normals(const riis_triangles *all, real (*corner)[3], con
   }
 }
 
-/* Places a node whose closest triangle is known, and of which the rim is known. */
+/* Places a node whose closest triangle is known, and for which it is known whether the closest point is on the rim. */
 static inline band_place place_of(const riis_triangles *all, const double *node, int64_t triangle_id, int is_on_rim) {
   real p[3] = {node[0], node[1], node[2]}, corner[3][3], weight[3], size, at;
   band_place place = {.is_on_rim = is_on_rim};

@@ -194,7 +194,7 @@ TEST(scales_are_roots_of_areas) {
   CHECK_NEAR(area_of(valve, &search), 2 * area, 2e-4 * area);
 }
 
-/* Parameters, under both of their names, keep the other parameters and change those that follow. */
+/* A parameter is found under both of its names. Other parameters stay, except parameters that follow from it. */
 TEST(sizes_have_their_areas) {
   static const struct {
     const char *kind, *name;
@@ -458,7 +458,7 @@ TEST(impossible_sizes_are_left_out) {
   CHECK_NEAR(area_of(valve, &usual), area, 1e-4 * area);
 }
 
-/* Without areas, the call tells the range. Nothing need be wanted. */
+/* Without areas, the call gives the range. The caller need not want any result. */
 TEST(ranges_need_no_areas) {
   riis_valve *valve = new_valve("bileaflet");
   riis_area_search search = area_search();

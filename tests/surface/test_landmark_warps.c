@@ -20,8 +20,8 @@ static double between(double low, double high) { return random_between(&rng, low
 enum { aortic, trileaflet, coapting, mitral, of_patches, n_kinds, most_landmarks = 120 };
 static const char *const kinds[n_kinds] = {"aortic", "trileaflet", "coapting", "mitral", "patches"};
 
-/* Ten trials have each kind with both triangulations. Under a sanitizer, every third of 15 trials is made. They still have each
- * kind, both triangulations, and even and odd numbers. */
+/* Ten trials have each kind with both triangulations. Under a sanitizer, every third of 15 trials is made. These trials still
+ * have each kind, both triangulations, and even and odd numbers. */
 static int n_trials(void) { return is_long_test() ? 60 : is_sanitized() ? 15 : 10; }
 static int trial_step(void) { return is_sanitized() ? 3 : 1; }
 

@@ -137,8 +137,8 @@ static void check_same_measures(const riis_surface *with, const riis_surface *ba
   }
 }
 
-/* The axis of a valve from arrays is that of a valve from patches. It differs from the mitral axis, which is the vertical, and
- * from the aortic axis, which is that of the root, by the angles that these limits allow (docs/theory/skirt.md). */
+/* The axis of a valve from arrays is that of a valve from patches. The axis of the built-in mitral valve is vertical, and that of
+ * the built-in aortic valve is the axis of the root. The limits here allow for angles from these axes (docs/theory/skirt.md). */
 static const double share_of_length[n_kinds] = {0.005, 0.005, 0.02, 0.1};
 
 TEST(a_valve_that_is_given_back_gets_its_own_skirt) {

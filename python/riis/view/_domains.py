@@ -95,7 +95,7 @@ def groups_of_volumes(mesh: Any) -> dict[str, float]:
 def read_once(mesh: Any) -> Any:
     """Leaves out the repeated cells of a meshio.Mesh, and gives cells of several groups the arrays of further groups.
 
-    gmsh's version 2 repeats a cell for each of its further groups. Of version 4.1, meshio keeps further groups by name only.
+    gmsh's version 2 repeats a cell for each of its further groups. For version 4.1, meshio keeps further groups by name only.
     """
     numbers = numpy.concatenate(mesh.cell_data.get(GROUPS, [[]]))
     if len(numpy.unique(numbers)) < 2:

@@ -274,7 +274,7 @@ class Page(Hand, Heartbeat, saving.Files):
         self._renew_all()
 
     async def _reopen(self, path: str, mesh: str | None = None, cells_where: str | None = None) -> None:
-        """Opens a saved view, with its mesh and cells, or with these instead."""
+        """Opens a saved view, with its own mesh and cells or with the given ones."""
         if mesh is None:
             mesh, saved_cells = reading.mesh_of_saved(path)
             cells_where = cells_where or saved_cells

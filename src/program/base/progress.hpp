@@ -12,7 +12,7 @@
 
 namespace riis::program {
 
-// How long a stage is silent if stderr is a terminal, and if not.
+// The time for which a stage prints nothing. It depends on whether stderr is a terminal or a log.
 struct Silence {
   std::chrono::milliseconds on_terminal{1000}, in_log{30000};
 

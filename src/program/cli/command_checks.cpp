@@ -236,7 +236,7 @@ AreaOptions finish_from_area(const Command &command, AreaOptions options) {
   if (!options.given_area && options.areas.empty()) refuse_usage("nothing to do: --area or --areas is needed");
   if (!options.areas.empty() && options.output.empty()) refuse_usage("--areas needs --output, the file of the cycle");
   if (options.solve == "opening" && sets_opening(options))
-    refuse_usage("an opening has no effect: it is found; --solve scale or NAME finds a size at that opening");
+    refuse_usage("an opening has no effect, because it is found; --solve scale or NAME finds a size at that opening");
   finish_valve(command, options);
   finish_areas(options);
   return options;

@@ -39,7 +39,7 @@ riis help states explains the table.)"},
   riis from-area --area '2.5 cm2' --valve mitral
   riis from-area --area 1.1 --effective --solve annulus --valve trileaflet
   riis from-area --areas echo.csv --area-unit cm2 --period 0.8 --valve mitral --output beat.csv
-riis help areas explains what is found.)"},
+riis help areas explains the search.)"},
     {"crossings", R"(Examples:
   riis check crossings --valve prosthesis.json
 riis help crossings explains what counts.)"},
@@ -267,7 +267,7 @@ They have the unit of --unit.
      R"(
 The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats give the number
 of leaking edges, and the half thickness that closes them. Edges of at most two half thicknesses do not leak. With --offset O
-the length is 2 sqrt(1 - O^2) half thicknesses, for the sharpest corners of a rim. Leaks are unknown in a mesh without volume
+this length is 2 sqrt(1 - O^2) half thicknesses, because of sharp corners of a rim. Leaks are unknown in a mesh without volume
 cells, if no node is marked, and at cells whose edges are not known. Leaking edges do not show gaps between leaflets, nor ways
 round the valve. riis check leaks MESH --between FROM TO finds these. FROM and TO
 are points of the mesh on either side of the valve, each as X,Y,Z.
@@ -304,16 +304,17 @@ opening 0.
 )"},
     {"areas", "how riis from-area finds an opening or a size",
      R"(
-riis from-area finds the opening at which the orifice has an area, such as one from echocardiography. The areas are those of
-riis states, with --effective those of its column effective_area. A plain number is in the mesh's unit squared; '2.5 cm2' has a
-unit. --solve scale finds the factor for --scale, and --solve NAME finds a parameter that is one number, at --opening or at the
-open valve. The area is first measured at 33 openings or sizes, from --from to --to: by default from 0 to 1 for the opening, a
-tenth to ten times the present scale, and half to twice a parameter. An area out of reach is refused with the range. If the
-area turns, a line on stderr says where. The least opening is taken, or the size nearest to the present one.
---areas FILE has the columns time and area, as the file of --cycle has time and opening. --output writes such a file of
-openings, for --cycle. The area 0 stands for the closed valve. With --period the first and the last area must be equal if they
-are a period apart. With the default, adapted triangles, the area jumps by up to 1e-4 of the largest
-area; --triangulation fixed has no jumps.
+riis from-area finds the opening at which the orifice has an area, such as an area from echocardiography. Areas are measured as
+in riis states. --effective takes them as effective areas, as in its column effective_area. A plain number is in the mesh's unit
+squared; '2.5 cm2' has a unit. --solve scale finds the factor for --scale, and --solve NAME finds a parameter that is one
+number. The valve is then open, or at --opening. The area is first measured at 33 openings or sizes, from --from to --to: by
+default from 0 to 1 for the opening, a tenth to ten times the present scale, and half to twice a parameter. An area out of
+reach is refused, and the message has the range. If the area grows in one part of the range and falls in another, a line on
+stderr says where it turns. The least opening is taken, or the size nearest to the present one.
+--areas FILE has the columns time and area. --output writes a file of openings for --cycle, with the columns time and opening.
+The area 0 stands for the closed valve. With --period the first and the last area must be equal if they are a period apart.
+Adapted triangles are the default, and with them the area jumps by up to 1e-4 of the largest area. --triangulation fixed has no
+jumps.
 )"},
     {"export", "what riis export writes",
      R"(

@@ -14,11 +14,11 @@ namespace riis::program {
 void run_states(const StatesOptions &options);
 
 // Returns the options of a surface that is measured in the valve's own frame. Only the scale places it. Without --tolerance, the
-// triangles are finer than those that mark.
+// triangles are finer than the triangles of riis mark.
 riis_surface_options own_frame(const ValveOptions &options);
 
-// riis from-area, the inverse of riis states. In: an area, or areas in time. Out: the opening or the size at which the orifice
-// has it, as a summary, and for areas in time a cycle of openings.
+// riis from-area, the inverse of riis states. In: an area, or areas in time. Out: for an area, a summary with the opening or the
+// size at which the orifice has it. For areas in time, a cycle of openings.
 void run_from_area(const AreaOptions &options);
 
 // riis place. In: landmarks of a patient. Out: the sizes and the placement of the valve, as a report, as a file that every

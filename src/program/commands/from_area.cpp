@@ -121,8 +121,8 @@ void warn_of_jumps(const Areas &wanted, const Solution &found) {
   for (std::size_t i = 0; i < wanted.areas.size(); ++i)
     if (wanted.areas[i] > 0) most = std::max(most, std::abs(found.reached[i] / wanted.areas[i] - 1));
   if (most > fair_error)
-    warn("an area was missed by " + shown(most) +
-         " of itself, because the area jumps where triangles change: see --triangulation fixed");
+    warn("the relative error of an area is " + shown(most) +
+         ", because the area jumps where triangles change: see --triangulation fixed");
 }
 
 std::string summary_line(const std::string &label, const std::string &text) {
@@ -143,7 +143,7 @@ std::string text_of_size(const AreaOptions &options, const riis_valve *valve, co
          summary_line("range", text_of_range(options, found.range)) + summary_line("cost", text_of_cost(found.range));
 }
 
-// The fastest rate is at a key or in the middle of two keys, because the interpolation is cubic.
+// Rates are taken at the keys and in the middle between two keys. The fastest rate of a cubic may lie beside the middle.
 std::string text_of_rate(const OpeningLaw &law, const std::vector<double> &times) {
   double fastest = 0, at = times.front();
   const auto look = [&](double time) {

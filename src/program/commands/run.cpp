@@ -17,9 +17,9 @@ namespace {
 // Returns advice on the band, which no parameter of a valve sets.
 std::string advice_on_band(const std::string &kind) {
   if (kind == "bileaflet") return "band: leave --offset at 0, because the flow passes on both sides of the leaflets\n";
-  return "band: with a cut rim and a skirt, --offset 0.75 makes an open valve as wide as it is, if the half thickness "
-         "is at\n"
-         "least twice the gap of the closed valve. Take 0.5 from one gap on, and 0 for a wider gap (README.md)\n";
+  return "band: with a cut rim and a skirt, --offset 0.75 gives the flow the full width of an open valve. The half\n"
+         "thickness must be at least twice the gap of the closed valve. Take 0.5 if it is at least the gap but less\n"
+         "than twice the gap, and 0 for a wider gap (README.md)\n";
 }
 
 void print_params(const ParamsOptions &options) {

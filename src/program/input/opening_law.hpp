@@ -52,7 +52,7 @@ const std::vector<std::string> &interpolation_names();
 struct KeyColumn {
   const char *name, *names;             // such as "opening" and "openings"
   std::function<bool(double)> is_good;  // whether a value is possible
-  const char *fault;                    // what is wrong with another value, such as "is not from 0 to 1"
+  const char *fault;                    // the fault of another value, such as "is not from 0 to 1"
 };
 
 struct TimedValues {

@@ -74,9 +74,9 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Measures for --steps what a time step of a moving valve costs in a mesh prepared for many markings. It moves the opening
-// of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step. Throws a Refusal
-// for a valve that cannot move.
+// Measures for --steps the cost of a time step of a moving valve, in a mesh that is prepared for many markings. It moves the
+// opening of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step. Throws a
+// Refusal for a valve that cannot move.
 StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file) {
   const Stage stage("timing " + std::to_string(options.n_steps) + " steps", options.quiet);
   const riis_mark_options &how = options.mark_options;

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The line that begins the lists that riis writes. Only what such a list names was written by riis.
+// The line that begins the lists that riis writes. Only files that such a list names were written by riis.
 const std::string list_of_riis =
     "<?xml version=\"1.0\"?>\n<!-- written by riis -->\n"
     "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n";

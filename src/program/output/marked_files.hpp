@@ -29,10 +29,10 @@ class SeriesFiles {
   bool is_wanted() const { return !pvd_.empty(); }
   // Refuses a folder that cannot be written to, and a path that is a file.
   void check_folder() const;
-  // Finds the files that an earlier run left, which would be taken for further steps of this run's series: files of steps that
-  // this run does not write, if the earlier list is by riis and names them. Refuses further steps that it does not name, and
-  // files that another list names. `parts` are those of path_of, and `has_pieces` says whether each step also has files of
-  // pieces, whose parts are p0000 and so on.
+  // Finds files of an earlier run that would be taken for further steps of this run's series. They are files of steps that this
+  // run does not write, and an earlier list by riis names them. Refuses further steps that this list does not name, and files
+  // that another list names. `parts` are those of path_of, and `has_pieces` says whether each step also has files of pieces,
+  // whose parts are p0000 and so on.
   void find_earlier(const std::vector<std::string> &parts, bool has_pieces);
   // Makes the folder if it is wanted and does not exist, and removes the files of an earlier run.
   void make_folder() const;

@@ -45,7 +45,7 @@ std::string line(std::string label, const std::string &name) {
   return label + (name.empty() ? "" : name + ": ");
 }
 
-// The same for a valve at an opening, unless that is the opening of the marks.
+// Returns the same for a valve at an opening, which is missing if it is the opening of the marks.
 std::string line(const std::string &label, const ValveReport &valve, const std::optional<double> &opening) {
   std::ostringstream state = table_stream();
   state << valve.name;

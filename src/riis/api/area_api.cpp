@@ -34,14 +34,14 @@ constexpr std::int32_t most_samples = 100'001;
 const riis_area_search default_search{sizeof(riis_area_search), nullptr, nullptr, no_value, no_value, 1e-8, 33,
                                       RIIS_AREA_GEOMETRIC};
 
-// What changes until the orifice has an area: the opening, the scale of the placement, or a parameter.
+// The number that changes until the orifice has an area: the opening, the scale of the placement, or a parameter.
 enum class Sought { opening, scale, parameter };
 
 Sought sought_by(const std::string &name) {
   return name == "opening" ? Sought::opening : name == "scale" ? Sought::scale : Sought::parameter;
 }
 
-// The values to search, and the value that a found one should be near.
+// The range to search, and the value that a found value shall be near.
 struct Values {
   double from, to, near;
 };
@@ -108,7 +108,7 @@ class AreaTrials {
  private:
   const char *words() const { return search_.area == RIIS_AREA_EFFECTIVE ? "effective area" : "area"; }
 
-  // Returns the caller's values, or the usual ones within the range where the caller left them out.
+  // Returns the caller's range. A usual end, limited to the possible values, replaces an end that the caller left out.
   Values checked(const Values &usual, const std::array<double, 2> &range) const {
     const double from = std::isnan(search_.from) ? std::clamp(usual.from, range[0], range[1]) : search_.from;
     const double to = std::isnan(search_.to) ? std::clamp(usual.to, range[0], range[1]) : search_.to;

@@ -127,7 +127,7 @@ class TriangleFields {
           if (i == list_.size() || view(list_.node_id)[i] != ties_[tie].point) continue;
           mean = {view(list_.leaflet_id)[i], vector_at(made_.velocity.data() + 3 * i)};
         }
-        // A band that steps aside lists fewer nodes than the search found ties for.
+        // The search also finds ties of nodes that a band with an offset does not list.
         if (i == list_.size() || view(list_.node_id)[i] != ties_[tie].point) continue;
         mean.add(view(set_.leaflet_id)[ties_[tie].triangle.triangle], vector_at(mixed[tie - first].number));
         if (next_node(tie + 1) == tie + 1) put_vector(made_.velocity.data(), i, mean.mean());

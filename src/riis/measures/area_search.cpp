@@ -8,7 +8,7 @@
 namespace riis {
 namespace {
 
-// An interval is no longer cut if it is this short, as a share of its ends' size.
+// An interval of this length is not cut further. The length is a share of the size of its ends.
 constexpr double shortest_interval = 1e-13;
 // Golden sections make an interval this short, as a share of its length. The area is flat at an extreme, so its error is
 // the square of this share.
@@ -20,7 +20,7 @@ AreaSearch::AreaSearch(Area area, double from, double to, std::int32_t n_samples
   sample(from, to, n_samples, grows);
   if (points_.empty()) return;
   part();
-  // The samples pass by the exact extremes, so an area near an extreme would be out of reach. The points move while extremes
+  // The samples miss the exact extremes, so an area near an extreme would be out of reach. The points move while extremes
   // are added, so the places are noted before.
   std::vector<double> places;
   for (const Part &one : parts_) places.push_back(points_[one.last].value);
@@ -122,7 +122,7 @@ void AreaSearch::part() {
     } else if (direction == 0) {
       direction = has_grown ? 1 : has_fallen ? -1 : 0;
     }
-    // Only the extreme of the present direction counts, so the other one follows.
+    // Only the extreme in the present direction counts, so the other extreme starts from it.
     if (direction > 0) low = high;
     if (direction < 0) high = low;
   }

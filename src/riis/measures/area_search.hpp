@@ -25,7 +25,7 @@ class AreaSearch {
   };
 
   // Tries n_samples values from `from` to `to`. Their distances are equal, or grow with the value if `grows`. Then it looks for
-  // the exact places at which the area turns from growth to fall or back.
+  // the exact places at which the area stops growing or falling.
   AreaSearch(Area area, double from, double to, std::int32_t n_samples, bool grows);
 
   bool has_area() const { return !points_.empty(); }
@@ -38,9 +38,9 @@ class AreaSearch {
   const std::vector<double> &turns() const { return turns_; }
   std::int64_t n_refused() const { return n_refused_; }
 
-  // Returns a value with this area, up to the tolerance as a share of the area. Of several values it takes the one nearest to
-  // `near`. If the area jumps over the wanted one, it takes the nearer end of the jump. Returns nothing if the area is out of
-  // reach.
+  // Returns a value with this area, up to the tolerance as a share of the area. If several values have it, the value nearest to
+  // `near` is returned. If the area jumps over the wanted area, the nearer end of the jump is returned. Returns nothing if the
+  // area is out of reach.
   std::optional<Point> find(double area, double near, double tolerance) const;
 
  private:

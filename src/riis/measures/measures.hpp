@@ -45,7 +45,7 @@ struct OrificeLimits {
   double slit;   // how far inwards the edge of the perimeter is moved
 };
 
-// Returns the factor c of a surface's band. An offset opens an orifice, because the flow then passes nearer to the leaflet. The
+// Returns the factor c of a surface's band. An offset widens an orifice, because the flow then passes nearer to the leaflet. The
 // zeros of c are fits to flows through trileaflet and mitral valves. A bileaflet valve has flow on both sides, so c stays.
 double rim_reach(const Surface &surface, std::int32_t rim);
 

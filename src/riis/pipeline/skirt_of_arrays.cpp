@@ -20,7 +20,7 @@ namespace {
 
 // A line of open edges is the attachment if it encloses at least this share of the leaflets' outline.
 constexpr double least_share = 0.8;
-// Another line that encloses this share of the same area might as well be the attachment.
+// If a second line encloses this share of the largest area, either line may be the attachment.
 constexpr double ambiguous_share = 0.99;
 constexpr const char *cure = ": name the attached vertices by arrays.attached";
 

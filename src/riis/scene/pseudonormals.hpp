@@ -53,7 +53,7 @@ class Pseudonormals {
   // Returns two triangles that run along a shared edge in the same direction, or -1 for both if no two do.
   const std::array<std::int64_t, 2> &disagreeing() const { return disagreeing_; }
 
-  // The rates of the sums of normals while the vertices move. An edge of the rim and a vertex have such a sum.
+  // The rates of the sums of normals while the vertices move. Each edge of the rim and each vertex has such a sum.
   struct Rates {
     Vector<Vec3> rim_edge;  // three for each triangle; 0 for edges off the rim
     Vector<Vec3> corner;    // one for each distinct position

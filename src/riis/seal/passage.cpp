@@ -166,7 +166,7 @@ double thickest(const Band &band) { return 10 * max_coordinate / (1 - std::abs(b
 riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends) {
   const auto start = std::chrono::steady_clock::now();
   const double half_thickness = request.surface.half_thickness(), beyond_all = thickest(request.surface.band());
-  // The least half thickness that marks a node of a path is at most the half thickness for each of its ends.
+  // The least half thickness that marks a node of a path is at most the half thickness that marks either end.
   const double widest =
       std::min(largest_thickness(request, "from", ends.from), largest_thickness(request, "to", ends.to));
   Opening opening(request, ends);
