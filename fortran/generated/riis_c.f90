@@ -547,9 +547,9 @@ module riis_c
                                    !! equal distances, the higher id counts as nearest
     real(c_double) :: distance     !< the distance of node_id. A half thickness of at least this distance closes the
                                    !! passage between these triangles, and a smaller one leaves it open. 0 without a
-                                   !! path. With an offset o: the half thickness that marks node_id, s / (1 + o), or -s
-                                   !! / (1 - o) for a signed distance s below 0. Nodes are then ordered by this half
-                                   !! thickness
+                                   !! path. With an offset o, nodes are ordered by the half thickness that marks them,
+                                   !! and this is the half thickness of node_id. It is s / (1 + o) for a signed distance
+                                   !! s of at least 0, and -s / (1 - o) below
     real(c_double) :: point(3)     !< the coordinates of node_id; 0 without a path
     real(c_double) :: seconds      !< wall time of riis_find_passage
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
@@ -593,9 +593,9 @@ module riis_c
                                      !! result is area - rim_reach * half_thickness * perimeter. It is never below 0
     real(c_double) :: rim_reach      !< the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open
                                      !! valves gave 0.70 to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md.
-                                     !! With an offset o, c is smaller by the factor max(0, 1 - o / 1.05) (round) or
-                                     !! max(0, 1 - o / 0.85) (cut), for mitral valves max(0, 1 - o / 0.8) (cut). For
-                                     !! bileaflet valves it stays
+                                     !! With an offset o, c has another factor: max(0, 1 - o / 1.05) for a round rim,
+                                     !! max(0, 1 - o / 0.85) for a cut rim, max(0, 1 - o / 0.8) for a cut rim of a
+                                     !! mitral valve, and 1 for a bileaflet valve
     real(c_double) :: half_thickness !< eps of the resistance
     real(c_double) :: radius         !< the radius of the disc; 0 for other outlines
     real(c_double) :: axis(3)        !< unit vector; 0 for arrays and keyframes without an outline

@@ -41,24 +41,26 @@ RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /*
  *           sum, and get no force
  *   weight  (n_points), 0 to 1e60: the area or volume around a node, 0 for nodes of other ranks. NULL: 1 for each node
  *   sums    (11, n_leaflets): sums are added
- * A bileaflet valve and a surface from arrays have no attachment, so the caller gives edges: the pivots, or the edges at
- * which the leaflets are sewn. With MPI each rank passes its own nodes, and all ranks then add up their sums.
+ * A bileaflet valve has no attachment. A surface from arrays has one only with `attached` or a skirt. Otherwise the caller
+ * gives edges: the pivots, or the edges at which the leaflets are sewn. With MPI each rank passes its own nodes, and all ranks
+ * then add up their sums.
  * Errors: RIIS_INVALID_ARGUMENT naming the field, or the edge, node or weight and its value. */
 RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_points *nodes, const double *weight, double *sums);
-/* Adds the forces of the leaflets at nodes of tissue. Their sum is leaflet_force, and their moment is leaflet_moment, for each
- * leaflet and up to rounding.
+/* Adds the forces of the leaflets at nodes of tissue. For each leaflet, their sum is leaflet_force and their moment is
+ * leaflet_moment, up to rounding.
  *   loads, nodes, weight  as in riis_loads_add_sums
  *   sums        (11, n_leaflets): of riis_loads_add_sums, added up over all ranks
  *   node_force  (3, n_points): forces are added
  * The force of a leaflet at a node is m w(d) (a + b x s). Here m is the weight of the node, d its distance from the leaflet's
  * edges, w(d) = (1 + cos(pi d / radius)) / 2 up to the radius, and s its place from the middle of the leaflet's nodes. The
- * vectors a and b belong to the leaflet. Of all forces with this sum and moment, these have the least sum of
- * |force|^2 / (m w). In a rigid motion their power is force times velocity plus moment times angular velocity. The forces are
+ * vectors a and b belong to the leaflet. Of all forces with this sum and moment, these forces have the least sum
+ * of |force|^2 / (m w). In a rigid motion their power is force times velocity plus moment times angular velocity. The forces are
  * linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to get the forces of one leaflet. They do not
  * come from the mechanics of a membrane.
- * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also for a leaflet with a force or a moment, but with fewer than three
- * nodes within the radius, and for one whose nodes there lie nearly on a line: their root-mean-square distance from the line is
- * less than a hundredth of that from their middle, or less than a thousandth of the size of the edges (docs/theory/loads.md). */
+ * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also for a leaflet with a force or a moment whose nodes within the
+ * radius are fewer than three, or lie nearly on a line. Nodes lie nearly on a line if their root-mean-square distance from it is
+ * less than a hundredth of their root-mean-square distance from their middle. The same holds if it is less than a thousandth of
+ * the size of the edges (docs/theory/loads.md). */
 RIIS_API riis_status riis_loads_add_forces(const riis_loads *loads, const riis_points *nodes, const double *weight,
                                            const double *sums, double *node_force);
 

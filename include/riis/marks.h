@@ -70,7 +70,7 @@ enum {
 /* The term K (u - u_surface) of the momentum equation, with the fluid velocity u and the surface velocity u_surface
  * (paper, 2.1; docs/theory/marks.md, "Resistance"). At a distance d < eps, K = (R / eps) delta(d) with
  * delta(d) = (1 + cos(pi d / eps)) / (2 eps). At larger distances K is 0. With the offset o of the surface, d is the distance
- * from the middle of the band, |s - o eps|, also for the eps of this resistance (riis_surface_create). */
+ * from the middle of the band, |s - o eps|. This also holds for the eps of this resistance (riis_surface_create). */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
   double R;              /* 0 to 1e60, mass / (length time): kg/(m s). A flat closed valve in a flow of

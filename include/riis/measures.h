@@ -55,9 +55,9 @@ typedef struct riis_orifice {
                             is moved inwards by rim_reach * half_thickness. To first order the result is area -
                             rim_reach * half_thickness * perimeter. It is never below 0 */
   double rim_reach;      /* the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70
-                            to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md. With an offset o, c is
-                            smaller by the factor max(0, 1 - o / 1.05) (round) or max(0, 1 - o / 0.85) (cut), for mitral
-                            valves max(0, 1 - o / 0.8) (cut). For bileaflet valves it stays */
+                            to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md. With an offset o, c has
+                            another factor: max(0, 1 - o / 1.05) for a round rim, max(0, 1 - o / 0.85) for a cut rim,
+                            max(0, 1 - o / 0.8) for a cut rim of a mitral valve, and 1 for a bileaflet valve */
   double half_thickness; /* eps of the resistance */
   double radius;         /* the radius of the disc; 0 for other outlines */
   double axis[3];        /* unit vector; 0 for arrays and keyframes without an outline */
@@ -110,7 +110,7 @@ typedef struct riis_area_range {
 /* Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, "From an area to
  * a valve").
  *   valve    its own opening is ignored if openings are found
- *   name     "opening", "scale" (the placement's), or a parameter that riis_valve_get gives one value of
+ *   name     "opening", "scale" of the placement, or a parameter that riis_valve_get gives one value of
  *   n_areas  0 to 1,000,000. With 0 areas only *range is written, and areas may be NULL
  *   areas    (n_areas), 0 to 1e120, mesh units squared
  *   search   NULL stands for the defaults
@@ -118,12 +118,13 @@ typedef struct riis_area_range {
  *   reached  (n_areas): the areas at these values. NULL: not wanted
  *   range    the areas that can be reached. NULL: not wanted
  * The area 0 stands for the closed valve: it gives the opening with the least area, even if slits remain between the leaflets.
- * If several openings have an area, the least of them is taken. Of several sizes, the one nearest to the present size is taken.
+ * If several openings have an area, the least of them is taken. If several sizes have it, the size nearest to the present size
+ * is taken.
  * The area of RIIS_TRIANGULATION_ADAPTED jumps by up to 1e-4 of the largest area where triangles change. An area inside a jump
- * gives the nearer end of the jump. Parts narrower than the distance of two samples may be missed.
- * Errors: RIIS_INVALID_ARGUMENT naming the area, and the range if it is out of reach; RIIS_INVALID_PARAMETER for an
- * unknown name, for three values, for a valve with one state or no orifice, and if the name does not change the area;
- * the errors of riis_surface_create, with the value. On an error nothing is written. */
+ * gives the nearer end of the jump. Parts narrower than the distance between two samples may be missed.
+ * Errors: RIIS_INVALID_ARGUMENT naming the area. If the area is out of reach, the message has the range.
+ * RIIS_INVALID_PARAMETER for an unknown name, for a parameter with three values, for a valve with one state or no orifice, and
+ * if the name does not change the area. The errors of riis_surface_create come with the value. On an error nothing is written. */
 RIIS_API riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t n_areas,
                                        const double *areas, const riis_area_search *search, double *values,
                                        double *reached, riis_area_range *range, int64_t struct_size);

@@ -93,8 +93,8 @@ RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis
  * leaflet_moment, up to rounding. Their power is the power of the nodes' forces in every motion of the vertices. Vertices with
  * equal coordinates are not joined: a valve repeats its vertices along sides of patches, and arrays may share a vertex between
  * leaflets. With MPI add up the forces of all ranks.
- * Errors: as riis_marks_add_reaction; RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, for another number of
- * vertices, and for a closest triangle that the surface lacks. */
+ * Errors: as riis_marks_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, another number of
+ * vertices, or a closest triangle that the surface lacks. */
 RIIS_API riis_status riis_marks_add_vertex_reaction(const riis_marks *marks, const riis_surface *surface,
                                                     const riis_resistance *resistance, const riis_flow_arrays *flow,
                                                     int64_t n_vertices, double *vertex_force);
@@ -118,7 +118,8 @@ typedef struct riis_band {
 RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* the defaults */
 /* Gives the sums of the value over the nodes in the band, by side. It leaves out nodes whose closest point is
  * on the rim, and nodes on neither side. With an open valve the two sides have no meaning. With the offset o of the surface,
- * distances are |s - o eps|, and the sign of s - o eps is the side. s is the signed distance, and eps the marking's.
+ * the distance is |s - o eps|, and the sign of s - o eps is the side. Here s is the signed distance, and eps is the half
+ * thickness of the marking.
  * Errors: RIIS_INVALID_ARGUMENT also for a field that the marks lack. */
 RIIS_API riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *band,
                                               riis_band_sums *sums, int64_t struct_size);

@@ -27,9 +27,9 @@ RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and 
  *   leaks          its content is replaced
  * The decision is exact for coordinates in double precision; coordinates below 1e-90 count as 0. An edge may be given in one
  * row or in both, and appears once in the list. Edges to ghosts are ignored. Edges that are at most two half thicknesses long
- * do not leak (docs/meshes.md). With an offset o, edges of at most 2 (1 - |o|) half thicknesses do not leak. Longer edges leak
- * from 2 sqrt(1 - o^2) half thicknesses on, at sharp corners of a rim. With an offset, an edge does not leak if its ends are on
- * the same side and off rims, because it only cuts off a fold.
+ * do not leak (docs/meshes.md). With an offset o, edges of at most 2 (1 - |o|) half thicknesses do not leak. Longer edges may
+ * leak. The shortest of them are 2 sqrt(1 - o^2) half thicknesses long, at sharp corners of a rim. With an offset, an edge does
+ * not leak if both ends are off rims and on the same side. Such an edge only cuts off a fold.
  * A marking of the same triangles with the half thickness of riis_leak_list closes all of these edges, except by
  * RIIS_SEARCH_PAPER. But riis_surface_update with that half thickness moves a valve's triangles by up to
  * tolerance * half_thickness. Search again after it.
@@ -83,9 +83,9 @@ typedef struct riis_passage {
   int64_t node_id;  /* the path's node that is nearest to the surface; -1 without a path. If nodes have equal distances,
                        the higher id counts as nearest */
   double distance;  /* the distance of node_id. A half thickness of at least this distance closes the passage between
-                       these triangles, and a smaller one leaves it open. 0 without a path. With an offset o: the half
-                       thickness that marks node_id, s / (1 + o), or -s / (1 - o) for a signed distance s below 0. Nodes
-                       are then ordered by this half thickness */
+                       these triangles, and a smaller one leaves it open. 0 without a path. With an offset o, nodes are
+                       ordered by the half thickness that marks them, and this is the half thickness of node_id. It is
+                       s / (1 + o) for a signed distance s of at least 0, and -s / (1 - o) below */
   double point[3];  /* the coordinates of node_id; 0 without a path */
   double seconds;   /* wall time of riis_find_passage */
   int32_t state;    /* RIIS_PASSAGE_* */

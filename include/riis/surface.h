@@ -84,8 +84,9 @@ typedef struct riis_surface_options {
   int32_t flip_normals;    /* 1 turns every triangle over: normal and side change sign; default 0 */
   int32_t n_threads;       /* default 0 */
   int32_t reserved;        /* 0 */
-  double offset;           /* o, in half thicknesses, above -1 and below 1, default 0. The band steps aside by this along the
-                              normals, as flip_normals leaves them. Not with other measures than RIIS_MEASURE_TRIANGLES */
+  double offset;           /* o, in half thicknesses, above -1 and below 1, default 0. The middle of the band lies o half
+                              thicknesses beside the surface, along the normals after flip_normals. Other measures than
+                              RIIS_MEASURE_TRIANGLES need 0 */
 } riis_surface_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
@@ -97,8 +98,8 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
  * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring they point outwards. Triangles of zero area
  * are skipped. They lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges.
  * The band around a surface has the thickness 2 eps, with the half thickness eps. With an offset o its middle lies o eps beside
- * the triangles, where normals point. Let s be the signed distance of a node, with the sign of its side. The band holds the
- * nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, it holds the nodes x with
+ * the triangles, on the side to which normals point. Let s be the signed distance of a node, with the sign of its side. The band
+ * holds the nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, it holds the nodes x with
  * |x - p - o eps n| <= eps (docs/theory/marks.md, "Offset"). Distances, sides and closest points stay those of the triangles.
  * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range;
  * RIIS_INVALID_SURFACE with an offset, for two triangles that run along a shared edge in the same direction;
@@ -128,7 +129,8 @@ typedef struct riis_surface_arrays {
   const uint8_t *attached;   /* (n_vertices): not 0 for the vertices of the attachment. The attachment consists of the open
                                 edges between two such vertices. NULL: with a skirt, the call chooses the attachment */
   const double *skirt_lengths; /* (n_vertices): the skirt's lengths at the attached vertices, at most skirt_length.
-                                  Lengths below the least one count as the least one. NULL: skirt_length everywhere */
+                                  Shorter lengths than the least length count as the least length. NULL: skirt_length
+                                  everywhere */
 } riis_surface_arrays;
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
@@ -139,8 +141,8 @@ RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64
  * A skirt leads away from the line through the attachment's centroid along its vector area (docs/theory/skirt.md). Its
  * vertices and triangles follow the caller's. Without `attached`, the attachment is the closed line of open edges that
  * encloses the largest area. The line must enclose 0.8 of the leaflets' outline (RIIS_OUTLINE_BOUNDARY).
- * Errors: RIIS_LIMIT_EXCEEDED for too many; RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying why an
- * attachment is not found; RIIS_INVALID_ARGUMENT for a length of the skirt out of range. */
+ * Errors: RIIS_LIMIT_EXCEEDED for too many triangles; RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying
+ * why an attachment is not found; RIIS_INVALID_ARGUMENT for a length of the skirt out of range. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options,
                                                      riis_surface **surface);
@@ -219,7 +221,7 @@ typedef struct riis_attachment {
  * - A mitral leaflet is attached at the annulus, v = 0.
  * - A valve from patches is attached at the sides v = 0 of only one patch.
  * - A bileaflet valve has no attachment, because pivots hold its leaflets.
- * - A surface from arrays has one if its arrays have `attached` or a skirt, and keyframes likewise.
+ * - A surface from arrays or keyframes has an attachment if they have `attached` or a skirt.
  * A skirt continues the leaflets at the attachment, and changes nothing of it.
  * Errors: RIIS_INVALID_ARGUMENT for other surfaces from arrays, because their attached edges are not known. */
 RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment,
