@@ -143,16 +143,21 @@ std::string text_of_size(const AreaOptions &options, const riis_valve *valve, co
          summary_line("range", text_of_range(options, found.range)) + summary_line("cost", text_of_cost(found.range));
 }
 
-// Rates are taken at the keys and in the middle between two keys. The fastest rate of a cubic may lie beside the middle.
-std::string text_of_rate(const OpeningLaw &law, const std::vector<double> &times) {
+// The rate of a cubic is a parabola between two keys. So it is fastest at a key or at the parabola's vertex.
+std::string text_of_rate(const OpeningLaw &law, std::vector<double> times, double period) {
+  if (period > 0) times.push_back(times.front() + period);
   double fastest = 0, at = times.front();
   const auto look = [&](double time) {
-    const double rate = std::abs(law.rate_at(time));
-    if (rate > fastest) fastest = rate, at = time;
+    const double rate = law.rate_at(time);
+    if (std::abs(rate) > fastest) fastest = std::abs(rate), at = time;
+    return rate;
   };
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    look(times[i]);
-    if (i + 1 < times.size()) look(0.5 * (times[i] + times[i + 1]));
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    const double length = times[i + 1] - times[i];
+    const double first = look(times[i]), middle = look(times[i] + 0.5 * length), last = look(times[i + 1]);
+    const double slope = 4 * middle - 3 * first - last, bend = 2 * (first - 2 * middle + last);
+    const double vertex = -slope / (2 * bend);
+    if (vertex > 0 && vertex < 1) look(times[i] + vertex * length);
   }
   return "fastest " + printed("%.3g", fastest) + " in a unit of time, at " + shown(at) + ", with --interpolation cubic";
 }
@@ -170,7 +175,7 @@ void write_cycle(const AreaOptions &options, const Areas &wanted, const Solution
                       summary_line("cycle", counted(view(wanted.times).size(), "time") + " from " +
                                                 shown(wanted.times.front()) + " to " + shown(wanted.times.back()) +
                                                 ", openings from " + exact(*least) + " to " + exact(*most)) +
-                      summary_line("rate", text_of_rate(law, wanted.times)) +
+                      summary_line("rate", text_of_rate(law, wanted.times, options.period)) +
                       summary_line("range", text_of_range(options, found.range)) +
                       summary_line("cost", text_of_cost(found.range)) + summary_line("written", options.output));
 }
