@@ -83,7 +83,20 @@ TEST(test_cycle) {
   RUN_FINE("from-area", "--areas", scratch_path("areas.csv"), "--area-unit", "mm2", "--valve", "bileaflet", "--period",
            "0.8", "--output", scratch_path("openings.csv"));
   expect_said("cycle     9 times from 0 to 0.8, openings from 0 to 1\n");
-  expect_said("rate      fastest ");
+  riis_opening_table table;
+  assert_int_equal(riis_opening_table_init(&table, sizeof table), RIIS_OK);
+  double times[n], fastest = 0;
+  for (int i = 0; i < n; ++i) times[i] = 0.1 * i;
+  table.n_keys = n, table.time = times, table.opening = openings, table.period = 0.8;
+  table.interpolation = RIIS_INTERPOLATION_CUBIC;
+  for (int i = 0; i < 8000; ++i) {
+    double rate;
+    assert_int_equal(riis_opening_from_table(&table, 1e-4 * i, NULL, &rate), RIIS_OK);
+    fastest = fmax(fastest, fabs(rate));
+  }
+  const char *told = strstr(program_out, "rate      fastest ");
+  assert_non_null(told);
+  CHECK_NEAR(atof(told + strlen("rate      fastest ")), fastest, 0.005 * fastest);
   char *cycle = scratch_read(scratch_path("openings.csv"), NULL), *next = NULL;
   assert_string_equal(strtok_r(cycle, "\n", &next), "time,opening");
   for (int i = 0; i < n; ++i) {
