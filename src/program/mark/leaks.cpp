@@ -77,6 +77,7 @@ double closing_skirt(const MarkOptions &options, const riis_surface *surface, do
   riis_surface_arrays arrays = triangles.arrays();
   auto how = defaults<riis_surface_options>();
   how.half_thickness = info_of(surface).half_thickness;
+  how.offset = info_of(surface).offset;
   for (const double factor : {1.0, 1.5, 2.0}) {
     arrays.skirt_length = rounded_up(factor * half_thickness);
     try {
