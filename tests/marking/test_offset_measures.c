@@ -32,7 +32,7 @@ static riis_surface_options banded(double half_thickness, double offset, int fli
   return options;
 }
 
-/* --- The ideal leak ---------------------------------------------------------------------------------------------------------- */
+/* --- The ideal leak --- */
 
 enum { n_around = 40, n_rows = 5, n_across = 24 };
 
@@ -113,7 +113,7 @@ TEST(the_leak_of_a_ball_grows_with_its_radius) {
     }
 }
 
-/* --- Orifices ---------------------------------------------------------------------------------------------------------------- */
+/* --- Orifices --- */
 
 static riis_orifice orifice_of(const riis_surface *surface, const riis_resistance *how) {
   riis_orifice orifice;
@@ -157,7 +157,7 @@ TEST(orifices_reach_less_far_into_the_flow) {
       }
 }
 
-/* --- First passages ---------------------------------------------------------------------------------------------------------- */
+/* --- First passages --- */
 
 /* Returns whether a flood passes the valve. */
 static int floods_pass(riis_valve *valve, double opening, const riis_surface_options *options, const test_mesh *grid,
@@ -211,7 +211,7 @@ TEST(valves_first_open_where_floods_pass) {
   assert_true(n_found > 0);
 }
 
-/* --- Forces and moments ------------------------------------------------------------------------------------------------------ */
+/* --- Forces and moments --- */
 
 /* Sets random numbers of three components. */
 static void set_random(double *v) {
@@ -304,7 +304,7 @@ TEST(power_is_force_times_velocity_and_moment_times_angular_velocity) {
   }
 }
 
-/* --- A sheet that turns about its rim ---------------------------------------------------------------------------------------- */
+/* --- A sheet that turns about its rim --- */
 
 /* Places the unit square of x and y, turned by an angle about the edge x = 0, which is a rim. Angles are in radians. */
 static riis_surface_options turned_by(double angle, double eps, double offset) {
