@@ -226,8 +226,8 @@ class OffsetStep {
   riis_mark_options marking_;
 };
 
-// Prints the time of a step with the offset 0.75 over that without. Both steps take turns, so that other work on the machine slows
-// both of them.
+// Prints the time of a step with the offset 0.75 over that without. Both steps take turns, so that other work on the machine
+// slows both of them.
 void print_offset() {
   constexpr double half_thickness = 0.1, spacing = half_thickness / 2;
   const Cylinder &around = cylinders[0];
