@@ -164,6 +164,22 @@ scalar areaInMesh(const polyMesh &mesh, const riis_triangles &triangles, scalar 
   return area;
 }
 
+// Returns the area of all triangles. The leaflet leftOut does not count.
+scalar areaOf(const riis_triangles &triangles, int32_t leftOut) {
+  scalar area = 0;
+  for (int64_t i = 0; i < triangles.n_triangles; ++i) {
+    if (triangles.leaflet_id[i] == leftOut) continue;
+    const int64_t *ids = triangles.vertex_id + 3 * i;
+    point corner[3];
+    for (int k = 0; k < 3; ++k) {
+      const double *at = triangles.xyz + 3 * ids[k];
+      corner[k] = point(at[0], at[1], at[2]);
+    }
+    area += mag((corner[1] - corner[0]) ^ (corner[2] - corner[0])) / 2;
+  }
+  return area;
+}
+
 // Tells whether the case has a scheme of this name or a default.
 bool hasScheme(const dictionary &schemes, const word &name) {
   return schemes.found(name) || (schemes.found("default") && word(schemes.lookup("default")) != "none");
@@ -266,7 +282,13 @@ void riisValve::estimateDrop() {
   riis_triangles triangles;
   check(riis_surface_get_triangles(surface_.get(), &triangles, sizeof triangles));
   const int32_t housing = kind_ == "bileaflet" ? RIIS_LEAFLET_HOUSING : -1;
-  const scalar area = returnReduce(areaInMesh(mesh_, triangles, halfThickness_, housing), sumOp<scalar>());
+  scalar area = returnReduce(areaInMesh(mesh_, triangles, halfThickness_, housing), sumOp<scalar>());
+  if (placement_.offset != 0) {
+    // Blood passes the middle of the band, which has another area than the leaflets. The library's ideal leak has this area.
+    double leak = 0;
+    check(riis_surface_get_leak(surface_.get(), &resistance_, 1, &leak));
+    area *= leak * resistance_.R / halfThickness_ / areaOf(triangles, housing);
+  }
 
   // A flow of 1 should drop R / (eps area). It drops rho / conductance.
   const auto share = [&](scalar factor) {

@@ -168,6 +168,39 @@ TEST(test_one_time) {
   assert_false(has_array(out, "riis_K_u_surface"));
 }
 
+/* A case has an offset, and a valve may have another. Turned normals turn the offset. */
+TEST(test_offsets) {
+  static double K[n_nodes], one[n_nodes], two[n_nodes], plain[n_nodes];
+  const char *out = scratch_path("offsets.vtu");
+  write_case(
+      "{\"name\": \"a\", \"valve\": \"mitral\", \"opening\": 0.25, \"offset\": -0.4},"
+      "{\"name\": \"b\", \"valve\": \"aortic\", \"translate\": [0, 0, 1], \"flip_normals\": true}",
+      "\"resistance\": 3, \"offset\": 0.6,");
+  RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", out);
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--opening", "0.25",
+           "--resistance", "3", "--offset", "-0.4", "--prefix", "a", "--output", scratch_path("a2.vtu"), "--quiet");
+  /* The normals of this valve are not turned, so the offset is. */
+  RUN_FINE("mark", scratch_path("a2.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--translate", "0,0,1",
+           "--resistance", "3", "--offset", "-0.6", "--prefix", "b", "--output", scratch_path("b2.vtu"), "--quiet");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--translate", "0,0,1",
+           "--offset", "0.6", "--prefix", "b", "--output", scratch_path("c2.vtu"), "--quiet");
+  static const char *const names[] = {"a_marked", "b_marked"};
+  int n_marked[2] = {0, 0}, n_moved = 0;
+  for (int k = 0; k < 2; ++k) {
+    read_array(out, names[k], one);
+    assert_int_equal(read_array(scratch_path("b2.vtu"), names[k], two), n_box);
+    assert_memory_equal(one, two, n_box * sizeof *one);
+    for (int i = 0; i < n_box; ++i) n_marked[k] += one[i] > 0;
+  }
+  read_array(scratch_path("c2.vtu"), "b_marked", plain);
+  for (int i = 0; i < n_box; ++i) n_moved += plain[i] != one[i];
+  assert_true(n_marked[0] > 0 && n_marked[1] > 0 && n_moved > 0);
+  read_array(out, "riis_K", K);
+  read_array(scratch_path("b2.vtu"), "a_K", one);
+  read_array(scratch_path("b2.vtu"), "b_K", two);
+  for (int i = 0; i < n_box; ++i) assert_true(fabs(K[i] - one[i] - two[i]) <= 1e-11 * 3 / 0.09);
+}
+
 static const char *text_of(const char *name) { return scratch_read(scratch_path(name), NULL); }
 
 /* Removes the values of the seconds, which differ from run to run. */

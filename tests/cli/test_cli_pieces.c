@@ -233,6 +233,68 @@ static void make_random_mesh(int mode) {
   write_pieces();
 }
 
+/* With an offset, nodes are ordered by the half thickness that marks each. */
+TEST(passages_with_an_offset_are_those_of_the_joined_mesh) {
+  static const char *const valves[] = {"coapting", "trileaflet", "mitral", "bileaflet", "aortic"};
+  static const char *const offsets[] = {"0.5", "-0.3"};
+  rng = random_start("passages_with_an_offset_are_those_of_the_joined_mesh");
+  int n_open = 0, n_closed = 0, n_moved = 0;
+  for (int trial = 0; trial < (is_long_test() ? 100 : 10); ++trial) {
+    char eps[32], opening[32];
+    const char *const valve = valves[trial % 5], *const offset = offsets[trial / 5 % 2];
+    make_random_mesh(trial % 3);
+    snprintf(eps, sizeof eps, "%.3f", random_between(&rng, 0.05, 0.35));
+    snprintf(opening, sizeof opening, "%.2f", below(2) ? 0 : random_between(&rng, 0, 0.5));
+    const char *const first = trial % 5 == 0 ? "--first-passage" : "--quiet";
+    const char *const meshes[] = {"joined.vtu", "mesh.pvtu"};
+    int code[2];
+    char *text[2], refusal[longest_output];
+    for (int i = 0; i < 2; ++i) {
+      run_program("check", "leaks", scratch_path(meshes[i]), first, "--between", "0.1,0.1,-1.75", "0.1,0.1,1.1",
+                  "--valve", valve, "--opening", opening, "--half-thickness", eps, "--offset", offset, "--stats",
+                  scratch_path("check.json"), "--quiet", NULL);
+      code[i] = program_exit_code;
+      if (i == 0) memcpy(refusal, program_err, sizeof refusal);
+      text[i] = code[i] == 0 || code[i] == 3 ? read_text("check.json") : NULL;
+    }
+    if (code[0] != code[1]) fail_msg("%d: %s and %d: %s", code[0], refusal, code[1], program_err);
+    if (!text[0]) {
+      /* Both refuse an end in the band, and name the half thickness that marks it. */
+      assert_non_null(strstr(refusal, "in the band: the half thickness that marks it, "));
+      assert_non_null(strstr(program_err, "in the band: the half thickness that marks it, "));
+      forget_whole();
+      continue;
+    }
+    const char *const p = strstr(text[0], "\"passage\""), *const q = strstr(text[1], "\"passage\"");
+    expect_same("distance", p, q);
+    expect_same("closing_half_thickness", p, q);
+    if (has_ids) expect_same("node_id", text[0], text[1]);
+    const char *const first_joined = strstr(text[0], "\"first_passage\""), *const first_pieces =
+                                                                               strstr(text[1], "\"first_passage\"");
+    assert_int_equal(first_joined != NULL, first_pieces != NULL);
+    for (int i = 0; first_joined && i < 4; ++i)
+      expect_same((const char *const[]){"opening", "closed_opening", "distance", "n_openings"}[i], first_joined,
+                  first_pieces);
+    const int is_open = json_has_text(text[0], "state", "\"open");
+    assert_int_equal(is_open, json_has_text(text[1], "state", "\"open"));
+    n_open += is_open, n_closed += !is_open;
+    /* The passage differs from the one without an offset. */
+    run_program("check", "leaks", scratch_path("mesh.pvtu"), "--between", "0.1,0.1,-1.75", "0.1,0.1,1.1", "--valve",
+                valve, "--opening", opening, "--half-thickness", eps, "--stats", scratch_path("plain.json"), "--quiet",
+                NULL);
+    if (program_exit_code == 0 || program_exit_code == 3) {
+      char *const without = read_text("plain.json");
+      n_moved += fabs(json_number(strstr(without, "\"passage\""), "distance") - json_number(p, "distance")) > 1e-6;
+      free(without);
+    }
+    free(text[0]);
+    free(text[1]);
+    forget_whole();
+  }
+  printf("%d open and %d closed passages with an offset, %d differ from those without\n", n_open, n_closed, n_moved);
+  assert_true(n_open > 0 && n_closed > 0 && n_moved > 0);
+}
+
 /* Checks that the written parts of the pieces have the same values as the written part of the joined mesh. */
 static void expect_same_parts(int step, const char *const *names, int n_names) {
   char path[64], type[32];

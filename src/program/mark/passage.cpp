@@ -13,6 +13,7 @@
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_source.hpp"
+#include "program/mark/marking_thickness.hpp"
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {
@@ -44,8 +45,11 @@ void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd
 
 // --quiet does not silence this warning, because the valve lets flow through.
 // An open valve is meant to have a passage, so there is no advice.
-void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const std::string &surface, double opening,
-                     const std::string &unknown) {
+void warn_of_passage(const MarkOptions &options, const PassageReport &report, const std::string &surface,
+                     double opening, const std::string &unknown) {
+  const LeakCheck &asked = *options.check_leaks;
+  // With an offset, the passage is as wide as the half thickness that closes it.
+  const bool has_offset = options.surface_options.offset != 0;
   const std::string ends = text_of(asked.point(0)) + " and " + text_of(asked.point(1));
   const riis_passage &found = report.found;
   if (report.is_unknown)
@@ -57,14 +61,18 @@ void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const 
   const std::string text = state + ": unmarked nodes join " + ends + "; the passage is ";
   if (report.is_end)
     warn(text + "wide everywhere: no place on it is nearer to " + surface + " than its end at " + report.place + ", " +
-         shown(found.distance) + " from it. Either the points are beside " + surface +
+         (has_offset ? "which a half thickness of " + shown(found.distance) + " marks"
+                     : shown(found.distance) + " from it") +
+         ". Either the points are beside " + surface +
          ", or it does not stand in their way: give points on both sides of it, farther away");
   else if (report.closing_half_thickness > 0 && opening == 0)
     warn({{Cause::leaks, text + "at " + report.place,
            ", and --half-thickness " + shortest(report.closing_half_thickness) +
                (report.closing_skirt > 0 ? " or --skirt " + shortest(report.closing_skirt) : "") + " closes it"}});
   else
-    warn(text + "at " + report.place + ", " + shown(found.distance) + " from the surface");
+    warn(text + "at " + report.place + ", " +
+         (has_offset ? "and a half thickness of " + shown(found.distance) + " closes it"
+                     : shown(found.distance) + " from the surface"));
 }
 
 // Finds the widest passage by the library, which has the whole mesh.
@@ -92,7 +100,8 @@ riis_passage passage_in(const Piece &piece, const MarkOptions &options, const ri
 
 // ---- The widest passage in pieces ----
 //
-// Each piece is reduced to the ways between its shared nodes. All nodes beyond a limit are open at first, and their connected
+// Each piece is reduced to the ways between its shared nodes. A node's distance is the half thickness that marks it, which is its
+// distance from the surface if the band has no offset. All nodes beyond a limit are open at first, and their connected
 // regions are labelled. Then the nearer nodes open one by one, from far to near. A node that joins two sets, each with a shared
 // node or an end, is a link with the node's distance. Regions with a common node are joined. Links are then opened from far to
 // near, until both ends are joined. If the ends are joined before any link opens, the limit was too small.
@@ -134,12 +143,18 @@ struct PlacedEnd {
 // Reduces one piece.
 class PieceWays {
  public:
-  PieceWays(const Piece &piece, const riis_mark_list &within)
+  PieceWays(const Piece &piece, const riis_mark_list &within, const MarkingThickness &thickness, double limit)
       : piece_(piece.number), nodes_(piece.nodes), edges_(*piece.mesh), sets_(nodes_.n()) {
     const PieceNodes &nodes = piece.nodes;
     resize(distance_, nodes.n());
     std::fill(distance_.begin(), distance_.end(), std::numeric_limits<double>::infinity());
-    for (std::int64_t i = 0; i < within.n_nodes; ++i) view(distance_)[within.node_id[i]] = within.distance[i];
+    for (std::int64_t i = 0; i < within.n_nodes; ++i) {
+      const std::int64_t node = within.node_id[i];
+      const double distance = thickness.of(within, i, nodes.point(node));
+      if (!(distance <= limit)) continue;
+      view(distance_)[node] = distance;
+      near_.push_back(node);
+    }
     resize(is_open_, nodes.n());
     for (std::int64_t i = 0; i < nodes.n(); ++i) view(is_open_)[i] = is_far(i) && !nodes.is_ghost(i);
     for (std::int64_t i = 0; i < nodes.n(); ++i) {
@@ -175,13 +190,12 @@ class PieceWays {
     return made;
   }
 
-  void add_links(const riis_mark_list &within, std::vector<Link> &links) {
-    std::vector<std::int64_t> order(within.node_id, within.node_id + within.n_nodes);
-    std::sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
+  void add_links(std::vector<Link> &links) {
+    std::sort(near_.begin(), near_.end(), [&](std::int64_t a, std::int64_t b) {
       const double p = view(distance_)[a], q = view(distance_)[b];
       return p != q ? p > q : nodes_.id(a) < nodes_.id(b);
     });
-    for (const std::int64_t node : order) {
+    for (const std::int64_t node : near_) {
       if (nodes_.is_ghost(node)) continue;
       view(is_open_)[node] = 1;
       edges_.for_each_neighbor(node, [&](std::int64_t other) {
@@ -207,7 +221,8 @@ class PieceWays {
   const PieceNodes &nodes_;
   const FileNodes &edges_;
   DisjointSets sets_;
-  std::vector<double> distance_;  // infinite beyond the limit
+  std::vector<double> distance_;    // infinite beyond the limit
+  std::vector<std::int64_t> near_;  // the nodes within the limit
   std::vector<std::uint8_t> is_open_;
   std::vector<std::int32_t> region_;    // the root of the node's region beyond the limit, or -1
   std::vector<std::int64_t> terminal_;  // of a set's root: a shared node or an end in the set, or -1
@@ -226,17 +241,20 @@ void check_end_is_open(const MarkOptions &options, const MeshPieces &mesh, const
                        const PlacedEnd &placed, double half_thickness) {
   if (placed.node.distance > half_thickness) return;
   const PieceEnd &end = ends[placed.end];
-  options.check_leaks->refuse((placed.end == 0 ? "FROM is node " : "TO is node ") + std::to_string(end.id) + " of " +
-                              view(mesh.files())[end.piece] + ", in the band: its distance to the surface, " +
-                              shortest(placed.node.distance) + ", is at most the half thickness, " +
-                              shortest(half_thickness));
+  options.check_leaks->refuse(
+      (placed.end == 0 ? "FROM is node " : "TO is node ") + std::to_string(end.id) + " of " +
+      view(mesh.files())[end.piece] + ", in the band: " +
+      (options.surface_options.offset == 0 ? "its distance to the surface, " : "the half thickness that marks it, ") +
+      shortest(placed.node.distance) + ", is at most the half thickness, " + shortest(half_thickness));
 }
 
 // Returns nothing if the passage is wider than the limit.
 std::optional<PassageReport> passage_within(const MarkOptions &options, const MeshPieces &mesh,
-                                            const riis_surface *surface, const PieceEnd (&ends)[2], double limit,
-                                            double half_thickness) {
-  const riis_mark_options how = how_to_mark_again(options, limit);
+                                            const riis_surface *surface, const MarkingThickness &thickness,
+                                            const PieceEnd (&ends)[2], double limit) {
+  const double half_thickness = thickness.band().half_thickness;
+  riis_mark_options how = how_to_mark_again(options, thickness.band().with(limit).reach());
+  how.fields = thickness.fields();
   std::vector<Link> own_links;
   std::vector<PlacedEnd> own_ends;
   std::vector<std::vector<SharedNode>> shared;
@@ -247,14 +265,14 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
     piece.mesh->find_neighbors(how.n_threads);
     const Marks marks = marks_of(surface, piece.mesh->mesh(), how);
     const riis_mark_list within = list_of(marks, RIIS_LIST_WITHIN_LIMIT);
-    PieceWays ways(piece, within);
+    PieceWays ways(piece, within, thickness, limit);
     for (int i = 0; i < 2; ++i) {
       if (ends[i].piece != piece.number) continue;
       ways.add_terminal(ends[i].node);
       own_ends.push_back({i, ways.place_of(ends[i].node), ways.passage_node(ends[i].node)});
     }
     shared.push_back(shared_nodes_of(piece, ways.regions()));
-    ways.add_links(within, own_links);
+    ways.add_links(own_links);
   });
   std::vector<PlacedEnd> placed = ranks::gather(own_ends);
   std::sort(placed.begin(), placed.end(), [](const PlacedEnd &a, const PlacedEnd &b) { return a.end < b.end; });
@@ -281,16 +299,16 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
 PassageReport find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
                            const PieceEnd (&ends)[2]) {
   const riis_surface_info info = info_of(surface);
-  if (info.offset != 0) options.check_leaks->refuse("a passage in a mesh in pieces needs the offset 0");
-  // A path comes at least as near to the surface as its ends, which are nearer than this.
+  const MarkingThickness thickness(surface);
+  // A path comes at least as near to the surface as its ends, which are marked by a half thickness below this.
   double farthest = 0;
   for (const PieceEnd &end : ends)
     for (int k = 0; k < 3; ++k)
       farthest = std::max({farthest, std::abs(end.point[k] - info.lower[k]), std::abs(end.point[k] - info.upper[k])});
-  farthest = std::max(2 * farthest, 2 * info.half_thickness);
+  farthest = std::max(2 * farthest / (1 - std::abs(info.offset)), 2 * info.half_thickness);
   double growth = 2;
   for (double limit = 2 * info.half_thickness;; limit = std::min(limit * growth, farthest)) {
-    if (const auto found = passage_within(options, mesh, surface, ends, limit, info.half_thickness)) return *found;
+    if (const auto found = passage_within(options, mesh, surface, thickness, ends, limit)) return *found;
     growth *= growth;
   }
 }
@@ -379,7 +397,7 @@ void PassageCheck::judge(const riis_surface *surface, const riis_valve *valve, c
                       [&](const riis_surface *with) { return find(with).found.state == RIIS_PASSAGE_CLOSED; });
   }
   if (found.node_id >= 0) passage.place = place_text(options_, found.point, longest_edge_at(found, counts));
-  warn_of_passage(*options_.check_leaks, passage, name, valve ? opening_of(valve) : 0, unknown);
+  warn_of_passage(options_, passage, name, valve ? opening_of(valve) : 0, unknown);
   report.passage = passage;
   if (options_.first_passage && unknown.empty()) report.valves[0].flow.first = first_of(valve);
 }

@@ -4,8 +4,8 @@
 
 #include <riis/riis.h>
 
+#include "common/band.hpp"
 #include "geometry/placement.hpp"
-#include "scene/band.hpp"
 
 namespace riis {
 

@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
+#include "common/band.hpp"
 #include "marks/marks.hpp"
 #include "obstacle/resistance.hpp"
-#include "scene/band.hpp"
 #include "search/search.hpp"
 
 namespace riis {

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "base/made_once.hpp"
+#include "common/band.hpp"
 #include "geometry/placement.hpp"
 #include "motion/vertex_rates.hpp"
 #include "paper_distances/patch_distance.hpp"
-#include "scene/band.hpp"
 #include "scene/edges.hpp"
 #include "scene/pseudonormals.hpp"
 #include "scene/triangle_scene.hpp"
