@@ -17,10 +17,10 @@ peers_packages=(python3-venv libusb-1.0-0 libgl1)
 #   as CGAL's tree, and the making of an adjacency. roofline prints time, operations and bytes of each stage for each marked node,
 #   beside the machine's limits. peers measures CGAL, VTK, OpenVDB and, from PyPI, libigl, open3d, fcpw and point-cloud-utils.
 # ./run bench costs [offset | measures] | leaks | moving | busy | ranks | scale [N [N [leaks]]]
-#   costs prints the cost of each call, or only those of a step with an offset or of measures. leaks prints how fine a mesh must be,
-#   as docs/meshes.md. moving compares velocity, fields and resistance with a plain time step. busy measures steps beside two busy
-#   processes. ranks prints the cost on each rank of a mesh that METIS partitions, as docs/solvers.md. scale marks millions of
-#   nodes in pieces, as docs/scale.md.
+#   costs prints the cost of each call, or only those of a step with an offset or of measures. leaks prints how fine a mesh must
+#   be, as docs/meshes.md. moving compares velocity, fields and resistance with a plain time step. busy measures steps beside two
+#   busy processes. ranks prints the cost on each rank of a mesh that METIS partitions, as docs/solvers.md. scale marks millions
+#   of nodes in pieces, as docs/scale.md.
 # ./run bench accuracy | proof
 #   accuracy measures the errors of distances by triangles, samples and minimisation, and fails if one is larger than promised.
 #   proof compares marks of a million nodes with a loop over triangles, by every instruction set and 1 to 4 threads. It watches
