@@ -316,7 +316,7 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
 end subroutine riisf_surface_triangulate
 
 !> Replaces the surface like riisf_surface_place, with a band that steps aside along the normals, by `offset` half thicknesses.
-!! riisf_surface_update and riisf_surface_update_moving keep the offset.
+!! riisf_surface_update and riisf_surface_update_moving keep the offset. The other calls that place the surface set it to 0.
 subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, offset, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
