@@ -367,7 +367,7 @@ TEST(vertices_are_where_the_formulas_say) {
 /* The sizes that the parameters promise, and the coaptation zone beside the planes between the cusps. */
 TEST(closed_cusps_coapt) {
   random_source random = random_start("test_coapting");
-  for (int trial = 0; trial < 10; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(10); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = trial ? random_valve(&random) : new_valve("coapting");
     const sizes v = sizes_of(valve);

@@ -230,7 +230,7 @@ TEST(flat_mitral_leaflets_stay_within_the_bound) {
 TEST(openings_of_the_choice_are_never_refused) {
   rng = random_start("test_fixed_triangulation");
   const riis_surface_options defaults = fixed_options();
-  for (int trial = 0; trial < 30; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(30); ++trial) {
     const int owned_before = n_owned();
     shape made[2] = {{0}, {0}};
     for (int k = 0; k < 2; ++k) {

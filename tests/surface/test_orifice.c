@@ -34,7 +34,7 @@ static riis_orifice orifice_of(const riis_surface *surface, const riis_resistanc
 
 enum { n_kinds = 5 };
 static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet", "coapting"};
-static int n_trials(void) { return is_long_test() ? 2 * n_kinds : n_kinds; }
+static int n_trials(void) { return is_long_test() ? 2 * n_kinds : fewer_if_sanitized(n_kinds); }
 
 static riis_valve *valve_at(int kind, double opening) {
   riis_valve *valve = new_valve(kinds[kind]);
@@ -226,7 +226,7 @@ TEST(orifices_are_those_of_turned_lines) {
 
 /* If the edge moves inwards, the area decreases by the distance times the perimeter. */
 TEST(perimeters_are_derivatives_of_areas) {
-  for (int trial = 0; trial < fewer_if_sanitized(n_trials()); ++trial) {
+  for (int trial = 0; trial < n_trials(); ++trial) {
     const riis_surface *surface = new_surface(valve_at(trial % n_kinds, between(0.5, 1)), NULL);
     const riis_resistance how = resistance(0.1, RIIS_RIM_ROUND);
     const riis_orifice found = orifice_of(surface, &how);
