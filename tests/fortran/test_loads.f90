@@ -42,6 +42,7 @@ program test_loads
   call cusps%destroy()
   call valve%destroy()
   call free_box()
+  deallocate (velocity, weight)
   call finish()
 
 contains

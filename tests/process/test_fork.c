@@ -18,7 +18,7 @@
 
 #include "sanitized.h"
 
-enum { n_forks = 1000, child_passed = 17, seconds_for_a_child = 20 };
+enum { n_forks = 1000, child_passed = 17, seconds_for_a_child = 120 };
 
 static atomic_int is_over;
 

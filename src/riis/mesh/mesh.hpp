@@ -110,6 +110,7 @@ class Mesh {
       const Vec3 p = nodes[i];
       xyz[3 * i] = p.x, xyz[3 * i + 1] = p.y, xyz[3 * i + 2] = p.z;
     }
+    if (nodes.n == 0) return set_nodes({0, nullptr, nullptr, nullptr, 3}, bounds);
     set_nodes({nodes.n, xyz, xyz + 1, xyz + 2, 3}, bounds);
   }
   void set_adjacency(const std::optional<Adjacency> &adjacency) {
