@@ -435,6 +435,7 @@ module riis_c
     type(c_ptr) :: distance_gradient !< real(c_double), (n_directions, n_nodes), the derivative of the distance in each
                                      !! direction
     type(c_ptr) :: K_gradient        !< real(c_double), (n_directions, n_nodes), the derivative of K in each direction
+    type(c_ptr) :: height            !< real(c_double), (n_nodes), the signed distance, with an offset
   end type riis_mark_list
 
   !> c_null_ptr for arrays that are not wanted

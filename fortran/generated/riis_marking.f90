@@ -37,6 +37,7 @@ module riis_marking
                                                             !! each direction of the surface.
     real(c_double), pointer :: K_gradient(:, :) => null()   !< (n_directions, n_nodes): the derivative of K, if the marking had
                                                             !! R.
+    real(c_double), pointer :: height(:) => null()          !< (n_nodes): the signed distance, if the surface has an offset.
   end type riis_mark_list
 
   !> The nodes that a marking found, with their distances. It is empty before riis_mark_nodes and after %destroy, which must be
@@ -568,6 +569,8 @@ contains
     call point_to(made, list%node_id, list%distance, list%triangle_id, list%leaflet_id)
     list%K => no_reals
     if (c_associated(made%K)) call c_f_pointer(made%K, list%K, [made%n_nodes])
+    list%height => no_reals
+    if (c_associated(made%height)) call c_f_pointer(made%height, list%height, [made%n_nodes])
     list%K_u_surface => no_vectors
     if (c_associated(made%K_u_surface)) call c_f_pointer(made%K_u_surface, list%K_u_surface, [3_int64, made%n_nodes])
     list%point => no_vectors

@@ -150,6 +150,8 @@ typedef struct riis_mark_list {
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. It is 0
                                  beyond the half thickness and beyond a cut rim; NULL without a resistance. With an
                                  offset, on the surface n is the surface's normal, and at a rim the normal turns too */
+  const double *height;       /* (n_nodes): with an offset, the signed distance s of riis_surface_create; at a rim n.(x - p).
+                                 NULL without an offset */
 } riis_mark_list;
 /* Gives a list of the last marking. It is valid until the next riis_mark_nodes with these marks, or their destruction.
  *   which  RIIS_LIST_* */

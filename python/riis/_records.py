@@ -41,7 +41,6 @@ class SurfaceInfo(NamedTuple):
     seconds_triangles: float
     seconds_scene: float
     error_bound: float  #: distances to the triangles and to the smooth valve differ by at most this length
-    #: velocities of the triangles and of the smooth valve, at the same patch, u and v, differ by at most this
     largest_leaflet_id: int  #: of the triangles
     offset: float  #: of the band, in half thicknesses
 

@@ -268,7 +268,7 @@ TEST(test_structs) {
   FIELD(riis_mark_options, n_threads, 40, 4);
   FIELD(riis_mark_options, instructions, 44, 4);
 
-  SIZE(riis_mark_list, 144);
+  SIZE(riis_mark_list, 152);
   FIELD(riis_mark_list, n_nodes, 0, 8);
   FIELD(riis_mark_list, node_id, 8, 8);
   FIELD(riis_mark_list, distance, 16, 8);
@@ -287,6 +287,7 @@ TEST(test_structs) {
   FIELD(riis_mark_list, n_directions, 120, 8);
   FIELD(riis_mark_list, distance_gradient, 128, 8);
   FIELD(riis_mark_list, K_gradient, 136, 8);
+  FIELD(riis_mark_list, height, 144, 8);
 
   SIZE(riis_dense_arrays, 56);
   FIELD(riis_dense_arrays, struct_size, 0, 8);

@@ -478,9 +478,9 @@ void declare_states(Command command, StatesOptions &options) {
 }
 
 void declare_from_area(Command command, AreaOptions &options) {
-  CLI::Option *const area = command.parsed(
-      "--area", "A", "The area in the mesh's unit squared, or with a unit, such as '2.5 cm2'", options.given_area,
-      [](const std::string &text, const std::string &name) { return parse_amount(text, name, an_area); });
+  CLI::Option *const area =
+      command.parsed("--area", "A", "The area in the mesh's unit squared, or with a unit, such as '2.5 cm2'",
+                     options.given_area, amount_of(an_area));
   CLI::Option *const areas =
       command.text("--areas", "FILE.csv", "Areas in time, which become a cycle of openings: time, area", options.areas);
   area->excludes(areas);

@@ -194,10 +194,10 @@ SkirtOfFile::SkirtOfFile(const ValveOptions &options, riis_surface_arrays arrays
   arrays_.skirt_length = longest / scale;
   if (options.wall.empty()) return;
   const SurfaceFile file = read_wall(options.wall);
-  const Surface wall = make_wall(options, file);
+  wall_ = make_wall(options, file);
   const auto surface =
       create_for<Surface>(options.surface, riis_surface_create_from_arrays, &arrays_, &options.surface_options);
-  const Gaps gaps = gaps_of(surface, wall);
+  const Gaps gaps = gaps_of(surface, wall_);
   if (!is_reached(gaps, longest))
     refuse_data(options.wall + ": wall is not within --skirt, " + shown(longest) + ", of the attachment: " +
                 (gaps.measures.n_without_wall > 0 ? "it is missed at " + std::to_string(gaps.measures.n_without_wall) +
@@ -207,7 +207,7 @@ SkirtOfFile::SkirtOfFile(const ValveOptions &options, riis_surface_arrays arrays
                 hint_of_change(options, file, [&](const riis_surface *other) {
                   return is_reached(gaps_of(surface, other), longest);
                 }));
-  check_sizes(options, wall, surface);
+  check_sizes(options, wall_, surface);
   const auto attachment = get<riis_attachment>(riis_surface_get_attachment, surface);
   resize(lengths_, arrays.n_vertices);
   for (std::int64_t i = 0; i < 2 * attachment.n_edges; ++i)
@@ -216,13 +216,12 @@ SkirtOfFile::SkirtOfFile(const ValveOptions &options, riis_surface_arrays arrays
 }
 
 void SkirtOfFile::check_times(const riis_keyframes *keyframes, const std::vector<double> &times) const {
-  if (!options_.skirt || options_.wall.empty()) return;
-  const Surface wall = wall_of(options_);
+  if (!wall_) return;
   for (const double time : times)
     check_gap(options_,
               create_for<Surface>(options_.surface, riis_surface_create_from_keyframes, keyframes, time, 0.0,
                                   &options_.surface_options),
-              wall, "at the time " + shown(time) + " ");
+              wall_, "at the time " + shown(time) + " ");
 }
 
 std::string with_attached_array(std::string text) {

@@ -31,6 +31,7 @@ class SkirtOfFile {
   const ValveOptions &options_;
   riis_surface_arrays arrays_;
   std::vector<double> lengths_;  // which arrays_ borrows
+  Surface wall_;                 // null without --skirt and --wall
 };
 // Adds to a refusal of arrays how a file names the attached vertices.
 std::string with_attached_array(std::string text);

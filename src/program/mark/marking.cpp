@@ -30,10 +30,9 @@ Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valv
     const riis_surface_info info = info_of(valve.surface());
     const double half_thickness = info.half_thickness, offset = info.offset;
     if (offset != together.offset)
-      throw Refusal{all.options.check_leaks->exit_code,
-                    all.options.check_leaks->subject + ": the valves must have one offset; that of " +
-                        first.options().prefix + " is " + shown(together.offset) + ", that of " +
-                        valve.options().prefix + " " + shown(offset)};
+      all.options.check_leaks->refuse("the valves must have one offset; that of " + first.options().prefix + " is " +
+                                      shown(together.offset) + ", that of " + valve.options().prefix + " " +
+                                      shown(offset));
     if (half_thickness != together.half_thickness)
       all.options.check_leaks->refuse("the valves must have one half thickness; that of " + first.options().prefix +
                                       " is " + shown(together.half_thickness) + ", that of " + valve.options().prefix +

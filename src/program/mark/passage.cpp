@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "common/band.hpp"
 #include "common/first_passage.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/marking_thickness.hpp"
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {
@@ -143,14 +143,14 @@ struct PlacedEnd {
 // Reduces one piece.
 class PieceWays {
  public:
-  PieceWays(const Piece &piece, const riis_mark_list &within, const MarkingThickness &thickness, double limit)
+  PieceWays(const Piece &piece, const riis_mark_list &within, const Band &band, double limit)
       : piece_(piece.number), nodes_(piece.nodes), edges_(*piece.mesh), sets_(nodes_.n()) {
     const PieceNodes &nodes = piece.nodes;
     resize(distance_, nodes.n());
     std::fill(distance_.begin(), distance_.end(), std::numeric_limits<double>::infinity());
     for (std::int64_t i = 0; i < within.n_nodes; ++i) {
       const std::int64_t node = within.node_id[i];
-      const double distance = thickness.of(within, i, nodes.point(node));
+      const double distance = band.marking_thickness(within.distance[i], within.height ? within.height[i] : 0);
       if (!(distance <= limit)) continue;
       view(distance_)[node] = distance;
       near_.push_back(node);
@@ -250,11 +250,9 @@ void check_end_is_open(const MarkOptions &options, const MeshPieces &mesh, const
 
 // Returns nothing if the passage is wider than the limit.
 std::optional<PassageReport> passage_within(const MarkOptions &options, const MeshPieces &mesh,
-                                            const riis_surface *surface, const MarkingThickness &thickness,
-                                            const PieceEnd (&ends)[2], double limit) {
-  const double half_thickness = thickness.band().half_thickness;
-  riis_mark_options how = how_to_mark_again(options, thickness.band().with(limit).reach());
-  how.fields = thickness.fields();
+                                            const riis_surface *surface, const Band &band, const PieceEnd (&ends)[2],
+                                            double limit) {
+  const riis_mark_options how = how_to_mark_again(options, band.with(limit).reach());
   std::vector<Link> own_links;
   std::vector<PlacedEnd> own_ends;
   std::vector<std::vector<SharedNode>> shared;
@@ -265,7 +263,7 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
     piece.mesh->find_neighbors(how.n_threads);
     const Marks marks = marks_of(surface, piece.mesh->mesh(), how);
     const riis_mark_list within = list_of(marks, RIIS_LIST_WITHIN_LIMIT);
-    PieceWays ways(piece, within, thickness, limit);
+    PieceWays ways(piece, within, band, limit);
     for (int i = 0; i < 2; ++i) {
       if (ends[i].piece != piece.number) continue;
       ways.add_terminal(ends[i].node);
@@ -279,18 +277,18 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
   const MatchedNodes matched = match_nodes(std::move(shared), ranks::sum(has_ids) > 0, mesh.files());
   std::vector<Link> links = ranks::gather(own_links);
   std::sort(links.begin(), links.end(), [](const Link &a, const Link &b) { return a.node < b.node; });
-  for (const PlacedEnd &end : placed) check_end_is_open(options, mesh, ends, end, half_thickness);
+  for (const PlacedEnd &end : placed) check_end_is_open(options, mesh, ends, end, band.half_thickness);
   JoinedSets<Place> ways;
   const auto are_joined = [&] { return ways.are_joined(placed[0].place, placed[1].place); };
   for (const auto &[p, q] : matched.joined) ways.unite({p, {0, 0}}, {q, {0, 0}});
   if (are_joined()) {
     // The ends are one node, or there is a way beyond the limit.
     if (placed[0].place.is_region()) return std::nullopt;
-    return passage_at(placed[0].node, half_thickness, ends);
+    return passage_at(placed[0].node, band.half_thickness, ends);
   }
   for (const Link &link : links) {
     ways.unite(link.p, link.q);
-    if (are_joined()) return passage_at(link.node, half_thickness, ends);
+    if (are_joined()) return passage_at(link.node, band.half_thickness, ends);
   }
   return PassageReport{{-1, 0, {0, 0, 0}, 0, RIIS_PASSAGE_NONE, 0}};
 }
@@ -299,7 +297,6 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
 PassageReport find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
                            const PieceEnd (&ends)[2]) {
   const riis_surface_info info = info_of(surface);
-  const MarkingThickness thickness(surface);
   // A path comes at least as near to the surface as its ends, which are marked by a half thickness below this.
   double farthest = 0;
   for (const PieceEnd &end : ends)
@@ -308,7 +305,8 @@ PassageReport find_passage(const MarkOptions &options, const MeshPieces &mesh, c
   farthest = std::max(2 * farthest / (1 - std::abs(info.offset)), 2 * info.half_thickness);
   double growth = 2;
   for (double limit = 2 * info.half_thickness;; limit = std::min(limit * growth, farthest)) {
-    if (const auto found = passage_within(options, mesh, surface, thickness, ends, limit)) return *found;
+    if (const auto found = passage_within(options, mesh, surface, {info.half_thickness, info.offset}, ends, limit))
+      return *found;
     growth *= growth;
   }
 }

@@ -57,7 +57,7 @@ class AreaTrials {
         options_(riis::completed(search.surface, "search.surface", riis::default_surface_options)) {}
 
   Values values() const {
-    if (sought_ == Sought::opening) return checked({0, 1, 0}, {0, 1});
+    if (seeks_opening()) return checked({0, 1, 0}, {0, 1});
     if (sought_ == Sought::scale) {
       riis::check_placement(options_, "search.surface");
       return checked({options_.scale / 10, options_.scale * 10, options_.scale}, {1e-12, 1e12});
@@ -70,8 +70,10 @@ class AreaTrials {
     return checked({std::min(now / 2, 2 * now), std::max(now / 2, 2 * now), now}, range);
   }
 
+  bool seeks_opening() const { return sought_ == Sought::opening; }
+
   // Samples of the opening have equal distances, as in the tables of openings. Sizes differ by factors.
-  bool grows(const Values &values) const { return sought_ != Sought::opening && values.from > 0; }
+  bool grows(const Values &values) const { return !seeks_opening() && values.from > 0; }
 
   // Returns the area at a value, or nothing for a value that makes no valve or no orifice. After the samples, such a value
   // is an error.
@@ -116,7 +118,7 @@ class AreaTrials {
     check_range("search", "to", to, range[0], range[1]);
     if (!(from < to))
       riis::fail(RIIS_INVALID_ARGUMENT, "search.to is ", to, "; it must be above the start of the range, ", from);
-    return {from, to, sought_ == Sought::opening ? from : usual.near};
+    return {from, to, seeks_opening() ? from : usual.near};
   }
 
   double orifice_at(double value) {
@@ -125,7 +127,7 @@ class AreaTrials {
     else
       valve_.set(name_, 1, &value);
     // A fixed triangulation is planned for one shape and one scale.
-    const bool is_planned_anew = options_.triangulation == RIIS_TRIANGULATION_FIXED && sought_ != Sought::opening;
+    const bool is_planned_anew = options_.triangulation == RIIS_TRIANGULATION_FIXED && !seeks_opening();
     if (!surface_ || is_planned_anew) {
       surface_ = std::make_unique<riis_surface>();
       surface_->updatable.ignore_crossings();
@@ -205,7 +207,7 @@ riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t
     if (range) riis::check_struct_size<riis_area_range>(struct_size, "range");
     AreaTrials trials(valve->valve, name, whole);
     const Values searched = trials.values();
-    if (sought_by(name) == Sought::opening && !valve->valve.can_open())
+    if (trials.seeks_opening() && !valve->valve.can_open())
       riis::fail(RIIS_INVALID_PARAMETER, "valve has only one state: set its open state with riis_valve_set_open_state");
     const riis::AreaSearch found([&](double value) { return trials.area_at(value); }, searched.from, searched.to,
                                  whole.n_samples, trials.grows(searched));
@@ -216,7 +218,7 @@ riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t
     for (std::int64_t i = 0; i < n_areas; ++i) {
       auto point = found.find(areas[i], searched.near, whole.tolerance);
       // Closed leaflets leave slits, which no measurement sees.
-      if (!point && areas[i] == 0 && sought_by(name) == Sought::opening) point = found.least();
+      if (!point && areas[i] == 0 && trials.seeks_opening()) point = found.least();
       if (!point) trials.fail_out_of_reach(i, areas[i], found, searched);
       points.push_back(*point);
     }

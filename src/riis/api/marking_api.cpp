@@ -88,7 +88,8 @@ riis_mark_list arrays_of(const riis::ListedNodes &list, const riis::WantedData &
           field(RIIS_FIELD_PATCH, fields.patch_id),
           data.n_directions,
           field(RIIS_FIELD_GRADIENT, fields.distance_gradient),
-          array(list.k_gradient)};
+          array(list.k_gradient),
+          array(fields.height)};
 }
 
 void check_n_nodes(const char *name, std::int64_t n_nodes, const riis::Marks &marks) {

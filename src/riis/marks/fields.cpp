@@ -121,14 +121,13 @@ class TriangleFields {
       VertexNumbers mixed[pairs_at_once];
       mix_at_ties(first, n, mixed);
       for (std::int64_t tie = first; tie < first + n; ++tie) {
-        if (next_node(tie) == tie) {
+        const bool is_first = next_node(tie) == tie;
+        if (is_first)
           i = std::lower_bound(list_.node_id.begin() + i, list_.node_id.end(), ties_[tie].point) -
               list_.node_id.begin();
-          if (i == list_.size() || view(list_.node_id)[i] != ties_[tie].point) continue;
-          mean = {view(list_.leaflet_id)[i], vector_at(made_.velocity.data() + 3 * i)};
-        }
         // The search also finds ties of nodes that a band with an offset does not list.
         if (i == list_.size() || view(list_.node_id)[i] != ties_[tie].point) continue;
+        if (is_first) mean = {view(list_.leaflet_id)[i], vector_at(made_.velocity.data() + 3 * i)};
         mean.add(view(set_.leaflet_id)[ties_[tie].triangle.triangle], vector_at(mixed[tie - first].number));
         if (next_node(tie + 1) == tie + 1) put_vector(made_.velocity.data(), i, mean.mean());
       }

@@ -45,8 +45,7 @@ void check_normals_agree(const Surface &surface) {
   fail(RIIS_INVALID_SURFACE, "options.offset is ", surface.band().offset, ", but the triangles ", id(triangles[0]),
        " and ", id(triangles[1]),
        " run along their shared edge in the same direction, so their normals disagree: turn one of them over, or take "
-       "the "
-       "offset 0");
+       "the offset 0");
 }
 
 SurfaceSeconds logged(const Surface &surface, const SurfaceSeconds &seconds) {

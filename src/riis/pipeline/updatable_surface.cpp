@@ -86,8 +86,7 @@ void UpdatableSurface::update_from_arrays(const riis_surface_arrays &arrays, boo
   if (arrays.skirt_length != 0 || arrays.attached || arrays.skirt_lengths)
     fail(RIIS_INVALID_ARGUMENT,
          "arrays.skirt_length, arrays.attached or arrays.skirt_lengths is given without faces: the skirt stays, and "
-         "they "
-         "must be 0 and NULL");
+         "they must be 0 and NULL");
   replace_by_faces(faces_, arrays, skip_zero_area, request);
 }
 
