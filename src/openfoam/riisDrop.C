@@ -164,18 +164,16 @@ scalar areaInMesh(const polyMesh &mesh, const riis_triangles &triangles, scalar 
   return area;
 }
 
-// Returns the area of all triangles. The leaflet leftOut does not count.
-scalar areaOf(const riis_triangles &triangles, int32_t leftOut) {
+// Returns the area of all leaflets without the leaflet leftOut.
+template <class Check>
+scalar areaOf(const riis_surface *surface, int32_t leftOut, const Check &check) {
+  int64_t n = 0;
+  check(riis_surface_get_n_leaflets(surface, &n));
   scalar area = 0;
-  for (int64_t i = 0; i < triangles.n_triangles; ++i) {
-    if (triangles.leaflet_id[i] == leftOut) continue;
-    const int64_t *ids = triangles.vertex_id + 3 * i;
-    point corner[3];
-    for (int k = 0; k < 3; ++k) {
-      const double *at = triangles.xyz + 3 * ids[k];
-      corner[k] = point(at[0], at[1], at[2]);
-    }
-    area += mag((corner[1] - corner[0]) ^ (corner[2] - corner[0])) / 2;
+  for (int64_t i = 0; i < n; ++i) {
+    riis_leaflet leaflet;
+    check(riis_surface_get_leaflet(surface, i, &leaflet, sizeof leaflet));
+    if (leaflet.leaflet_id != leftOut) area += leaflet.area;
   }
   return area;
 }
@@ -287,7 +285,7 @@ void riisValve::estimateDrop() {
     // Blood passes the middle of the band, which has another area than the leaflets. The library's ideal leak has this area.
     double leak = 0;
     check(riis_surface_get_leak(surface_.get(), &resistance_, 1, &leak));
-    area *= leak * resistance_.R / halfThickness_ / areaOf(triangles, housing);
+    area *= leak * resistance_.R / halfThickness_ / areaOf(surface_.get(), housing, check);
   }
 
   // A flow of 1 should drop R / (eps area). It drops rho / conductance.
