@@ -174,7 +174,7 @@ contains
     if (size(leaflet_id, kind=int64) > 0) arrays%leaflet_id = c_loc(leaflet_id)
   end subroutine get_faces
 
-  !> Sets the skirt of a surface, whose number of vertices is set. It does nothing after an error.
+  !> Sets the skirt of a surface. The number of vertices must be set before. It does nothing after an error.
   subroutine set_skirt(skirt_length, attached, skirt_lengths, arrays, code)
     real(c_double), intent(in), optional :: skirt_length    !< Default 0.
     integer(int8), intent(in), contiguous, optional, target :: attached(:) !< (n_vertices).

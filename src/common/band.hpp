@@ -19,8 +19,8 @@ struct Band {
   // Returns the same band with another half thickness.
   Band with(double other_half_thickness) const { return {other_half_thickness, offset}; }
 
-  // Returns the largest distance of the band's nodes. If a half thickness marks a node, the node is within this reach, also for
-  // computed numbers.
+  // Returns the largest distance of the band's nodes. Numbers are rounded so that no node beyond this reach is ever taken for a
+  // marked node.
   double reach() const { return reach_of(half_thickness); }
   // Returns a distance up to which all nodes are in the band.
   double sure_distance() const { return (1 - std::abs(offset)) * half_thickness; }

@@ -141,7 +141,7 @@ static void check_marking(const char *kind) {
     CHECK_NEAR(of_turned.distance[i], marked.distance[i], 1e-12 * eps);
     CHECK_NEAR(of_turned.K[i], marked.K[i], 1e-11 * most);
   }
-  /* A resistance with a half thickness of its own. */
+  /* A resistance may have a half thickness of its own. */
   double *K = own(calloc((size_t)nodes.n, sizeof *K));
   resistance.half_thickness = eps * random_between(&rng, 0.3, 1);
   CHECK_OK(add_resistance_to(marks, &resistance, nodes.n, K, NULL));

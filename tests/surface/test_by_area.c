@@ -163,7 +163,7 @@ TEST(openings_have_the_areas_of_a_raster) {
   }
 }
 
-/* Areas grow with the square of the scale, also effective areas, if the half thickness grows with the scale. */
+/* Areas grow with the square of the scale. So do effective areas, if the half thickness grows with the scale. */
 TEST(scales_are_roots_of_areas) {
   for (int trial = 0; trial < (is_long_test() ? 4 : 1) * n_kinds; trial += is_sanitized() ? 3 : 1) {
     const double scale = between(0.5, 2), factor = between(0.2, 5);
