@@ -240,7 +240,7 @@ contains
     type(c_mark_list), intent(out) :: list
     integer(riis_status) :: code
     list = c_mark_list(0, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, &
-      c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, 0, c_null_ptr, c_null_ptr)
+      c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, 0, c_null_ptr, c_null_ptr, c_null_ptr)
     code = check_created(this%handle, 'the object marks')
     if (code == RIIS_OK) code = riis_marks_get_list(this%handle, which, list, c_sizeof(list))
   end function c_list
