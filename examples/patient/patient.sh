@@ -165,7 +165,7 @@ random_patient() {
     "$riis" place landmarks.mrk.json --valve coapting --warp smoothed --output placed.json &&
     marks_of_patient 0.95 "$from" "$to" || return
   if (($(leaking_edges .) > 0)); then marks_of_patient 0.85 "$from" "$to" || return; fi
-  "$riis" check crossings "${valve[@]}" --stats crossings.json &&
-    xvfb-run -a -s "-screen 0 1600x1200x24" "$riis" mark graded.vtk "${valve[@]}" --opening 0 --picture closed.png --quiet &&
+  "$riis" check crossings "${valve[@]}" --stats crossings.json || (($? == 4)) || return # the table has a crossing's row
+  xvfb-run -a -s "-screen 0 1600x1200x24" "$riis" mark graded.vtk "${valve[@]}" --opening 0 --picture closed.png --quiet &&
     attachment_of_patient "$1" 0.3 smoothed noise.txt && attachment_of_patient "$1" 0 exact exact.txt
 }

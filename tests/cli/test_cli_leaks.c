@@ -321,7 +321,7 @@ TEST(test_strict) {
   assert_true(scratch_exists("s.json") && scratch_exists("marked.vtu"));
   EXPECT_STRICT("check", "leaks", fine, MITRAL, "--between", "0,0,0.7", "0,0,1.9");
   EXPECT_STRICT("mark", fine, "--search", "paper", MITRAL);
-  EXPECT_STRICT("check", "crossings", "--set", "right.rotation=0,0,60", "--opening", "0");
+  EXPECT_STRICT("surface", "--set", "right.rotation=0,0,60", "--opening", "0", "--output", scratch_path("s.vtp"));
   EXPECT_STRICT("mark", coarse, MITRAL, "--cycle", scratch_path("beat.csv"), "--times", "0,0.1", "--output",
                 scratch_path("s.pvd"), "--quiet");
   assert_true(scratch_exists("s/s_0001.vtu"));
@@ -340,6 +340,29 @@ TEST(test_strict) {
   RUN_FINE("states", "-", MITRAL, "--count", "2", "--strict");
   run_program("mark", fine, "--translate", "50,0,0", "--strict", NULL);
   expect_warned(3);
+}
+
+static void expect_demanded(int exit_code, const char *mesh) {
+  run_program("check", "leaks", mesh, CLOSED, "--demand-sealed", NULL);
+  expect_warned(exit_code);
+}
+
+/* A mesh without leaking edges meets the demand. Leaking edges, unknown leaks and a mesh far from the valve do not. */
+TEST(test_demanded_seal) {
+  riis_surface *surface = make_surface("mitral", 0.1);
+  write_mesh("fine.vtu", surface, 0.2);
+  write_mesh("coarse.vtu", surface, 0.5);
+  riis_surface_destroy(&surface);
+  RUN_FINE("check", "leaks", scratch_path("fine.vtu"), CLOSED, "--demand-sealed");
+  assert_string_equal(program_leaks, "");
+  expect_demanded(4, scratch_path("coarse.vtu"));
+  RUN_FINE("check", "leaks", scratch_path("coarse.vtu"), CLOSED);
+  run_program("check", "leaks", scratch_path("fine.vtu"), CLOSED, "--demand-sealed", "--translate", "50,0,0", NULL);
+  expect_warned(3);
+  run_program("check", "leaks", scratch_path("fine.vtu"), CLOSED, "--demand-sealed", "--translate", "50,0,0",
+              "--allow-none", NULL);
+  assert_int_equal(program_exit_code, 4);
+  RUN_REFUSED(2, "--demand-sealed is not an option", "mark", scratch_path("fine.vtu"), "--demand-sealed");
 }
 
 /* Quadratic cells leak like the linear cells into which their nodes cut them. Each quadratic cell has one more inner edge than

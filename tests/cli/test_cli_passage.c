@@ -133,6 +133,7 @@ TEST(test_closed_valve) {
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, SEALED);
   assert_string_equal(program_leaks, "");
   assert_non_null(strstr(program_out, "\npassage   closed: at "));
+  RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, SEALED, "--demand-sealed");
   RUN_FINE("mark", scratch_path("box.vtu"), SEALED);
   assert_null(strstr(program_out, "passage"));
 }
@@ -143,6 +144,9 @@ TEST(test_passage_through_an_open_valve) {
   assert_int_equal(
       strncmp(program_leaks, "riis: the valve is open, at opening 1: unmarked nodes join 0.01 0 -1.2 and ", 75), 0);
   assert_null(strstr(program_leaks, "--half-thickness"));
+  run_program("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--valve", "trileaflet", "--opening", "1",
+              "--demand-sealed", NULL);
+  assert_int_equal(program_exit_code, 4);
 }
 
 /* An end of the path is nearer to the surface than any other point of the passage. */

@@ -104,6 +104,7 @@ struct MarkOptions : ValveOptions {
   bool allow_none = false;
   bool check_crossing = false;
   std::optional<LeakCheck> check_leaks;
+  bool demand_sealed = false;  // a leak changes the exit status
   bool first_passage = false;  // looks for the opening at which the points are first joined
   bool measures = false;       // measures what the valve means for the flow, also without --stats
   SeriesOptions series;

@@ -413,6 +413,7 @@ void declare_leaks(Command command, MarkOptions &options) {
   command
       .flag("--first-passage", "Also tell at which opening unmarked nodes first join the points", options.first_passage)
       ->needs(command.option("--between"));
+  command.flag("--demand-sealed", "Exit with status 4 unless the valve seals", options.demand_sealed);
   CLI::Option *const resistance =
       command.parsed("--resistance", "R", "Resistance of the valve in kg/(m s), for the ideal leak",
                      options.given_resistance, positive_amount_of(a_resistance));

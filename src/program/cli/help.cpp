@@ -277,14 +277,15 @@ the points as "check_leaks": [x,y,z, x,y,z]. The check uses all its valves toget
 valve the table then has the mesh edges across its band, and the orifice at its largest opening.
 riis check leaks also prints how many mesh edges lie across the band, and the orifice with its effective area. With
 --first-passage it tries openings and prints the first at which unmarked nodes join the points. With --resistance and --drop it
-prints the flow through an ideal closed valve.
+prints the flow through an ideal closed valve. A leak does not change the exit status, because the valve may be open. With
+--demand-sealed the status is 4 unless the points are not joined, or without points, unless no edge leaks.
 )"},
     {"crossings", "leaflets that go through each other",
      R"(
-riis check crossings checks a valve's triangles at 101 openings from 0 to 1. It ends at the first opening at which two
-triangles go through each other. A line on stderr gives that opening, the number of pairs, the length of their intersections,
-and the depth and place of the deepest pair. The depth is the distance by which one triangle must move so that both only
-touch. A depth up to 1e-6 half thicknesses counts as touching. A valve that does not open, a surface from a file and a valve
+riis check crossings checks a valve's triangles at 101 openings from 0 to 1. It ends with status 4 at the first opening at
+which two triangles go through each other. A line on stderr gives that opening, the number of pairs, the length of their
+intersections, and the depth and place of the deepest pair. The depth is the distance by which one triangle must move so that
+both only touch. A depth up to 1e-6 half thicknesses counts as touching. A valve that does not open, a surface from a file and a valve
 with --opening are checked as they are. With --case each valve of a case is checked. The command needs no MESH. riis mark
 checks only openings 0, 0.5 and 1, and only a valve whose shape is set by --set, --params, --params-open or a file. Then
 contacts of leaflets do not count, nor those of a housing with its hinges.
@@ -382,7 +383,8 @@ killed leaves the lock behind, and the next run takes it over.
 2  wrong usage: an option that is unknown, malformed, out of range, without effect, or at odds with another; an output
    that would replace an input, another output, or arrays of the mesh
 3  no node is marked at any time, without --allow-none; the outputs are written all the same
-4  with --strict, a warning that none of the above covers; the outputs are written all the same
+4  riis check crossings found a crossing; riis check leaks --demand-sealed found a leak, or cannot tell; with --strict, a
+   warning that none of the above covers; the outputs are written all the same
 )"},
 };
 // clang-format on

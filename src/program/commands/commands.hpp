@@ -34,7 +34,7 @@ void export_uris(const ExportOptions &options);
 ExitCode run_size_field(const SizeFieldOptions &options);
 
 // In: the user's request. Out: the files, and the report on stdout. Returns exit_fine, or exit_none_marked if no node was marked
-// and the user did not allow that. With --strict, may return exit_warned.
+// and the user did not allow that. Returns exit_warned if a check found its fault, or after a warning with --strict.
 ExitCode run(const Request &request);
 
 }  // namespace riis::program

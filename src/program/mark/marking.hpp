@@ -104,8 +104,9 @@ class Marking {
 // one state is one time, and the valve of the command line is a case of one. Without a mesh there are no pieces.
 //     case -> surfaces -> pieces, read one by one -> marks, leaks, measures -> files -> report
 
-// Reads the case or the valve of the options, marks the mesh, writes the files and prints the report. Returns exit_fine, or
-// exit_none_marked if no node was marked at any time and the user did not allow that. Throws a Refusal.
+// Reads the case or the valve of the options, marks the mesh, writes the files and prints the report. Returns exit_none_marked if
+// no node was marked at any time and the user did not allow that. Returns exit_warned if a check found its fault, and exit_fine
+// otherwise. Throws a Refusal.
 ExitCode run_mark(const MarkOptions &options);
 
 // Marks a mesh of the caller's. Checks no options and prints no report. all.options.mesh is the path of the mesh.

@@ -363,6 +363,22 @@ Report mark_case(Case &all, const MeshPieces &mesh) {
 
 namespace {
 
+// Returns whether the checks leave no doubt that no flow passes the valves.
+bool is_sealed(const Report &report) {
+  if (report.passage) return report.passage->found.state == RIIS_PASSAGE_CLOSED && !report.passage->is_unknown;
+  return std::all_of(report.valves.begin(), report.valves.end(), [](const ValveReport &valve) {
+    return valve.leaks.found.n_edges == 0 && valve.leaks.has_all_edges() && valve.leaks.is_near;
+  });
+}
+
+// Returns whether a check found the fault that it looks for.
+bool has_fault(const MarkOptions &options, const Report &report) {
+  const bool crosses = std::any_of(report.valves.begin(), report.valves.end(), [](const ValveReport &valve) {
+    return valve.crossings && valve.crossings->found.n_pairs > 0;
+  });
+  return (options.check_crossing && crosses) || (options.demand_sealed && !is_sealed(report));
+}
+
 ExitCode run_case(Case &all) {
   MarkOptions &options = all.options;
   if (!all.is_series()) check_one_time(options);
@@ -387,7 +403,8 @@ ExitCode run_case(Case &all) {
                                                         std::to_string(all.times().size()) + " written"
                                                   : "not all pieces are written"));
   }
-  return options.mesh.empty() || options.allow_none || run.has_marks() ? exit_fine : exit_none_marked;
+  if (!options.mesh.empty() && !options.allow_none && !run.has_marks()) return exit_none_marked;
+  return has_fault(options, run.report()) ? exit_warned : exit_fine;
 }
 
 }  // namespace
