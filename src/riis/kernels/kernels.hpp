@@ -73,12 +73,25 @@ struct FilterLimits {
   float margin;     // how far inside a triangle a point must be to count as inside
 };
 
+// A band that steps aside leaves nodes out that are far behind the surface, on the side away from its offset. All numbers are in
+// the surface's frame (docs/theory/clusters.md, "One side").
+struct OneSide {
+  float behind;       // 1 or -1: this times a node's height over a triangle is the node's depth behind the triangle
+  float twice_shift;  // twice the distance of the band's middle from the surface
+  float least_depth;  // a node with less depth may be in front of the triangle
+  float least_sum;    // a node is out of the band if the square of its distance + twice_shift * depth exceeds this
+  // For each group, the place along its first axis, times `behind`, beyond which the whole group leaves a node out. Null if nodes
+  // on both sides are wanted.
+  const float *end_of_band = nullptr;
+};
+
 // The filter's input for a whole search. x * ratio + shift takes the mesh's frame to the surface's frame.
 struct FilterTask {
   float ratio, shift[3];
   FilterLimits limits;
   const TriangleGroup *groups;
   const GroupBounds *bounds;
+  OneSide one_side;
 };
 
 // A point of the surface for each of 16 boxes. A group competes with the point if it may be nearer to some place in the box.
@@ -122,6 +135,7 @@ struct ClusterTask {
   int32_t node[most_listed + 16], group[most_listed + 16];
   float nearest_sq[most_listed + 16];       // the square of the node's distance to the group
   uint16_t triangles[most_listed + 16];     // the group's triangles that are at this distance, to the tolerance
+  uint16_t in_band[most_listed + 16];       // some of these triangles, which do not leave the node out of the band
   FilterLimits limits[leaves_per_cluster];  // by the leaf's position
   alignas(64) float xyz[3][nodes_per_cluster];
   float best[nodes_per_cluster];         // the least of reach_sq and of all computed squares of distances
