@@ -89,8 +89,9 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
 }
 
 // Along an axis, a box extends from its middle by the sum of its half sides, each times its component of the axis.
-bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
-                    uint16_t *near) {
+template <bool is_one_sided>
+RIIS_INLINE bool near_rotated_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates,
+                                    int32_t n_candidates, uint16_t *near) {
   const Floats reach_sq = Floats::all(task.limits.reach_sq), one_half = Floats::all(0.5f);
   Floats middle[3], half[3];
   float largest_shift = 0;
@@ -102,10 +103,10 @@ bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *c
     largest_shift = shift > largest_shift ? shift : largest_shift;
   }
   const Floats rounding = Floats::all(0x1p-19f * (task.ratio + largest_shift + 1));  // docs/theory/clusters.md
-  uint32_t found = 0;
+  uint32_t found = 0, in_band = 0;
   for (int32_t k = 0; k < n_candidates; ++k) {
     const GroupBounds &group = task.bounds[candidates[k]];
-    Floats sum = Floats::all(0);
+    Floats sum = Floats::all(0), least_along_first = sum;
     for (int i = 0; i < 3; ++i) {
       const float *const axis = group.axis[i];
       Floats along = Floats::all(0), half_along = rounding;
@@ -115,11 +116,24 @@ bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *c
       }
       const Floats gap = outside(along, Floats::all(group.from[i]) - half_along, Floats::all(group.to[i]) + half_along);
       sum = multiply_add(gap, gap, sum);
+      if (is_one_sided && i == 0) least_along_first = Floats::all(task.one_side.behind) * along - half_along;
     }
     near[k] = static_cast<uint16_t>(near[k] & bits_at_most(sum, reach_sq));
     found |= near[k];
+    if constexpr (is_one_sided)
+      in_band |= near[k] & bits_at_most(least_along_first, Floats::all(task.one_side.end_of_band[candidates[k]]));
+  }
+  if constexpr (is_one_sided) {
+    for (int32_t k = 0; k < n_candidates; ++k) near[k] = static_cast<uint16_t>(near[k] & in_band);
+    found = in_band;
   }
   return found != 0;
+}
+
+bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
+                    uint16_t *near) {
+  return task.one_side.end_of_band ? near_rotated_boxes<true>(task, boxes, candidates, n_candidates, near)
+                                   : near_rotated_boxes<false>(task, boxes, candidates, n_candidates, near);
 }
 
 int32_t select(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to) {
@@ -294,8 +308,9 @@ RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const f
   return k == leaf.n_groups;
 }
 
-// Returns a bit for each triangle, unless it leaves the point out of a band that steps aside.
-RIIS_INLINE uint32_t bits_in_band(const OneSide &one_side, const ToGroup &to) {
+// Returns a bit for each triangle of a group, unless it leaves the point out of a band that steps aside.
+RIIS_INLINE uint32_t bits_in_band(const OneSide &one_side, int32_t group, const ToGroup &to) {
+  if (one_side.end_of_band[group] == __builtin_inff()) return 0xffff;
   const Floats depth = Floats::all(one_side.behind) * to.height;
   const Floats sum = multiply_add(depth, Floats::all(one_side.twice_shift), to.distance_sq);
   const Floats excess = least(depth - Floats::all(one_side.least_depth), sum - Floats::all(one_side.least_sum));
@@ -332,7 +347,7 @@ RIIS_INLINE void compare(const FilterTask &task, ClusterTask &cluster, int32_t f
                          Floats::all(cluster.xyz[2][node])};
       const ToGroup to = measure_to_group(task.groups[cluster.group[from + i]], p, Floats::all(limits[i]->margin));
       distances[i] = to.distance_sq;
-      if constexpr (is_one_sided) in_band[i] = bits_in_band(task.one_side, to);
+      if constexpr (is_one_sided) in_band[i] = bits_in_band(task.one_side, cluster.group[from + i], to);
       count(&Counts::pairs, task.bounds[cluster.group[from + i]].n);
     }
     least_lanes(distances, cluster.nearest_sq + from);

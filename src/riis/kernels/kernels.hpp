@@ -80,8 +80,8 @@ struct OneSide {
   float twice_shift;  // twice the distance of the band's middle from the surface
   float least_depth;  // a node with less depth may be in front of the triangle
   float least_sum;    // a node is out of the band if the square of its distance + twice_shift * depth exceeds this
-  // For each group, the place along its first axis, times `behind`, beyond which the whole group leaves a node out. Null if nodes
-  // on both sides are wanted.
+  // For each group, the place along its first axis, times `behind`, beyond which the whole group leaves a node out. Infinity if
+  // the group leaves no node out. Null if nodes on both sides are wanted.
   const float *end_of_band = nullptr;
 };
 
@@ -199,8 +199,8 @@ struct FilterKernels {
   // For each candidate group, writes a bit for each box within its reach. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
-  // Clears the bits of boxes beyond the reach of a group's box along its own axes. Returns false if no box is left. `near`
-  // comes from near_boxes, so lanes without a box have no bits.
+  // Clears the bits of boxes beyond the reach of a group's box along its own axes. If one side is wanted, clears all bits of a box
+  // that all groups leave out. Returns false if no box is left. `near` comes from near_boxes, so lanes without a box have no bits.
   bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          uint16_t *near);
   // Copies each numbers[k] of n whose marks[k] has the given bit, without gaps, and returns their number. `to` must have room

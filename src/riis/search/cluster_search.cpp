@@ -290,7 +290,7 @@ class ClusterSearch {
   void look_at_one_side(const Band &band, double error) {
     const double half_thickness = band.half_thickness * groups_.frame.scale;
     if (!(half_thickness <= large)) return;
-    // Normals of needles are less accurate than distances, so the limits have a margin.
+    // Normals are less accurate than distances, so the limits have a margin.
     constexpr double margin = 0x1p-10;
     const double shift = std::abs(band.offset) * half_thickness, reach = limit_ + 2 * error;
     const double depth = error + margin * half_thickness;
@@ -301,16 +301,29 @@ class ClusterSearch {
     const auto n_groups = view(groups_.groups).size();
     resize(own_.ends_of_band, n_groups);
     for (std::int64_t i = 0; i < n_groups; ++i) {
+      const TriangleGroup &group = view(groups_.groups)[i];
       const GroupBounds &bounds = view(groups_.bounds)[i];
-      const double cosine = least_cosine(view(groups_.groups)[i], bounds);
+      const double cosine = least_cosine(group, bounds);
       float &end = view(own_.ends_of_band)[i] = std::numeric_limits<float>::infinity();
-      if (cosine < 0.5) continue;
+      if (cosine < 0.5 || has_needle(group)) continue;
       const double sine = std::sqrt(1 - cosine * cosine), begin = behind < 0 ? -bounds.from[0] : bounds.to[0];
       const double by_depth = depth * cosine + sine * std::sqrt((reach - depth) * (reach + depth));
       const double by_sum = std::sqrt(shift * shift + sum) - shift * cosine;
       end = round_up(begin + std::max(by_depth, by_sum) + error);
     }
     task_.one_side.end_of_band = own_.ends_of_band.data();
+  }
+
+  // Returns whether a triangle of a group is so low that its normal is inaccurate.
+  static bool has_needle(const TriangleGroup &group) {
+    constexpr float least_height = 1e-10f;
+    bool has_one = false;
+    for (int i = 0; i < triangles_per_group; ++i) {
+      const float longest = std::max({group.half_ab[i], group.half_ac[i], group.half_bc[i]});
+      const float half_area = group.half_ab[i] * group.half_ac[i] * std::abs(group.ac_f[i]);
+      has_one = has_one || !(2 * half_area >= least_height * longest);
+    }
+    return has_one;
   }
 
   // Returns a lower bound of the cosines of the angles between the normals of a group's triangles and the group's first axis.
