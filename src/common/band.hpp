@@ -39,8 +39,8 @@ struct Band {
     return made < least ? least : made;
   }
   bool holds(double distance, double height) const {
-    // The sign of the equation at the half thickness decides, without a root, unless the node is so near the edge of the band that
-    // rounding could decide otherwise.
+    // The sign of the equation at the half thickness decides, without a root. Only near the edge of the band, rounding could
+    // decide otherwise.
     constexpr double near_edge = 1e-6;
     const double e = half_thickness,
                  over = ((1 - offset) * (1 + offset) * e + 2 * offset * height) * e - distance * distance;

@@ -384,21 +384,21 @@ void begin_cluster(const FilterTask &task, ClusterTask &cluster) {
 // Leaves a node out if all triangles that may be its closest leave it out of the band. All groups near the node must be in the
 // list, so only the first n_leaves leaves count.
 RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
-  alignas(64) float has_triangle[nodes_per_cluster] = {};
+  uint32_t stays[leaves_per_cluster] = {};
   for (int32_t i = 0; i < cluster.n_listed; ++i) {
     const int32_t node = cluster.node[i];
-    if (cluster.in_band[i] != 0 && cluster.nearest_sq[i] <= cluster.limit[node]) has_triangle[node] = 1;
+    const uint32_t is_in_band = cluster.in_band[i] != 0, is_near = cluster.nearest_sq[i] <= cluster.limit[node];
+    stays[leaf_of(node)] |= (is_in_band & is_near) << node % nodes_per_leaf;
   }
   for (int32_t i = 0; i < n_leaves; ++i) {
     LeafTask &leaf = cluster.leaf[i];
-    const Floats reach_sq = Floats::all(leaf.limits.reach_sq);
-    for (int h = 0; h < halves; ++h) {
-      const int32_t at = first_node_of(leaf) + 16 * h;
-      const Floats::Mask stays = Floats::load(has_triangle + at) > Floats::all(0);
-      choose(stays, Floats::load(cluster.best + at), reach_sq).store(cluster.best + at);
-      choose(stays, Floats::load(cluster.limit + at), Floats::all(-1)).store(cluster.limit + at);
-      leaf.found &= ~(0xffffu << 16 * h) | bits(stays) << 16 * h;
+    const uint32_t in_band = leaf.found & stays[leaf.position];
+    for (uint32_t rest = leaf.found & ~in_band; rest; rest &= rest - 1) {
+      const int32_t node = first_node_of(leaf) + __builtin_ctz(rest);
+      cluster.best[node] = leaf.limits.reach_sq;
+      cluster.limit[node] = -1;
     }
+    leaf.found = in_band;
   }
 }
 
