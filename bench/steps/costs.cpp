@@ -7,7 +7,6 @@
 #include <riis/riis.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -208,13 +207,12 @@ class OffsetStep {
     marking_.n_threads = 1;
   }
 
-  // Returns the seconds of a step in the mesh.
+  // Returns the processor time of a step in the mesh, in seconds.
   double seconds_in(riis_mesh *mesh) const {
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point start = Clock::now();
+    const std::clock_t start = std::clock();
     check(riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), 0.01, &options_, &options_));
     check(riis_mark_nodes(surface_.get(), mesh, &marking_, marks_.get()));
-    return std::chrono::duration<double>(Clock::now() - start).count();
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   }
 
  private:
@@ -226,8 +224,8 @@ class OffsetStep {
   riis_mark_options marking_;
 };
 
-// Prints the time of a step with the offset 0.75 over that without. Both steps take turns, so that other work on the machine
-// slows both of them.
+// Prints the processor time of a step with the offset 0.75 over that without. Both steps take turns, so that other work on the
+// machine slows both of them.
 void print_offset() {
   constexpr double half_thickness = 0.1, spacing = half_thickness / 2;
   const Cylinder &around = cylinders[0];

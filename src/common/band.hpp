@@ -38,7 +38,15 @@ struct Band {
     if (reach_of(least) < distance) least = std::nextafter(least, std::numeric_limits<double>::infinity());
     return made < least ? least : made;
   }
-  bool holds(double distance, double height) const { return marking_thickness(distance, height) <= half_thickness; }
+  bool holds(double distance, double height) const {
+    // The sign of the equation at the half thickness decides, without a root. Only near the edge of the band, rounding could
+    // decide otherwise.
+    constexpr double near_edge = 1e-6;
+    const double e = half_thickness,
+                 over = ((1 - offset) * (1 + offset) * e + 2 * offset * height) * e - distance * distance;
+    if (std::abs(over) > near_edge * e * e) return over > 0;
+    return marking_thickness(distance, height) <= half_thickness;
+  }
 
   // Returns the signed distance of a node from the middle of the band, for a node off the rim.
   double height_over_middle(double height) const { return height - offset * half_thickness; }

@@ -22,10 +22,15 @@ RIIS_INLINE Floats outside(Floats x, Floats from, Floats to) {
   return greatest(greatest(from - x, x - to), Floats::all(0));
 }
 
-// Computes the squares of a point's distances to sixteen triangles. Every result is the distance to some point of the triangle,
-// to rounding. A point counts as inside only if it is inside by a margin. A point that is inside by less gets the distance to the
-// nearest edge, which is wrong by at most the margin.
-RIIS_INLINE Floats distances_to_group(const TriangleGroup &group, Floats3 p, Floats margin) {
+// The squares of a point's distances to sixteen triangles, and its heights over their planes.
+struct ToGroup {
+  Floats distance_sq, height;
+};
+
+// Measures a point. Every distance is the distance to some point of the triangle, to rounding. A point counts as inside only if
+// it is inside by a margin. A point that is inside by less gets the distance to the nearest edge, which is wrong by at most the
+// margin.
+RIIS_INLINE ToGroup measure_to_group(const TriangleGroup &group, Floats3 p, Floats margin) {
   const auto along = [&](const float(*axis)[16], const float *origin) RIIS_LAMBDA {
     const Floats3 unit = load(axis);
     return multiply_add(p.x, unit.x, multiply_add(p.y, unit.y, multiply_add(p.z, unit.z, Floats::load(origin))));
@@ -48,7 +53,7 @@ RIIS_INLINE Floats distances_to_group(const TriangleGroup &group, Floats3 p, Flo
   offer_edge(e, f, group.ac_e, group.ac_f, group.ac_middle, group.ac_side, group.half_ac);
   // The triangle is on the other side of bc, so the two axes are exchanged.
   offer_edge(f, e, group.bc_f, group.bc_e, group.bc_middle, group.bc_side, group.half_bc);
-  return multiply_add(g, g, zero_where_at_least(inside, margin, in_plane));
+  return {multiply_add(g, g, zero_where_at_least(inside, margin, in_plane)), g};
 }
 
 // The extents of 16 boxes along one axis, in the surface's frame.
@@ -84,8 +89,9 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
 }
 
 // Along an axis, a box extends from its middle by the sum of its half sides, each times its component of the axis.
-bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
-                    uint16_t *near) {
+template <bool is_one_sided>
+RIIS_INLINE bool near_rotated_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates,
+                                    int32_t n_candidates, uint16_t *near) {
   const Floats reach_sq = Floats::all(task.limits.reach_sq), one_half = Floats::all(0.5f);
   Floats middle[3], half[3];
   float largest_shift = 0;
@@ -97,10 +103,10 @@ bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *c
     largest_shift = shift > largest_shift ? shift : largest_shift;
   }
   const Floats rounding = Floats::all(0x1p-19f * (task.ratio + largest_shift + 1));  // docs/theory/clusters.md
-  uint32_t found = 0;
+  uint32_t found = 0, in_band = 0;
   for (int32_t k = 0; k < n_candidates; ++k) {
     const GroupBounds &group = task.bounds[candidates[k]];
-    Floats sum = Floats::all(0);
+    Floats sum = Floats::all(0), least_along_first = sum;
     for (int i = 0; i < 3; ++i) {
       const float *const axis = group.axis[i];
       Floats along = Floats::all(0), half_along = rounding;
@@ -110,11 +116,24 @@ bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *c
       }
       const Floats gap = outside(along, Floats::all(group.from[i]) - half_along, Floats::all(group.to[i]) + half_along);
       sum = multiply_add(gap, gap, sum);
+      if (is_one_sided && i == 0) least_along_first = Floats::all(task.one_side.behind) * along - half_along;
     }
     near[k] = static_cast<uint16_t>(near[k] & bits_at_most(sum, reach_sq));
     found |= near[k];
+    if constexpr (is_one_sided)
+      in_band |= near[k] & bits_at_most(least_along_first, Floats::all(task.one_side.end_of_band[candidates[k]]));
+  }
+  if constexpr (is_one_sided) {
+    for (int32_t k = 0; k < n_candidates; ++k) near[k] = static_cast<uint16_t>(near[k] & in_band);
+    found = in_band;
   }
   return found != 0;
+}
+
+bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
+                    uint16_t *near) {
+  return task.one_side.end_of_band ? near_rotated_boxes<true>(task, boxes, candidates, n_candidates, near)
+                                   : near_rotated_boxes<false>(task, boxes, candidates, n_candidates, near);
 }
 
 int32_t select(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to) {
@@ -199,13 +218,15 @@ RIIS_INLINE int32_t first_node_of(const LeafTask &leaf) { return leaf.position *
 RIIS_INLINE uint32_t leaf_of(int32_t node) { return static_cast<uint32_t>(node) / nodes_per_leaf; }
 
 // Takes a leaf to the surface's frame. For every group and every node, computes the square of a lower bound on their distance.
-// Lists each node that may be within reach, with the group that has the least bound.
+// Lists each node that may be within reach, with the group that has the least bound. If one side is wanted, a node counts only if
+// a group within reach does not leave it out.
+template <bool is_one_sided>
 RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask &cluster, float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf), n_before = cluster.n_listed;
   const float *const xyz[3] = {leaf.leaf->x, leaf.leaf->y, leaf.leaf->z};
   const Floats ratio = Floats::all(task.ratio);
   Floats3 p[halves];
-  Floats least_bound[halves], first_group[halves];
+  Floats least_bound[halves], first_group[halves], least_in_band[halves];
   for (int h = 0; h < halves; ++h) {
     const auto framed = [&](int axis) RIIS_LAMBDA {
       const Floats x = multiply_add(Floats::load(xyz[axis] + 16 * h), ratio, Floats::all(task.shift[axis]));
@@ -213,7 +234,7 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask 
       return x;
     };
     p[h] = {framed(0), framed(1), framed(2)};
-    least_bound[h] = Floats::all(__builtin_inff());
+    least_bound[h] = least_in_band[h] = Floats::all(__builtin_inff());
     first_group[h] = Floats::all(0);
   }
   for (int32_t k = 0; k < leaf.n_groups; ++k) {
@@ -221,11 +242,17 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask 
     // A surface has fewer than 2^24 groups, so single precision holds their numbers exactly.
     const Floats number = Floats::all(static_cast<float>(leaf.near_groups[k]));
     for (int h = 0; h < halves; ++h) {
-      Floats sum = Floats::all(0);
+      Floats sum = Floats::all(0), along_first = Floats::all(0);
       for (int axis = 0; axis < 3; ++axis) {
-        const Floats gap =
-            outside(dot(p[h], all(group.axis[axis])), Floats::all(group.from[axis]), Floats::all(group.to[axis]));
+        const Floats along = dot(p[h], all(group.axis[axis]));
+        const Floats gap = outside(along, Floats::all(group.from[axis]), Floats::all(group.to[axis]));
         sum = multiply_add(gap, gap, sum);
+        if (axis == 0) along_first = along;
+      }
+      if constexpr (is_one_sided) {
+        const Floats end = Floats::all(task.one_side.end_of_band[leaf.near_groups[k]]);
+        const Floats::Mask is_out = Floats::all(task.one_side.behind) * along_first > end;
+        least_in_band[h] = choose(is_out, least_in_band[h], least(least_in_band[h], sum));
       }
       sum.store(lower_bounds + nodes_per_leaf * k + 16 * h);
       first_group[h] = choose(sum < least_bound[h], number, first_group[h]);
@@ -233,6 +260,11 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask 
     }
   }
   const Floats reach_sq = Floats::all(leaf.limits.reach_sq);
+  if constexpr (is_one_sided) {
+    uint32_t in_band = 0;
+    for (int h = 0; h < halves; ++h) in_band |= bits_at_most(least_in_band[h], reach_sq) << 16 * h;
+    leaf.wanted &= in_band;
+  }
   for (int h = 0; h < halves; ++h) {
     const int32_t at = first_node + 16 * h;
     first_group[h].store(cluster.first_group + at);
@@ -276,8 +308,17 @@ RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const f
   return k == leaf.n_groups;
 }
 
-// At the same time, prefetches the last n_lines cache lines. Meanwhile, requests the last n_lines lines
-// ahead.
+// Returns a bit for each triangle of a group, unless it leaves the point out of a band that steps aside.
+RIIS_INLINE uint32_t bits_in_band(const OneSide &one_side, int32_t group, const ToGroup &to) {
+  if (one_side.end_of_band[group] == __builtin_inff()) return 0xffff;
+  const Floats depth = Floats::all(one_side.behind) * to.height;
+  const Floats sum = multiply_add(depth, Floats::all(one_side.twice_shift), to.distance_sq);
+  const Floats excess = least(depth - Floats::all(one_side.least_depth), sum - Floats::all(one_side.least_sum));
+  return bits_at_most(excess, Floats::all(0));
+}
+
+// Computes the distances of the listed nodes from `from` on. Meanwhile, requests the last n_lines lines ahead.
+template <bool is_one_sided>
 RIIS_INLINE void compare(const FilterTask &task, ClusterTask &cluster, int32_t from, int32_t n_lines) {
   constexpr int n = 4;
   const int32_t end = cluster.n_listed, n_batches = (end - from + n - 1) / n;
@@ -296,6 +337,7 @@ RIIS_INLINE void compare(const FilterTask &task, ClusterTask &cluster, int32_t f
   for (; from < end; from += n) {
     request_lines();
     Floats distances[n];
+    uint32_t in_band[n];
     const FilterLimits *limits[n];
 #pragma GCC unroll 4
     for (int i = 0; i < n; ++i) {
@@ -303,7 +345,9 @@ RIIS_INLINE void compare(const FilterTask &task, ClusterTask &cluster, int32_t f
       limits[i] = cluster.limits + leaf_of(node);
       const Floats3 p = {Floats::all(cluster.xyz[0][node]), Floats::all(cluster.xyz[1][node]),
                          Floats::all(cluster.xyz[2][node])};
-      distances[i] = distances_to_group(task.groups[cluster.group[from + i]], p, Floats::all(limits[i]->margin));
+      const ToGroup to = measure_to_group(task.groups[cluster.group[from + i]], p, Floats::all(limits[i]->margin));
+      distances[i] = to.distance_sq;
+      if constexpr (is_one_sided) in_band[i] = bits_in_band(task.one_side, cluster.group[from + i], to);
       count(&Counts::pairs, task.bounds[cluster.group[from + i]].n);
     }
     least_lanes(distances, cluster.nearest_sq + from);
@@ -312,30 +356,59 @@ RIIS_INLINE void compare(const FilterTask &task, ClusterTask &cluster, int32_t f
       const float nearest_sq = cluster.nearest_sq[from + i];
       float &best = cluster.best[cluster.node[from + i]];
       best = nearest_sq < best ? nearest_sq : best;
-      cluster.triangles[from + i] =
-          static_cast<uint16_t>(bits_at_most(distances[i], Floats::all(nearest_sq + limits[i]->tolerance)));
+      const uint32_t nearest = bits_at_most(distances[i], Floats::all(nearest_sq + limits[i]->tolerance));
+      cluster.triangles[from + i] = static_cast<uint16_t>(nearest);
+      if constexpr (is_one_sided) cluster.in_band[from + i] = static_cast<uint16_t>(nearest & in_band[i]);
     }
+  }
+}
+
+template <bool is_one_sided>
+void begin_leaves(const FilterTask &task, ClusterTask &cluster) {
+  float *lower_bounds = cluster.lower_bounds;
+  for (int32_t i = 0; i < cluster.n_leaves; ++i) {
+    begin_leaf<is_one_sided>(task, cluster.leaf[i], cluster, lower_bounds);
+    lower_bounds += nodes_per_leaf * cluster.leaf[i].n_groups;
   }
 }
 
 void begin_cluster(const FilterTask &task, ClusterTask &cluster) {
   cluster.n_listed = 0;
-  float *lower_bounds = cluster.lower_bounds;
-  for (int32_t i = 0; i < cluster.n_leaves; ++i) {
-    begin_leaf(task, cluster.leaf[i], cluster, lower_bounds);
-    lower_bounds += nodes_per_leaf * cluster.leaf[i].n_groups;
-  }
   cluster.next_leaf = -1;
   cluster.next_group = 0;
   cluster.next_listed = -1;
   cluster.is_done = false;
+  task.one_side.end_of_band ? begin_leaves<true>(task, cluster) : begin_leaves<false>(task, cluster);
+}
+
+// Leaves a node out if all triangles that may be its closest leave it out of the band. All groups near the node must be in the
+// list, so only the first n_leaves leaves count.
+RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
+  uint32_t stays[leaves_per_cluster] = {};
+  for (int32_t i = 0; i < cluster.n_listed; ++i) {
+    const int32_t node = cluster.node[i];
+    const uint32_t is_in_band = cluster.in_band[i] != 0, is_near = cluster.nearest_sq[i] <= cluster.limit[node];
+    stays[leaf_of(node)] |= (is_in_band & is_near) << node % nodes_per_leaf;
+  }
+  for (int32_t i = 0; i < n_leaves; ++i) {
+    LeafTask &leaf = cluster.leaf[i];
+    const uint32_t in_band = leaf.found & stays[leaf.position];
+    for (uint32_t rest = leaf.found & ~in_band; rest; rest &= rest - 1) {
+      const int32_t node = first_node_of(leaf) + __builtin_ctz(rest);
+      cluster.best[node] = leaf.limits.reach_sq;
+      cluster.limit[node] = -1;
+    }
+    leaf.found = in_band;
+  }
 }
 
 // Compares the nodes with their first groups, unless an earlier call has done so. Then lists other groups for as many nodes
 // as there is room for, and compares them.
+template <bool is_one_sided>
 RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
-  if (cluster.next_leaf < 0) {
-    compare(task, cluster, 0, cluster.ahead.n / 2);
+  const bool is_first = cluster.next_leaf < 0;
+  if (is_first) {
+    compare<is_one_sided>(task, cluster, 0, cluster.ahead.n / 2);
     cluster.next_leaf = 0;
   }
   const int32_t n_before = cluster.n_listed;
@@ -349,7 +422,7 @@ RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
     }
     lower_bounds += nodes_per_leaf * leaf.n_groups;
   }
-  compare(task, cluster, n_before, cluster.ahead.n);
+  compare<is_one_sided>(task, cluster, n_before, cluster.ahead.n);
   for (int32_t i = 0; i < cluster.n_leaves; ++i) {
     LeafTask &leaf = cluster.leaf[i];
     const Floats reach_sq = Floats::all(leaf.limits.reach_sq), tolerance = Floats::all(leaf.limits.tolerance);
@@ -362,11 +435,14 @@ RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
       leaf.found |= bits_different(limit, none) << 16 * h;
     }
   }
+  if constexpr (is_one_sided)
+    if (is_first) leave_out(cluster, cluster.next_leaf);
 }
 
-int32_t filter_cluster(const FilterTask &task, ClusterTask &cluster, const PairArrays &pairs, int32_t room) {
+template <bool is_one_sided>
+int32_t filter_nodes(const FilterTask &task, ClusterTask &cluster, const PairArrays &pairs, int32_t room) {
   if (cluster.next_listed < 0) {
-    compare_all(task, cluster);
+    compare_all<is_one_sided>(task, cluster);
     cluster.next_listed = 0;
   }
   // Writes the listed nodes whose group is still near after the whole list was compared. The position advances only after
@@ -392,9 +468,14 @@ int32_t filter_cluster(const FilterTask &task, ClusterTask &cluster, const PairA
   return n;
 }
 
+int32_t filter_cluster(const FilterTask &task, ClusterTask &cluster, const PairArrays &pairs, int32_t room) {
+  return task.one_side.end_of_band ? filter_nodes<true>(task, cluster, pairs, room)
+                                   : filter_nodes<false>(task, cluster, pairs, room);
+}
+
 void group_distances(const TriangleGroup &group, const float *point, float margin, float *distance_sq) {
   alignas(64) float d[16];
-  distances_to_group(group, all(point), Floats::all(margin)).store(d);
+  measure_to_group(group, all(point), Floats::all(margin)).distance_sq.store(d);
   for (int i = 0; i < 16; ++i) distance_sq[i] = d[i];
 }
 

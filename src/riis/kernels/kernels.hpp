@@ -73,12 +73,25 @@ struct FilterLimits {
   float margin;     // how far inside a triangle a point must be to count as inside
 };
 
+// The band that steps aside leaves out nodes far behind the surface, on the side away from the offset. All numbers are in the
+// surface's frame (docs/theory/clusters.md, "One side").
+struct OneSide {
+  float behind;       // 1 or -1: this times a node's height over a triangle is the node's depth behind the triangle
+  float twice_shift;  // twice the distance of the band's middle from the surface
+  float least_depth;  // a node with less depth may be in front of the triangle
+  float least_sum;    // a node is out of the band if the square of its distance + twice_shift * depth exceeds this
+  // For each group, the place along its first axis, times `behind`, beyond which the whole group leaves a node out. It is
+  // infinity if the group leaves no node out. The pointer is null if nodes on both sides are wanted.
+  const float *end_of_band = nullptr;
+};
+
 // The filter's input for a whole search. x * ratio + shift takes the mesh's frame to the surface's frame.
 struct FilterTask {
   float ratio, shift[3];
   FilterLimits limits;
   const TriangleGroup *groups;
   const GroupBounds *bounds;
+  OneSide one_side;
 };
 
 // A point of the surface for each of 16 boxes. A group competes with the point if it may be nearer to some place in the box.
@@ -122,6 +135,7 @@ struct ClusterTask {
   int32_t node[most_listed + 16], group[most_listed + 16];
   float nearest_sq[most_listed + 16];       // the square of the node's distance to the group
   uint16_t triangles[most_listed + 16];     // the group's triangles that are at this distance, to the tolerance
+  uint16_t in_band[most_listed + 16];       // some of these triangles, which do not leave the node out of the band
   FilterLimits limits[leaves_per_cluster];  // by the leaf's position
   alignas(64) float xyz[3][nodes_per_cluster];
   float best[nodes_per_cluster];         // the least of reach_sq and of all computed squares of distances
@@ -185,8 +199,9 @@ struct FilterKernels {
   // For each candidate group, writes a bit for each box within its reach. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
-  // Clears the bits of boxes beyond the reach of a group's box along its own axes. Returns false if no box is left. `near`
-  // comes from near_boxes, so lanes without a box have no bits.
+  // Clears the bits of boxes beyond the reach of a group's box along its own axes. If one side is wanted, clears all bits of a
+  // box that all groups leave out. Returns false if no box is left. `near` comes from near_boxes, so lanes without a box have no
+  // bits.
   bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          uint16_t *near);
   // Copies each numbers[k] of n whose marks[k] has the given bit, without gaps, and returns their number. `to` must have room

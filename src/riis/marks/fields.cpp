@@ -428,6 +428,30 @@ void make_fields(const SearchRequest &request, std::int32_t fields, const NodeLi
                       [&](const Range &range, int) { of_triangles.take_means(range); });
 }
 
+namespace {
+
+// Copies n numbers, unless they stay in their places.
+template <class Array>
+void copy_range(const Array &from, const Range &range, Array &to, std::int64_t at) {
+  if (from.data() + range.begin != to.data() + at)
+    std::copy(from.data() + range.begin, from.data() + range.end, to.data() + at);
+}
+
+}  // namespace
+
+void copy_nodes(const NodeList &from, const Range &range, NodeList &to, std::int64_t at) {
+  copy_range(from.node_id, range, to.node_id, at);
+  copy_range(from.distance, range, to.distance, at);
+  copy_range(from.triangle_id, range, to.triangle_id, at);
+  copy_range(from.leaflet_id, range, to.leaflet_id, at);
+}
+
+void copy_fields(const FieldSet &fields, const NodeFields &from, const Range &range, NodeFields &to, std::int64_t at) {
+  for_each_array(fields, [&](auto member, std::int64_t per_node) {
+    copy_range(from.*member, {per_node * range.begin, per_node * range.end}, to.*member, per_node * at);
+  });
+}
+
 void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,
                    NodeFields &made) {
   made.resize(fields, some.size());

@@ -118,6 +118,10 @@ TieRule ties_for(const Surface &surface, std::int32_t fields);
 void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, FieldScratch &scratch,
                  NodeFields &made);
 
+// Copies a range of nodes, or of their fields, to the positions from `at` on. A copy within one list must go to earlier places.
+void copy_nodes(const NodeList &from, const Range &range, NodeList &to, std::int64_t at);
+void copy_fields(const FieldSet &fields, const NodeFields &from, const Range &range, NodeFields &to, std::int64_t at);
+
 // Writes the fields of the nodes in `some`, which is a part of `all`. Both lists are in ascending order of nodes.
 void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,
                    NodeFields &made);

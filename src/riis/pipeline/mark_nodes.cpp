@@ -8,7 +8,6 @@
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
-#include "search/band_nodes.hpp"
 
 namespace riis {
 namespace {
@@ -92,16 +91,23 @@ WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked
   return data;
 }
 
-// Copies the nodes in the band from a list with heights.
-void take_marked(const Band &band, const ListedNodes &within, NodeList &marked) {
+// Copies the nodes in the band from a list with heights, with their fields. Both lists may be the same list.
+void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &from, ListedNodes &to) {
+  const std::int64_t n_from = from.nodes.size();
+  const auto is_marked = [&](std::int64_t i) {
+    return band.holds(view(from.nodes.distance)[i], view(from.fields.height)[i]);
+  };
+  to.fields.resize(fields, n_from);
   std::int64_t n = 0;
-  for (std::int64_t i = 0; i < within.nodes.size(); ++i) {
-    const double distance = view(within.nodes.distance)[i];
-    if (!band.holds(distance, view(within.fields.height)[i])) continue;
-    marked.set(n++, view(within.nodes.node_id)[i], distance, view(within.nodes.triangle_id)[i],
-               view(within.nodes.leaflet_id)[i]);
+  // Copies neighbouring nodes together.
+  for (std::int64_t begin = 0, end = 0; begin < n_from; begin = end + 1) {
+    for (end = begin; end < n_from && is_marked(end);) ++end;
+    copy_nodes(from.nodes, {begin, end}, to.nodes, n);
+    copy_fields(fields, from.fields, {begin, end}, to.fields, n);
+    n += end - begin;
   }
-  marked.resize(n);
+  to.nodes.resize(n);
+  to.fields.resize(fields, n);
 }
 
 // Gives both lists room for their new entries. If one list lacks room, both are replaced, but only after all memory for the
@@ -140,13 +146,13 @@ void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks
   SearchRequest request = asked;
   const WantedData data = wanted_data(request, marking);
   request.ties = ties_for(request.surface, data.fields);
+  request.listed = marking.listed;
   const auto [search, report] = run(request, search_for(request, marking.search), marks);
   const Band &band = request.surface.band();
   const bool limit_is_wider =
       band.steps_aside() ? !marking.listed : request.distance_limit > request.surface.half_thickness();
   // With an offset, only the fields tell which nodes are marked.
   const bool sorts_marked = limit_is_wider && !band.steps_aside();
-  if (marking.listed) keep_in_band(request, *marking.listed, marks.found);
   // Everything that may fail comes first, so that a failure leaves the old lists intact.
   marks.field_scratch.prepare(request, data.fields, marks.found);
   if (need_normals(request.surface, data.fields, marks.found.size())) request.surface.pseudonormals();
@@ -158,8 +164,9 @@ void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks
   put_in_order(request.surface, sorts_marked, request.mesh.nodes().n, request.n_threads, marks.order_scratch,
                marks.within.nodes, marks.marked.nodes);
   make_fields(request, data.fields, marks.within.nodes, marks.field_scratch, marks.within.fields);
-  if (limit_is_wider && !sorts_marked) take_marked(band, marks.within, marks.marked.nodes);
-  if (limit_is_wider)
+  if (marking.listed) take_marked(*marking.listed, data.field_set(), marks.within, marks.within);
+  if (limit_is_wider && !sorts_marked) take_marked(band, data.field_set(), marks.within, marks.marked);
+  if (sorts_marked)
     select_fields(data.field_set(), marks.within.nodes, marks.within.fields, marks.marked.nodes, marks.marked.fields);
   for (ListedNodes *list : {&marks.within, &marks.marked})
     list_resistance(marking.resistance, data, request.n_threads, *list);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes of a band that steps aside: which of the found nodes it holds, and which half thickness marks a node.
-// In: a surface with an offset, nodes with their closest triangles. Out: the nodes in the band.
+// Places single nodes of a band that steps aside.
+// In: a surface, points at any distance. Out: the half thickness that marks a point, and its side.
 #pragma once
 
 #include "search/search.hpp"
 
 namespace riis {
-
-// Removes the nodes outside the band from the lists. The surface must have an offset. Ties of removed nodes stay.
-void keep_in_band(const SearchRequest &request, const Band &band, FoundNodes &found);
 
 // The least half thickness that marks a node, and the node's place.
 struct NodePlace {

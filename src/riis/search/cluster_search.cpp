@@ -78,7 +78,8 @@ class ClusterSearch {
     task_.shift[2] = static_cast<float>(placing_.shift.z);
     task_.groups = groups_.groups.data();
     task_.bounds = groups_.bounds.data();
-    limits_within(limit_, task_.limits);
+    const double error = limits_within(limit_, task_.limits);
+    if (request.listed) look_at_one_side(*request.listed, error);
     of_packs_ = task_;
     of_packs_.bounds = groups_.packs.data();
     const auto n_groups = view(groups_.groups).size();
@@ -283,6 +284,55 @@ class ClusterSearch {
     limits.tolerance = filter_tolerance(error, limit + 2 * error);
     limits.margin = static_cast<float>(0.5 * error);
     return error;
+  }
+
+  // Prepares the filter to leave out nodes on the side that a band steps away from (docs/theory/clusters.md, "One side").
+  void look_at_one_side(const Band &band, double error) {
+    const double half_thickness = band.half_thickness * groups_.frame.scale;
+    if (!(half_thickness <= large)) return;
+    // Normals are less accurate than distances, so the limits have a margin.
+    constexpr double margin = 0x1p-10;
+    const double shift = std::abs(band.offset) * half_thickness, reach = limit_ + 2 * error;
+    const double depth = error + margin * half_thickness;
+    const double sum = (half_thickness + shift) * (half_thickness - shift) + margin * half_thickness * half_thickness +
+                       2 * shift * error + task_.limits.tolerance;
+    const int behind = band.offset > 0 ? -1 : 1;
+    task_.one_side = {static_cast<float>(behind), static_cast<float>(2 * shift), round_up(depth), round_up(sum)};
+    const auto n_groups = view(groups_.groups).size();
+    resize(own_.ends_of_band, n_groups);
+    for (std::int64_t i = 0; i < n_groups; ++i) {
+      const TriangleGroup &group = view(groups_.groups)[i];
+      const GroupBounds &bounds = view(groups_.bounds)[i];
+      const double cosine = least_cosine(group, bounds);
+      float &end = view(own_.ends_of_band)[i] = std::numeric_limits<float>::infinity();
+      if (cosine < 0.5 || has_needle(group)) continue;
+      const double sine = std::sqrt(1 - cosine * cosine), begin = behind < 0 ? -bounds.from[0] : bounds.to[0];
+      const double by_depth = depth * cosine + sine * std::sqrt((reach - depth) * (reach + depth));
+      const double by_sum = std::sqrt(shift * shift + sum) - shift * cosine;
+      end = round_up(begin + std::max(by_depth, by_sum) + error);
+    }
+    task_.one_side.end_of_band = own_.ends_of_band.data();
+  }
+
+  // Returns whether a triangle of a group is so low that its normal is inaccurate.
+  static bool has_needle(const TriangleGroup &group) {
+    constexpr float least_height = 1e-10f;
+    bool has_one = false;
+    for (int i = 0; i < triangles_per_group; ++i) {
+      const float longest = std::max({group.half_ab[i], group.half_ac[i], group.half_bc[i]});
+      const float half_area = group.half_ab[i] * group.half_ac[i] * std::abs(group.ac_f[i]);
+      has_one = has_one || !(2 * half_area >= least_height * longest);
+    }
+    return has_one;
+  }
+
+  // Returns a lower bound of the cosines of the angles between the normals of a group's triangles and the group's first axis.
+  static double least_cosine(const TriangleGroup &group, const GroupBounds &bounds) {
+    const float(&axis)[3] = bounds.axis[0];
+    float least = 1;
+    for (int i = 0; i < triangles_per_group; ++i)
+      least = std::min(least, group.g[0][i] * axis[0] + group.g[1][i] * axis[1] + group.g[2][i] * axis[2]);
+    return static_cast<double>(least) - 0x1p-20;
   }
 
   // Returns a point of the surface. The point is near `to` if a triangle of the group is near `to`.

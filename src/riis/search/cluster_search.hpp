@@ -55,6 +55,7 @@ struct ClusterScratch {
   std::vector<std::int64_t> near_regions;
   std::vector<Item> items;
   std::vector<std::int32_t> all_groups;  // 0, 1, 2, ...
+  std::vector<float> ends_of_band;       // OneSide::end_of_band
 
   void prepare(int n_threads);
 };

@@ -31,6 +31,30 @@ struct EightPoints {
   void find_sides(const Pseudonormals &normals, const Kernels &simd, std::int32_t *side,
                   std::int32_t *is_on_rim) const {
     alignas(64) Lanes normal_there;
+    find_normals(normals, normal_there, is_on_rim);
+    if (side) simd.find_sides(pairs, on, normal_there, side);
+  }
+
+  // Finds the height of each point over its closest point, as Band takes it, and whether the closest point is on the rim. The
+  // height is at most the point's distance in magnitude.
+  void find_heights(const Pseudonormals &normals, const Kernels &simd, const double *distance, double *height,
+                    std::int32_t *is_on_rim) const {
+    alignas(64) Lanes normal_there;
+    std::int32_t side[pairs_at_once];
+    find_normals(normals, normal_there, is_on_rim);
+    simd.find_sides(pairs, on, normal_there, side);
+    for (std::int64_t lane = 0; lane < pairs_at_once; ++lane) height[lane] = side[lane] * distance[lane];
+    for (std::uint32_t lanes = on.at_border; lanes; lanes &= lanes - 1) {
+      const std::int64_t lane = __builtin_ctz(lanes);
+      if (!is_on_rim[lane]) continue;
+      const Vec3 normal = lane_of(normal_there, lane);
+      const double over = dot(lane_of(pairs.point, lane) - lane_of(on.point, lane), normal) / length(normal);
+      height[lane] = std::max(-distance[lane], std::min(over, distance[lane]));
+    }
+  }
+
+  // Finds the normal at each closest point, and whether the point is on the rim. `is_on_rim` may be null.
+  void find_normals(const Pseudonormals &normals, Lanes &normal_there, std::int32_t *is_on_rim) const {
     for (std::int64_t lane = 0; lane < pairs_at_once; ++lane) {
       set_lane(normal_there, lane, normals.of_face(triangle[lane]));
       if (is_on_rim) is_on_rim[lane] = 0;
@@ -40,23 +64,6 @@ struct EightPoints {
       const Pseudonormals::Feature feature = normals.at_border(triangle[lane], lane_of(on.barycentric, lane));
       set_lane(normal_there, lane, feature.normal);
       if (is_on_rim) is_on_rim[lane] = feature.is_on_rim ? 1 : 0;
-    }
-    if (side) simd.find_sides(pairs, on, normal_there, side);
-  }
-
-  // Finds the height of each point over its closest point, as Band takes it, and whether the closest point is on the rim. The
-  // height is at most the point's distance in magnitude.
-  void find_heights(const Pseudonormals &normals, const Kernels &simd, const double *distance, double *height,
-                    std::int32_t *is_on_rim) const {
-    std::int32_t side[pairs_at_once];
-    find_sides(normals, simd, side, is_on_rim);
-    for (std::int64_t lane = 0; lane < pairs_at_once; ++lane) height[lane] = side[lane] * distance[lane];
-    for (std::uint32_t lanes = on.at_border; lanes; lanes &= lanes - 1) {
-      const std::int64_t lane = __builtin_ctz(lanes);
-      if (!is_on_rim[lane]) continue;
-      const Vec3 normal = normals.at_border(triangle[lane], lane_of(on.barycentric, lane)).normal;
-      const double over = dot(lane_of(pairs.point, lane) - lane_of(on.point, lane), normal) / length(normal);
-      height[lane] = std::max(-distance[lane], std::min(over, distance[lane]));
     }
   }
 

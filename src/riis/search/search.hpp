@@ -12,6 +12,7 @@
 
 #include "base/recycled.hpp"
 #include "common/array_view.hpp"
+#include "common/band.hpp"
 #include "mesh/mesh.hpp"
 #include "parallel/threads.hpp"
 #include "scene/surface.hpp"
@@ -103,6 +104,8 @@ struct NodeSearch {
   Threads n_threads;
   InstructionSet instructions;
   TieRule ties = {};
+  // If not null, the caller wants only the nodes in this band, and the search may leave out others.
+  const Band *listed = nullptr;
 
   bool is_masked_out(std::int64_t node) const { return node_mask && !node_mask[node]; }
 };
