@@ -21,7 +21,7 @@ program drop_of_valve
   logical :: has_settled
   ! The options. Lengths are in m, and the flow rate is in ml/s.
   integer :: cells = 36, most_windows = 8
-  real(dp) :: opening = 1, flow_rate = 250, eps = 1e-3_dp, offset = 0, skirt = 3e-3_dp, resistance = 1e3_dp, settled = 0.01_dp
+  real(dp) :: opening = 1, flow_rate = 250, eps = 1e-3_dp, offset = 0, skirt = 2e-3_dp, resistance = 1e3_dp, settled = 0.01_dp
   logical :: cut_rim = .true.
   character(len=32) :: kind = 'trileaflet'
   namelist /options/ cells, most_windows, opening, flow_rate, eps, offset, skirt, resistance, settled, cut_rim, kind
