@@ -11,7 +11,7 @@ program drop_of_valve
   use flow_files, only: option_words
   use flow_stop, only: clocks, refuse, step_number, step_time
   implicit none
-  real(dp), parameter :: width = 0.036_dp, length = 0.052_dp, bottom = -0.018_dp ! [m] the box around the root
+  real(dp), parameter :: width = 0.036_dp, length = 0.044_dp, bottom = -0.018_dp ! [m] the box around the root
   type(flow), target :: fluid
   type(leaflets) :: valve
   type(riis_orifice) :: orifice
@@ -38,7 +38,7 @@ program drop_of_valve
   if (.not. cut_rim) valve%rim = RIIS_RIM_ROUND
   if (cut_rim) valve%rim = RIIS_RIM_CUT
   call fit_root(valve%valve, trim(kind), valve%place(3))
-  fluid%tolerance = 1e-5_dp
+  fluid%tolerance = 1e-4_dp
   fluid%imposed_inlet = .true.
   call fluid%start([cells, cells, nint(cells * length / width)], width / cells, [-width / 2, -width / 2, bottom], in_root)
   call valve%start(fluid, opening)
