@@ -26,7 +26,7 @@ def stop(text):
     sys.exit(f"drops.py: {text}")
 
 
-def run(kind, opening, flow=250.0, cells=36, eps=1.5, offset=0.0):
+def run(kind, opening, flow=250.0, cells=24, eps=1.5, offset=0.0):
     """Describes a run. The flow is in ml/s and eps in mm."""
     return {"kind": kind, "opening": opening, "flow_rate": flow, "cells": cells, "eps": eps, "offset": offset}
 
@@ -34,14 +34,14 @@ def run(kind, opening, flow=250.0, cells=36, eps=1.5, offset=0.0):
 def all_runs(short):
     """Returns the runs in the order in which they are computed."""
     both = (0.0, 0.75)
+    runs = [run("trileaflet", opening, offset=offset) for opening in OPENINGS for offset in both]
     if short:
-        return [run("trileaflet", opening, cells=18, eps=2.0, offset=offset) for opening in OPENINGS for offset in both]
-    runs = [run(kind, opening, offset=offset) for kind in KINDS[::-1] for opening in OPENINGS for offset in both]
-    runs += [run("trileaflet", opening, eps=1.0, offset=offset) for opening in OPENINGS for offset in both]
+        return runs
+    runs += [run(kind, opening, offset=offset) for kind in KINDS[:2] for opening in OPENINGS for offset in both]
     runs += [run("trileaflet", 0.5, flow=flow, offset=offset) for flow in (100.0, 400.0) for offset in both]
     runs += [run("trileaflet", opening, offset=0.5) for opening in OPENINGS]
-    runs += [run("trileaflet", opening, cells=54, eps=1.0, offset=offset) for opening in (0.5, 1.0) for offset in both]
-    runs += [run(kind, opening, eps=1.0, offset=offset) for kind in KINDS[:2] for opening in OPENINGS for offset in both]
+    runs += [run("trileaflet", opening, cells=36, eps=1.0, offset=offset) for opening in OPENINGS for offset in both]
+    runs += [run("trileaflet", opening, cells=36, offset=offset) for opening in OPENINGS for offset in both]
     return runs
 
 
