@@ -41,7 +41,7 @@ def all_runs(short):
     runs += [run("trileaflet", 0.5, flow=flow, offset=offset) for flow in (100.0, 400.0) for offset in both]
     runs += [run("trileaflet", opening, offset=0.5) for opening in OPENINGS]
     runs += [run("trileaflet", opening, cells=36, eps=1.0, offset=offset) for opening in OPENINGS for offset in both]
-    runs += [run("trileaflet", opening, cells=36, offset=offset) for opening in OPENINGS for offset in both]
+    runs += [run(kind, opening, cells=36, offset=offset) for kind in KINDS[::-1] for opening in OPENINGS for offset in both]
     return runs
 
 

@@ -39,7 +39,6 @@ contains
     case ('coapting')
       call valve%get('commissure_height', leaflet_height)
       call valve%get('commissure_radius', leaflet_radius(1))
-      leaflet_radius = leaflet_radius(1)
       call valve%get('attachment_width', attachment_width)
       call valve%get('attachment_drop', attachment_drop)
       call valve%get('translation', translation)
@@ -56,8 +55,20 @@ contains
       end do
       call valve%get('right.translation', translation)
     case default
+      call valve%get('leaflet_height', leaflet_height)
+      call valve%get('bending_height', bending_height)
+      call valve%get('leaflet_radius_out', leaflet_radius(1))
+      call valve%get('bending_radius_out', bending_radius(1))
+      call valve%get('bending_angle', bending_angle(1))
+      bending_radius = bending_radius(1)
+      bending_angle = bending_angle(1)
       call valve%get('translation', translation)
     end select
+    if (kind /= 'aortic') then                    ! three equal cusps
+      leaflet_radius = leaflet_radius(1)
+      leaflet_angle = 60
+      middle_of_cusp = [0, 120, 240]
+    end if
     shift = (base_z - translation(3)) / 100
   end subroutine fit_root
 

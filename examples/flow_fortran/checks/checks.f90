@@ -324,11 +324,11 @@ contains
 
   ! (i) The leak of a closed valve hardly depends on the offset. Rims are cut, and a skirt leads into the wall. The half thickness
   ! is 1 mm, and a cell has the size h in mm. The walls of the first rows are straight. In a root the band steps into the sinuses,
-  ! where it has more area.
+  ! where it has more area. The last root is that of the trileaflet valve, which the other checks take.
   subroutine check_closed(h, n_rows)
     real(dp), intent(in) :: h
     integer, intent(in) :: n_rows
-    character(len=10), parameter :: kinds(5) = [character(len=10) :: 'trileaflet', 'coapting', 'mitral', 'trileaflet', 'coapting']
+    character(len=10), parameter :: kinds(5) = [character(len=10) :: 'coapting', 'trileaflet', 'mitral', 'coapting', 'trileaflet']
     character(len=9), parameter :: vessels(5) = [character(len=9) :: 'tube', 'tube', 'oval tube', 'root', 'root']
     real(dp), parameter :: offsets(3) = [0._dp, 0.5_dp, 0.75_dp], eps = 1e-3_dp, R = 1e3_dp, dp_closed = 80 * 133.322_dp
     type(flow), target :: fluid
@@ -369,9 +369,9 @@ contains
       print '(2x, 2a, f9.3, 2f7.3, f10.3, f7.3)', kinds(row), '  ' // vessels(row), leak, leak(2:) / leak(1)
     end do
     print '(a)', ''
-    call demand(all(largest([1, 3]) < 0.05_dp), &
+    call demand(all(largest(2:3) < 0.05_dp), &
       'in tubes an offset changes the leak of trileaflet and mitral valves by less than 5 %')
-    call demand(largest(2) < 0.16_dp, 'in a tube it changes that of the coapting valve, whose gap is 0.2 mm, by less than 16 %')
+    call demand(largest(1) < 0.16_dp, 'in a tube it changes that of the coapting valve, whose gap is 0.2 mm, by less than 16 %')
   end subroutine check_closed
 
   ! Tells whether a point is inside a tube that cuts the attachments of the trileaflet and the coapting valves.
