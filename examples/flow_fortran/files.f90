@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> Writes the files of a run: a table with a row for each step, slices for the movie, and restart files.
+!> Reads the words of the command line, and writes the files of a run: a table with a row for each step, slices for the movie, and
+!! restart files.
 module flow_files
   use, intrinsic :: iso_fortran_env, only: int32, int64, real32
   use riis, only: riis_triangles, riis_parameter_info, riis_opening_switch_state
@@ -9,11 +10,24 @@ module flow_files
   use flow_stop, only: refuse, step_number, step_time
   implicit none
   private
-  public :: open_table, write_frame, write_restart, read_restart
+  public :: option_words, open_table, write_frame, write_restart, read_restart
 
   character(len=*), parameter :: magic = 'riis flow_fortran 1 '
 
 contains
+
+  !> Returns the words of the command line as a namelist with the name `options`. Reading it refuses unknown names and bad values.
+  function option_words() result(words)
+    character(len=2000) :: words
+    character(len=400) :: word
+    integer :: i
+    words = '&options'
+    do i = 1, command_argument_count()
+      call get_command_argument(i, word)
+      words = trim(words) // ' ' // word
+    end do
+    words = trim(words) // ' /'
+  end function option_words
 
   !> Opens the table of steps. After a restart, new rows are appended to the old table.
   subroutine open_table(name, unit)
@@ -79,18 +93,20 @@ contains
     type(riis_parameter_info) :: info
     real(dp), allocatable :: values(:)
     integer :: i
-    allocate (lines(5 + valve%valve%n_parameters()))
+    allocate (lines(7 + valve%valve%n_parameters()))
     write (lines(1), '(a, 3i6)') 'cells', fluid%n
     write (lines(2), '(2a)') 'valve ', trim(valve%kind)
     write (lines(3), '(a, es24.16)') 'resistance', valve%R
     write (lines(4), '(a, es24.16)') 'half_thickness', valve%eps
     write (lines(5), '(a, 3es24.16)') 'place', valve%place
-    do i = 1, size(lines) - 5
+    write (lines(6), '(a, es24.16)') 'offset', valve%offset
+    write (lines(7), '(a, i6)') 'rim', valve%rim
+    do i = 1, size(lines) - 7
       call valve%valve%parameter(i, info)
       values = info%default_values
       call valve%valve%get(info%name, values)
       if (info%name == 'opening') values = 0      ! the opening belongs to the state, not to the settings
-      write (lines(5 + i), '(a, 3es24.16)') info%name, values
+      write (lines(7 + i), '(a, 3es24.16)') info%name, values
     end do
   end subroutine get_identity
 

@@ -7,7 +7,7 @@ program flow_through_valve
   use flow_valve, only: leaflets, check
   use flow_root, only: in_root
   use flow_circulation, only: circulation, mmHg, ml, period
-  use flow_files, only: open_table, write_frame, write_restart, read_restart
+  use flow_files, only: option_words, open_table, write_frame, write_restart, read_restart
   use flow_stop, only: clocks, refuse, step_number, step_time
   implicit none
   real(dp), parameter :: width = 0.033_dp, length = 0.0396_dp, bottom = -0.018_dp ! [m] the box around the root
@@ -24,11 +24,12 @@ program flow_through_valve
   ! The options.
   integer :: cells = 40, steps = huge(0), frames = 100, save(2) = 0
   real(dp) :: end_time = period, longest_step = 1e-3_dp, eps_in_cells = 1.5_dp, resistance = 1e4_dp, place(3) = 0
-  logical :: surface_velocity = .true., band_source = .true.
+  real(dp) :: offset = 0, skirt = 0
+  logical :: surface_velocity = .true., band_source = .true., cut_rim = .false.
   character(len=32) :: kind = 'trileaflet'
   character(len=300) :: out = 'out/flow', restart = ''
-  namelist /options/ cells, steps, frames, save, end_time, longest_step, eps_in_cells, resistance, place, surface_velocity, &
-    band_source, kind, out, restart
+  namelist /options/ cells, steps, frames, save, end_time, longest_step, eps_in_cells, resistance, place, offset, skirt, &
+    surface_velocity, band_source, cut_rim, kind, out, restart
 
   begin = clocks()
   call read_options()
@@ -39,8 +40,11 @@ program flow_through_valve
   valve%R = resistance
   valve%eps = eps_in_cells * fluid%h
   valve%place = place
+  valve%offset = offset
+  if (cut_rim) valve%rim = RIIS_RIM_CUT
   valve%moves_flow = surface_velocity
   call valve%valve%create(trim(kind), status)
+  if (status == RIIS_OK .and. abs(skirt) > 0) call valve%valve%set('skirt_length', 100 * skirt, status)
   call check(status)
   if (restart /= '') call read_restart(trim(restart), fluid, valve, heart, state)
   call valve%start(fluid, state%opening)
@@ -105,17 +109,11 @@ contains
       call write_restart(trim(out) // '/restart_' // trim(number) // '.bin', fluid, valve, heart, state)
   end subroutine tell
 
-  ! Reads the words of the command line as a namelist. A namelist refuses unknown names and bad values.
   subroutine read_options()
     character(len=2000) :: words
-    character(len=400) :: word, message
-    integer :: i, stat
-    words = '&options'
-    do i = 1, command_argument_count()
-      call get_command_argument(i, word)
-      words = trim(words) // ' ' // word
-    end do
-    words = trim(words) // ' /'
+    character(len=400) :: message
+    integer :: stat
+    words = option_words()
     read (words, nml=options, iostat=stat, iomsg=message)
     if (stat /= 0) call refuse('options: ' // trim(message))
     if (cells < 8) call refuse('options: cells must be at least 8')

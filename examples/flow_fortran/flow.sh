@@ -51,22 +51,35 @@ flow_story() {
     }' "$1/beat.csv"
 }
 
-# flow [--short] [--study] [--cells N]
-# ./run flow [--cells N | --short | --study]
+# ./run flow [--cells N | --short] [--offset O]
 #   Builds a flow solver in Fortran with the beating aortic valve in its root, and checks the solver against closed forms. It
 #   computes one heartbeat with some 77,000 cells, and leaves plots of pressures, flow, opening, jet and force, and a movie of the
 #   velocity, in out/flow. --cells takes N cells across the root instead of 40, which changes the half thickness. --short takes a
-#   coarse grid until the valve opens, in out/flow_short. --study prints the effect of resistance, half thickness and size of
-#   cells on the drop and the leak. It is skipped if the distribution lacks libhypre-dev.
+#   coarse grid until the valve opens, in out/flow_short. With --offset the band steps aside by O half thicknesses. It then has a
+#   cut rim and a skirt, and _offset ends the folder's name. It is skipped if the distribution lacks libhypre-dev.
+# ./run flow --study
+#   Prints the effect of resistance, half thickness and size of cells on the drop and the leak.
+# ./run flow --drops [--short]
+#   Computes the steady drops of the aortic, coapting and trileaflet valves at some openings, flows, half thicknesses and offsets,
+#   in half an hour of a processor. It leaves a table with two formulas beside the drops, and a plot, in out/drops. Finished runs
+#   in that folder are kept, so a second call goes on after a stop. --short makes six runs in a coarse grid, in out/drops_short.
 run_flow() {
-  local out=out/flow python words=() save=(600 620) short='' study=''
+  local out=out/flow python words=() save=(600 620) short=() offset='' what=beat
   while (($# > 0)); do
     case $1 in
-      --short) short=1 out=out/flow_short words+=(cells=24 end_time=0.16 frames=12) save=(60 80) ;;
-      --study) study=1 ;;
+      --short) short=(--short) ;;
+      --study) what=study ;;
+      --drops) what=drops ;;
       --cells)
         [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || { echo "./run flow: --cells needs a number, not '${2:-}'" >&2; exit 2; }
         words+=(cells="$2")
+        shift
+        ;;
+      --offset)
+        [[ ${2:-} =~ ^-?0?(\.[0-9]+)?$ && ${2:-} =~ [0-9] ]] ||
+          { echo "./run flow: --offset needs a number above -1 and below 1, not '${2:-}'" >&2; exit 2; }
+        offset=_offset
+        words+=(offset="$2" cut_rim=T skirt=2e-3)
         shift
         ;;
       *)
@@ -76,6 +89,12 @@ run_flow() {
     esac
     shift
   done
+  if [[ $what != beat && ${words[*]} ]]; then
+    echo "./run flow: --$what goes with neither --cells nor --offset" >&2
+    exit 2
+  fi
+  if [[ ${short[*]} ]]; then out=out/flow_short words=(cells=24 end_time=0.16 frames=12 "${words[@]}") save=(60 80); fi
+  out+=$offset
   if command -v dpkg-query >/dev/null && ! is_on_offer libhypre-dev; then
     say "flow is skipped: this distribution lacks the package libhypre-dev"
     return
@@ -85,8 +104,15 @@ run_flow() {
   export OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
   step "compile the library" flow_compile
   step "compile the flow solver" flow_compile_solver
-  if [[ $study ]]; then
+  if [[ $what == study ]]; then
     "$flow_build/solver/flow_checks" study
+    return
+  fi
+  python=$(python_of_packages)
+  if [[ $what == drops ]]; then
+    out=out/drops${short:+_short}
+    say "steady drops; finished runs are kept in $out/runs.csv"
+    "$python" -B examples/flow_fortran/drops.py "$flow_build/solver/drop" "$out" "${short[@]}"
     return
   fi
   say "check the solver against closed forms"
@@ -98,9 +124,8 @@ run_flow() {
   mkdir -p "$out/frames"
   "$flow_build/solver/flow" "${words[@]}" save="${save[0]},${save[1]}" out="'$out'"
   step "go on from step ${save[0]} in a second run: the same bits" flow_restart "$out" "${save[@]}" "${words[@]}"
-  python=$(python_of_packages)
   step "draw" "$python" -B examples/flow_fortran/plots.py "$out"
   flow_story "$out"
   say "wrote $out/beat.png, $out/flow.mp4 and stills of it, $out/beat.csv, $out/frames"
-  [[ ! $short ]] || say "this was the short variant: a coarse grid, and the beat until the valve opens"
+  [[ ! ${short[*]} ]] || say "this was the short variant: a coarse grid, and the beat until the valve opens"
 }

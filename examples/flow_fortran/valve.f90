@@ -12,6 +12,8 @@ module flow_valve
     character(len=32) :: kind = 'trileaflet'
     real(dp) :: R = 1e4_dp                        ! [kg/(m s)] resistance
     real(dp) :: eps = 0                           ! [m] half thickness
+    real(dp) :: offset = 0                        ! [half thicknesses] by which the band steps aside along the normals
+    integer :: rim = RIIS_RIM_ROUND               ! RIIS_RIM_CUT cuts the band off where the leaflets end
     real(dp) :: place(3) = 0                      ! [m] position of the valve's origin
     real(dp) :: turn_axis(3) = [0, 0, 1], turn = 0 ! [degrees] by which the valve is turned about an axis through its origin
     logical :: moves_flow = .true.                ! .false. leaves K u_surface out, for the checks
@@ -44,7 +46,7 @@ contains
     if (status == RIIS_OK) call this%valve%copy(this%before, status)
     if (status == RIIS_OK) call this%surface%create(this%valve, half_thickness=this%eps, scale=0.01_dp, &
       rotation_axis=this%turn_axis, rotation_angle=this%turn, translation=this%place, &
-      n_threads=1, status=status)                 ! more threads gain nothing, because triangles and nodes are few
+      offset=this%offset, n_threads=1, status=status) ! more threads gain nothing, because triangles and nodes are few
     if (status == RIIS_OK) call this%faces%create(fluid%xyz, status)
     if (status == RIIS_OK) call this%faces%prepare(n_threads=1, status=status)
     call check(status)
@@ -70,9 +72,9 @@ contains
     call this%valve%set('opening', opening, status)
     if (status == RIIS_OK) call this%surface%update_moving(this%valve, this%before, dt, status=status)
     if (status == RIIS_OK) call this%before%set('opening', opening, status)
-    if (status == RIIS_OK) call riis_mark_nodes(this%surface, this%faces, this%marks, fields=RIIS_FIELD_VELOCITY, &
-      n_threads=1, status=status)
-    if (status == RIIS_OK) call this%marks%add_resistance(this%R, fluid%K, fluid%K_u, status=status)
+    if (status == RIIS_OK) call riis_mark_nodes(this%surface, this%faces, this%marks, &
+      fields=RIIS_FIELD_VELOCITY + RIIS_FIELD_RIM, n_threads=1, status=status)
+    if (status == RIIS_OK) call this%marks%add_resistance(this%R, fluid%K, fluid%K_u, rim=this%rim, status=status)
     if (status == RIIS_OK) call this%marks%marked_nodes(this%marked, status=status)
     call check(status)
     this%seconds = this%seconds + clocks() - begin

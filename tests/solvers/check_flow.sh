@@ -1,10 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_flow.sh SOURCE FLOW FLOW_CHECKS MEMBRANE WORK
+# check_flow.sh SOURCE FLOW FLOW_CHECKS MEMBRANE DROP WORK
 # Runs the flow solver of examples/flow_fortran on coarse grids: its own checks, a restart with the same bits, a cusp of springs,
-# plots, and refusals.
+# steady drops, plots, and refusals.
 set -euo pipefail
-source=$1 flow=$2 checks=$3 membrane=$4 work=$5
+source=$1 flow=$2 checks=$3 membrane=$4 drop=$5 work=$6
 failed=0
 rm -rf "$work"
 mkdir -p "$work"
@@ -55,6 +55,34 @@ awk -F , '$1 == 20 { found = 1; exit !($4 == 0 && $8 < 0 && $8 > -2e-6 && $7 - $
 awk 'NR > 2 { last = $2; if ($1 < 30) opened = $NF } END { exit !(opened > 1 && last < 0) }' membrane.log ||
   problem "the cusp of springs does not follow the flow: $(<membrane.log)"
 
+# The drop of a half-open valve is that of a narrow one without an offset. With the offset 0.75 it is near Bernoulli's.
+# drop_of OFFSET: prints the drop over rho Q^2/(2 A^2), in mmHg and cm2.
+drop_of() {
+  "$drop" cells=12 eps=3e-3 opening=0.5 settled=0.1 offset="$1" | tail -n 1 |
+    LC_ALL=C awk -F , '{ print $12 / (530 * ($3 / $8 / 100) ^ 2 / 133.322) }'
+}
+LC_ALL=C awk -v without="$(drop_of 0)" -v with="$(drop_of 0.75)" 'BEGIN { exit !(without > 3 && with > 1 && with < 2) }' ||
+  problem "the drop of a half-open valve does not follow the offset: $(drop_of 0), $(drop_of 0.75)"
+
+# The script of the drops computes only what is missing in its table.
+names=$("$drop" cells=12 eps=3e-3 settled=0.1 | tail -n 2)
+mkdir -p drops
+{
+  head -n 1 <<<"$names"
+  for opening in 0.25 0.5 1.0; do
+    for offset in 0.0 0.75; do
+      tail -n 1 <<<"$names" |
+        awk -F , -v OFS=, -v opening="$opening" -v offset="$offset" '{ $2 = opening; $4 = 24; $6 = 1.5; $7 = offset; print }'
+    done
+  done
+} >drops/runs.csv
+/usr/bin/python3 -B "$source/examples/flow_fortran/drops.py" /bin/false drops --short >drops.log 2>&1 ||
+  problem "drops.py does not keep its runs: $(<drops.log)"
+(($(grep -c '^| trileaflet | ' drops/drops.md) == 6)) || problem "drops.py left another table: $(<drops/drops.md)"
+sed -i '$d' drops/runs.csv
+refuses "drops.py: /bin/false kind='trileaflet' opening=1.0 flow_rate=250.0 cells=24 eps=1.5e-3 offset=0.75 failed" \
+  /usr/bin/python3 -B "$source/examples/flow_fortran/drops.py" /bin/false drops --short
+
 # Bad input must be refused with these texts.
 at_20='flow: step 0, .000000 s: '
 refuses "$at_20"'the restart file whole/restart_140.bin is of another run: it has "valve trileaflet", here it is "valve aortic"' \
@@ -72,6 +100,11 @@ refuses "RIIS_INVALID_PARAMETER: 'tricuspid' is not a kind of valve" "$flow" cel
 refuses "options: Cannot match namelist object name cels" "$flow" cels=16
 refuses "options: cells must be at least 8" "$flow" cells=4
 refuses "options: end_time, longest_step and eps_in_cells must be positive" "$flow" end_time=0
+refuses 'is of another run: it has "offset' "$flow" cells=16 offset=0.5 restart="'whole/restart_140.bin'"
+refuses "RIIS_INVALID_ARGUMENT: options.offset is 1; it must be above -1 and below 1" "$flow" cells=16 offset=1
+refuses "options: kind must be 'aortic', 'trileaflet' or 'coapting', not 'mitral'" "$drop" kind="'mitral'"
+refuses "options: flow_rate and settled must be positive, most_windows must be at least 3" "$drop" flow_rate=0
+refuses "options: cells must be at least 8" "$drop" cells=4
 refuses "beat.csv': No such file or directory" "$flow" cells=16 out="'nowhere'"
 
 # Draws the plots, if matplotlib and ffmpeg are installed.
