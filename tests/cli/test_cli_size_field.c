@@ -167,8 +167,7 @@ TEST(an_offset_beside_the_rim_of_a_plate) {
   scratch_write("plate.obj", text, strlen(text));
   RUN_FIELD("--surface", scratch_path("plate.obj"), "--half-thickness", "0.1", "--offset", "-0.75", "--largest-edge",
             "0.25", "--growth", "0.5", "--spacing", "0.06");
-  assert_non_null(
-      strstr(program_out, "edges     0.095 within the reach of the band, 0.175, and 0.0628 beside rims"));
+  assert_non_null(strstr(program_out, "edges     0.095 within the reach of the band, 0.175, and 0.0628 beside rims"));
   const double beside_rims = 0.095 * sqrt(1 - 0.75 * 0.75);
   int n_beside_rims = 0, n_at_middle = 0;
   for (int i = 0; i < grid.n[0]; ++i)
