@@ -163,16 +163,21 @@ def check_kinds():
         axis, angle = [CHANCE.gauss(0, 1) for _ in range(3)], CHANCE.uniform(-180, 180)
         shift = [scale * CHANCE.uniform(-20, 20) for _ in range(3)]
         xyz, cells = box(33, 4.5 * scale, shift)
-        half_thickness = CHANCE.choice([0.0, 0.13 * scale, 0.03 * scale])
+        half_thickness, offset = CHANCE.choice([0.0, 0.13 * scale, 0.03 * scale]), CHANCE.choice([0.0, 0.75, -0.5])
         path = write(grid_of(xyz, [(HEXAHEDRON, cell) for cell in cells]), f"{kind}.vtu")
         mesh = pv.XMLUnstructuredGridReader(FileName=[path])
         source = pv.HeartValve(Kind=kind, Opening=valve["opening"], MeshUnit=unit, RotationAxis=axis, RotationAngle=angle,
-                            Translation=shift, HalfThickness=half_thickness)  # fmt: skip
+                            Translation=shift, HalfThickness=half_thickness, Offset=offset)  # fmt: skip
         for name, value in chosen.items():
             setattr(source, f"{kind}_{name}".replace(".", "_"), value)
         marked = pv.MarkByValve(Mesh=mesh, Valve=source, Resistance=1e4, FieldNormal=1, FieldSide=1, FindLeaks=1)
         options = {"half_thickness": half_thickness} if half_thickness else {}
-        surface = riis.Surface(valve, scale=scale, rotation_axis=axis, rotation_angle=angle, translation=shift, **options)
+        surface = riis.Surface(valve, scale=scale, rotation_axis=axis, rotation_angle=angle, translation=shift, offset=offset,
+                               **options)
+        if offset != 0.0:  # at the rim the band depends on which edges are open, and the filter only has the triangles
+            triangles = surface.triangles
+            surface = riis.Surface.from_arrays(surface.vertices, triangles.vertex_id, leaflet_id=triangles.leaflet_id,
+                                               half_thickness=surface.half_thickness, offset=offset)
         own = riis.Mesh(xyz)
         own.set_adjacency(riis.Adjacency.from_cells(cells.astype(numpy.int64), len(xyz)))
         marks, expected = expected_of(surface, own, ["normal", "side"], 1e4)
@@ -338,6 +343,7 @@ def check_refusals():
         (lambda: pv.HeartValve(Kind="mitral", Opening=2.0), "opening", "2"),
         (lambda: pv.HeartValve(Kind="aortic", aortic_root_radius=-1.0), "root_radius", "-1"),
         (lambda: pv.HeartValve(HalfThickness=-1.0), "HalfThickness: is -1.0", ""),
+        (lambda: pv.HeartValve(Offset=1.5), "offset is 1.5", "below 1"),
         (lambda: pv.HeartValve(Tolerance=2.0), "tolerance", "2"),
         (lambda: pv.HeartValve(RotationAxis=[0, 0, 0]), "rotation_axis", "(0, 0, 0)"),
         (lambda: pv.HeartValve(**table), "CycleFile: no file is named", ""),
@@ -349,6 +355,7 @@ def check_refusals():
         (lambda: pv.HeartValve(Motion="heartbeat by four times", OpensIn=-1.0), "opening_duration", "-1"),
         (lambda: pv.MarkByValve(Mesh=mesh, Valve=pv.Sphere()), "HalfThickness: it is 0", ""),
         (lambda: pv.MarkByValve(Mesh=mesh, Valve=pv.Plane(), HalfThickness=0.1), "cells that are not triangles", ""),
+        (lambda: pv.MarkByValve(Mesh=mesh, Valve=pv.HeartValve(), Offset=-1.5), "offset is -1.5", "above -1"),
         (lambda: pv.MarkByValve(Mesh=mesh, Valve=pv.HeartValve(), FieldVelocity=1), "FieldVelocity: the valve does not move", ""),
         (lambda: pv.MarkByValve(Mesh=mesh, Valve=pv.HeartValve(), Resistance=-1.0), "R", "-1"),
         (lambda: pv.MarkByValve(Mesh=mesh, Valve=pv.HeartValve(), DistanceLimit=1e-3), "distance_limit", "0.001"),

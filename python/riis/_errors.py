@@ -165,11 +165,11 @@ _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (rf"\boptions\.(fields|{'|'.join(WORDS)})( is | = )(\d+)", _word_of),
     (rf"\bRIIS_(AREA|FIELD|INTERPOLATION|PHASE|RIM|{'|'.join(WORDS).upper()})_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
     (r"RIIS_ALL_LEAFLETS, -1, stands", "None stands"),
+    (r"^search\.surface: ", ""),
     (r"\briis_[a-z_]+", lambda match: _NAMES.get(match[0], match[0])),
     (r"(?<!['\w])(?:arrays|band|cells|csr|ends|faces|flow|frames|law|loads|nodes|options|patches|points|"
      r"resistance|search|table|times)\.([a-z]\w*)",
      lambda match: _ARGUMENTS.get(match[0], match[1])),
-    (r"^search\.surface: ", ""),
     (r"\bRIIS_LIST_\*", "the lists of riis.Marks"),
     (r"\bNULL\b", "None"),
 )

@@ -5,7 +5,8 @@
 namespace riis_python {
 namespace {
 
-// The fields by name: the attribute, the bit, and the pointer in the library's list.
+// The fields by name: the attribute, the bit, and the pointer in the library's list. A field without a bit is made without a
+// request, from what `needs` names.
 struct Field {
   const char *name;
   std::int32_t bit;
@@ -14,6 +15,7 @@ struct Field {
   std::size_t n_components;
   const char *signature;
   const char *text;
+  const char *needs = nullptr;
 };
 
 constexpr std::size_t per_direction = 0;  // as many components as the surface had directions
@@ -42,11 +44,18 @@ const Field fields[] = {
      RIIS_REALS("distance_gradient"),
      "(n, directions): the derivatives of the distances in the directions of Surface.add_direction. Needs "
      "fields='distance_gradient'. A view."},
-    {"K", 0, &riis_mark_list::K, nullptr, 1, RIIS_REALS("K"), "(n,): K of the nodes. Needs R=. A view."},
+    {"K", 0, &riis_mark_list::K, nullptr, 1, RIIS_REALS("K"), "(n,): K of the nodes. Needs R=. A view.",
+     "mark with R="},
     {"K_u_surface", 0, &riis_mark_list::K_u_surface, nullptr, 3, RIIS_REALS("K_u_surface"),
-     "(n, 3): K u_surface of the nodes. Needs R= and a surface with velocities. A view."},
+     "(n, 3): K u_surface of the nodes. Needs R= and a surface with velocities. A view.",
+     "mark with R= and a surface with velocities"},
     {"K_gradient", 0, &riis_mark_list::K_gradient, nullptr, per_direction, RIIS_REALS("K_gradient"),
-     "(n, directions): the derivatives of K in these directions. Needs R= and fields='distance_gradient'. A view."},
+     "(n, directions): the derivatives of K in these directions. Needs R= and fields='distance_gradient'. A view.",
+     "mark with R= and fields='distance_gradient'"},
+    {"height", 0, &riis_mark_list::height, nullptr, 1, RIIS_REALS("height"),
+     "(n,): the nodes' signed distances s to a surface with an offset o, mesh units, above 0 downstream; at a rim "
+     "normal . (x - point). The band has |s - o eps| <= eps. Needs an offset. A view.",
+     "mark with a surface that has an offset"},
 };
 
 std::int32_t field_of(const std::string &name) {
@@ -172,10 +181,7 @@ nb::object field_view(nb::handle self) {
   const void *data = field.reals ? static_cast<const void *>(found.*field.reals) : found.*field.integers;
   if (!data && found.n_nodes > 0)
     field.bit ? refuse_value(field.name, "the marking did not request it; mark with fields='", field.name, "'")
-              : refuse_value(field.name, "the marking did not make it; mark with R=",
-                             field.n_components == 3               ? " and a surface with velocities"
-                             : field.n_components == per_direction ? " and fields='distance_gradient'"
-                                                                   : "");
+              : refuse_value(field.name, "the marking did not make it; ", field.needs);
   if (field.n_components == per_direction)
     return view_of(found.*field.reals,
                    {static_cast<std::size_t>(found.n_nodes), static_cast<std::size_t>(found.n_directions)},
@@ -322,18 +328,19 @@ far_distance  distance of nodes beyond the limit: any value outside [0, distance
               "typing.Literal['auto', 'exhaustive', 'neighbor', 'paper', 'clusters'] = 'auto', n_threads: int = 0, "
               "instructions: typing.Literal['auto', 'baseline', 'avx2', 'avx512'] = 'auto', R: float | None = None, "
               "half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] | None = None) -> Marks"),
-      R"(Finds every node whose distance to the surface is at most the half thickness.
+      R"(Finds every node whose distance to the surface is at most the half thickness, or with an offset every node in the band.
 
 into            a Marks to fill, whose memory is reused; if None, a new one
 fields          'normal, velocity' or ['normal', 'velocity']: fields that the result keeps, of 'point', 'normal',
                 'barycentric', 'side', 'rim', 'uv', 'velocity', 'patch_id' and 'distance_gradient'
-distance_limit  nodes get their distance up to this limit, mesh units; None: the half thickness
+distance_limit  nodes get their distance up to this limit, mesh units, at least (1 + |offset|) half thicknesses; None: only
+                the marked nodes do
 mask            (n_nodes,) bool or uint8: other nodes are left out
 search          all but 'paper' find the same nodes; 'neighbor' and 'paper' need an adjacency
 n_threads       1 to 1024; 0: as many as there is work for
 instructions    the instruction set, for tests and measurements; all give the same bits
 R               mass / (length time): the marks get K, and K_u_surface if the surface has velocities
-half_thickness  eps of K, at most the distance limit; None: the surface's half thickness
+half_thickness  eps of K; (1 + |offset|) eps is at most the distance limit; None: the surface's half thickness
 rim             as in add_resistance; None: 'round')");
 }
 

@@ -168,10 +168,11 @@ void add_resistance(nb::class_<Marks> &result) {
                    " | None = None, *, " RIIS_MODEL ") -> None"),
            R"(Adds K and K u_surface to the caller's arrays, so that several valves add up.
 
-K               (n_nodes,) float64: K = (R / eps) delta(d) is added
+K               (n_nodes,) float64: K = (R / eps) delta(d) is added, with the distance d from the middle of the band
 K_u_surface     (n_nodes, 3) float64: K u_surface is added; the marking needs fields='velocity'
 R               mass / (length time), such as kg/(m s)
-half_thickness  eps, mesh units, at most the distance limit of the marking; None: the marking's half thickness
+half_thickness  eps, mesh units; (1 + |offset|) eps is at most the distance limit of the marking; None: the marking's half
+                thickness
 rim             'round': every node within eps gets K; 'cut': nodes whose closest point is on the rim get none, which
                 needs fields='rim')")
       .def("add_reaction", &add_reaction, nb::arg("velocity").none(), nb::arg("weight").none(),
@@ -227,8 +228,11 @@ force     (n_vertices, 3) float64; None: a new array)")
                   ", inner: float, outer: float) -> riis._records.BandSums"),
           R"(Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side.
 
+Distances and sides are those from the middle of the band.
+
 value, weight  (n_nodes,) float64
-inner, outer   mesh units, 0 <= inner <= outer <= distance limit of the marking, which needs fields='side, rim')");
+inner, outer   mesh units, 0 <= inner <= outer. outer + |offset| eps is at most the distance limit of the marking, which needs
+               fields='side, rim')");
 }
 
 }  // namespace riis_python

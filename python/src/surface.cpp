@@ -282,7 +282,8 @@ measure             'triangles'; the paper's 'sampling' and 'minimization' serve
 measure_tolerance  for 'sampling' and 'minimization', in half thicknesses; 'auto': tolerance
 triangulation       'adapted', or 'fixed': the same triangles at every opening
 zero_area           whether from_arrays should 'refuse' or 'skip' triangles without area
-offset              0: by how many half thicknesses the band steps aside along the normals, above -1 and below 1
+offset              0: o, above -1 and below 1. The middle of the band lies o half thicknesses beside the surface, along the
+                    normals after flip_normals. With 0.75 an open valve has its full width (docs/theory/marks.md)
 n_threads           0: 1 per 4096 triangles, at most 1 per processor
 
 An update keeps the options that it does not name. Arrays of a surface are copies, made once after each update.)");
@@ -388,7 +389,9 @@ direction_id  0 for the first add_direction after the last update, 1 for the sec
                    nb::sig("def velocities(self) -> numpy.typing.NDArray[numpy.float64] | None"),
                    "(n_vertices, 3): each vertex's velocity. None if the last update gave no velocities.")
       .def_prop_ro("attachment", attribute(&attachment), nb::sig("def attachment(self) -> riis._records.Attachment"),
-                   "A copy of the edges at which tissue or a stent holds a valve's leaflets. Refused for arrays.")
+                   "A copy of the edges at which tissue or a stent holds a valve's leaflets. Refused for arrays "
+                   "without attached "
+                   "and without a skirt.")
       .def_prop_ro("triangles", attribute(&triangles), nb::sig("def triangles(self) -> riis._records.Triangles"),
                    "The triangles: vertex_id (n, 3), triangle_id, leaflet_id and patch_id (n,).")
       .def(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""bound.py ROOT: the Python package must bind every function of riis.h, or the list here must give a reason.
+"""bound.py ROOT: the Python package must bind every function and field of riis.h, or the list here must give a reason.
 
 Every message of the library that names a part of riis.h must have a Python name for it. The check only reads sources, so it needs
 neither the package nor numpy.
@@ -143,6 +143,25 @@ LEFT_OUT = {
     name: "a mesh of this package shows the coordinates as they are, so it borrows them"
     for name in ("riis_mesh_create_copy", "riis_mesh_update_copy")
 }
+# Fields of structs that python/src does not use, with reasons.
+FIELDS_LEFT_OUT = {
+    f"{struct}.real_bits": "arrays have 64 bits, the default"
+    for struct in ("riis_points", "riis_surface_arrays", "riis_keyframe_arrays", "riis_landmarks")
+} | {
+    "riis_gap.n_ends": "is the size of distance",
+    "riis_placement.n_undetermined": "undetermined has the names",
+    "riis_resistance_arrays.K_stride": "K is contiguous, the default",
+}
+
+
+def fields_of(header: str) -> set[str]:
+    """Returns the fields of all structs, such as riis_mark_list.height, except the size of a struct and padding."""
+    code = re.sub(r"/\*.*?\*/", "", header, flags=re.DOTALL)
+    fields = set()
+    for struct, body in re.findall(r"typedef struct (riis_\w+) \{(.*?)\} \1;", code, re.DOTALL):
+        names = re.findall(r"(\w+)(?:\[[^\]]*\])*\s*[,;]", body)
+        fields |= {f"{struct}.{name}" for name in names if name not in ("struct_size", "reserved")}
+    return fields
 
 
 def texts_of_the_library(root: pathlib.Path) -> list[str]:
@@ -173,7 +192,13 @@ def check(root: pathlib.Path) -> list[str]:
     wrong += [f"{name} of python/tests/bound.py is not in riis.h" for name in sorted((set(BOUND) | set(LEFT_OUT)) - functions)]
     wrong += [f"{name} is bound and left out" for name in sorted(set(BOUND) & set(LEFT_OUT))]
     wrong += [f"{name} is not called in python/src" for name in sorted(BOUND) if not re.search(rf"\b{name}\b", sources)]
-    wrong += [f"{name} has no reason" for name, reason in LEFT_OUT.items() if not reason]
+    fields = fields_of(header)
+    wrong += [] if len(fields) > 300 else ["the structs of riis.h were not read"]
+    unused = {name for name in fields if not re.search(rf"(\.|::|->){name.split('.')[1]}\b", sources)}
+    wrong += [f"the field {name} is neither used in python/src nor in FIELDS_LEFT_OUT" for name in
+              sorted(unused - set(FIELDS_LEFT_OUT))]
+    wrong += [f"{name} of FIELDS_LEFT_OUT is used, or not in riis.h" for name in sorted(set(FIELDS_LEFT_OUT) - unused)]
+    wrong += [f"{name} has no reason" for name, reason in {**LEFT_OUT, **FIELDS_LEFT_OUT}.items() if not reason]
     in_python = runpy.run_path(str(root / "python/riis/_errors.py"))["in_python"]
     texts = texts_of_the_library(root)
     wrong += [] if texts else ["no text of src was read"]

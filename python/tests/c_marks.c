@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * c_marks COORDINATES OUTPUT: marks nodes in C, for comparison in the tests of the Python package.
+ * c_marks COORDINATES OUTPUT OFFSET: marks nodes in C, for comparison in the tests of the Python package.
  * Reads xyz as doubles. Marks nodes around the mitral valve, which moves from opening 0.3 to 0.4 in 0.05 s. Writes the marks as
  * raw arrays. The number of marked nodes, ids, distances, triangles, leaflets, normals and velocities come first. K and K u of
- * all nodes follow. */
+ * all nodes follow. With an offset, the heights of the marked nodes are last. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,7 +47,7 @@ int main(int n_arguments, char **arguments) {
   riis_resistance_arrays arrays;
   riis_mark_list marked;
   int64_t n_nodes = 0;
-  require(n_arguments == 3, "usage: c_marks COORDINATES OUTPUT");
+  require(n_arguments == 4, "usage: c_marks COORDINATES OUTPUT OFFSET");
   double *xyz = read_coordinates(arguments[1], &n_nodes);
   double *coefficient = calloc((size_t)n_nodes, 8), *momentum = calloc(3 * (size_t)n_nodes, 8);
   FILE *file = fopen(arguments[2], "wb");
@@ -59,6 +59,7 @@ int main(int n_arguments, char **arguments) {
   check(riis_valve_set_scalar(valve, "opening", 0.4));
   check(riis_surface_options_init(&surface_options, sizeof surface_options));
   surface_options.half_thickness = 0.15;
+  surface_options.offset = strtod(arguments[3], NULL);
   check(riis_surface_create(valve, &surface_options, &surface));
   check(riis_surface_update_moving(surface, valve, before, 0.05, NULL, NULL));
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
@@ -86,6 +87,8 @@ int main(int n_arguments, char **arguments) {
   put(file, marked.velocity, 8, 3 * n);
   put(file, coefficient, 8, n_nodes);
   put(file, momentum, 8, 3 * n_nodes);
+  require(!marked.height == (surface_options.offset == 0), "heights come with an offset");
+  if (marked.height) put(file, marked.height, 8, n);
   require(fclose(file) == 0, "the output cannot be written");
   riis_marks_destroy(&marks);
   riis_mesh_destroy(&mesh);

@@ -259,6 +259,10 @@ def write_and_reopen(browser, folder, program):
     browser.unfold("All parameters")
     browser.write("#parameter-skirt_length, #slider-skirt_length", "0.1")
     browser.rest()
+    digest = browser.get("digest")
+    browser.write("#slider-offset", "0.75")
+    browser.wait(lambda: browser.get("digest") != digest, "the offset gives other marks")
+    browser.rest()
     browser.shot("7-parameters")
     names = ("slider_0", "sliders", "rows", "placement", "legend")
     digest, state = browser.get("digest"), {name: browser.get(name) for name in names}
@@ -280,6 +284,9 @@ def write_and_reopen(browser, folder, program):
     in_file = digest_of(pyvista.read(folder / "valve.vtu"))
     assert in_file == digest, "the saved mesh has other marks than the page"
     say("the marks in the saved mesh are those of the page, to the last bit")
+    lines = {"sh": "--offset=0.75", "case.json": '"offset": 0.75', "py": "offset=0.75", "foam.txt": "offset 0.75;"}
+    for name, line in lines.items():
+        assert line in (folder / f"valve.{name}").read_text(encoding="utf-8"), f"valve.{name} lacks {line}"
     if program:
         command = (folder / "valve.sh").read_text(encoding="utf-8")
         words = shlex.split(command.replace("\\\n", " "))

@@ -42,6 +42,17 @@ def test_a_function_in_the_last_header_is_seen(monkeypatch, tmp_path):
     assert "riis_planted is not in python/tests/bound.py" in bound.check(ROOT)
 
 
+def test_a_new_field_is_seen(monkeypatch):
+    header = bound.header_of(ROOT)
+    planted = header.replace("} riis_mark_list;", "  const double *planted_field, *twin[3]; /* (n_nodes) */\n} riis_mark_list;")
+    monkeypatch.setattr(bound, "header_of", lambda root: planted)
+    monkeypatch.setitem(bound.FIELDS_LEFT_OUT, "riis_marks.height", "used")
+    assert bound.check(ROOT) == [
+        "the field riis_mark_list.planted_field is neither used in python/src nor in FIELDS_LEFT_OUT",
+        "the field riis_mark_list.twin is neither used in python/src nor in FIELDS_LEFT_OUT",
+        "riis_marks.height of FIELDS_LEFT_OUT is used, or not in riis.h"]
+
+
 def test_options_of_surfaces_are_the_fields_of_their_struct():
     header = bound.header_of(ROOT)
     struct = re.search(r"typedef struct riis_surface_options \{(.*?)\n\}", header, re.DOTALL)[1]

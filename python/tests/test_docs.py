@@ -83,6 +83,7 @@ def check_slopes(names):
 
 def check_loads(names):
     assert numpy.allclose(names["loads"].sum(axis=0), names["force"]) and names["force"].all() and names["moment"].any()
+    assert numpy.allclose(names["at_vertices"].sum(axis=0), names["force"])
     assert names["n_pieces"].min() >= 1 and names["quality"].is_planar  # as the annulus is
 
 
@@ -95,6 +96,12 @@ def check_fit(names):
     assert found.doubts == () and abs(found.parameters["opening"] - 0.2) < 0.02 and "--scale 10 " in names["options"]
 
 
+def check_aside(names):
+    heights, areas = names["marks"].height, names["areas"]
+    assert heights.min() < 0.0 and 0.1 < heights.max() <= 0.175
+    assert numpy.allclose(names["found"].reached[1:3], areas[1:3], rtol=1e-6) and 0.4 < names["cycle"](0.2) < 1.0
+
+
 def check_view(names):
     assert len(names["model"].update().marked) > 0
 
@@ -104,6 +111,7 @@ CHECKS = {(document, first): check for document, first, check in (
     ("README.md", "import numpy, riis", check_marks),
     ("docs/python.md", "import numpy, riis", check_whole),
     ("docs/python.md", "law, n_steps, dt = riis.OpeningTimes(0.45, 0.05, 0.95, 0.05, period=1.0), 6, 0.125", check_beat),
+    ("docs/python.md", "aside = riis.Surface(valve, half_thickness=0.1, offset=0.75)", check_aside),
     ("docs/python.md", "def changed(by):", check_slopes),
     ("docs/python.md", "surface.update(valve)", check_loads),
     ("docs/python.md", "import riis", check_place),

@@ -9,9 +9,10 @@ import riis
 RADIUS = 0.3
 
 
-@pytest.fixture(scope="module")
-def surface():
-    return riis.Surface(riis.Valve("mitral", opening=0.4), half_thickness=0.15)
+@pytest.fixture(scope="module", params=[0.0, 0.75])
+def surface(request):
+    """With an offset too, the forces act at the closest points of the surface."""
+    return riis.Surface(riis.Valve("mitral", opening=0.4), half_thickness=0.15, offset=request.param)
 
 
 @pytest.fixture(scope="module")

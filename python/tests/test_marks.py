@@ -18,25 +18,26 @@ def lists_of(marks):
     return [numpy.array(a) for a in (marks.ids, marks.distance, marks.triangle_id, marks.leaflet_id)]
 
 
-def test_marks_equal_those_of_c(c_marks, xyz, tmp_path):
+@pytest.mark.parametrize("offset", [0.0, 0.75])
+def test_marks_equal_those_of_c(c_marks, xyz, tmp_path, offset):
     xyz.tofile(tmp_path / "xyz")
-    subprocess.run([c_marks, tmp_path / "xyz", tmp_path / "marks"], check=True)
+    subprocess.run([c_marks, tmp_path / "xyz", tmp_path / "marks", str(offset)], check=True)
     data = (tmp_path / "marks").read_bytes()
     n = int(numpy.frombuffer(data, numpy.int64, 1)[0])
     assert n > 1000
-    offset = 8
+    place = 8
 
     def take(dtype, *shape):
-        nonlocal offset
+        nonlocal place
         count = int(numpy.prod(shape))
-        found = numpy.frombuffer(data, dtype, count, offset).reshape(shape)
-        offset += found.nbytes
+        found = numpy.frombuffer(data, dtype, count, place).reshape(shape)
+        place += found.nbytes
         return found
 
     valve = riis.Valve("mitral", opening=0.4)
     before = valve.copy()
     before["opening"] = 0.3
-    surface = riis.Surface(valve, half_thickness=0.15)
+    surface = riis.Surface(valve, half_thickness=0.15, offset=offset)
     surface.update_moving(valve, before, 0.05)
     marks = riis.mark(surface, riis.Mesh(xyz), fields="normal, velocity")
     coefficient, momentum = numpy.zeros(len(xyz)), numpy.zeros((len(xyz), 3))
@@ -50,8 +51,42 @@ def test_marks_equal_those_of_c(c_marks, xyz, tmp_path):
     assert same(marks.velocity, take(numpy.float64, n, 3))
     assert same(coefficient, take(numpy.float64, len(xyz)))
     assert same(momentum, take(numpy.float64, len(xyz), 3))
-    assert offset == len(data)
+    assert hasattr(marks, "height") == (offset != 0.0)
+    if offset != 0.0:
+        assert same(marks.height, take(numpy.float64, n))
+    assert place == len(data)
     assert numpy.count_nonzero(momentum) > 0
+
+
+@pytest.mark.parametrize("offset", [0.75, -0.5])
+def test_an_offset_marks_the_band_beside_the_surface(valve, xyz, offset):
+    half = 0.15
+    surface = riis.Surface(valve, half_thickness=half, offset=offset)
+    marks = riis.mark(surface, riis.Mesh(xyz), fields="side rim", distance_limit=2.0 * half, R=2.0)
+    near = marks.within_limit
+    inner = near.rim == 0
+    assert numpy.allclose(near.height[inner], (near.side * near.distance)[inner], rtol=0.0, atol=1e-12)
+    assert numpy.all(numpy.abs(near.height) <= near.distance * (1.0 + 1e-12))
+    # Beyond a rim, the distance from the middle of the band has a component along the normal and one across it.
+    across = numpy.where(inner, 0.0, near.distance**2 - near.height**2).clip(0.0)
+    middle = numpy.sqrt(across + (near.height - offset * half) ** 2)
+    sure = numpy.abs(middle - half) > 1e-9
+    assert numpy.array_equal(numpy.isin(near.ids, marks.ids)[sure], (middle <= half)[sure])
+    expected = numpy.where(middle < half, 2.0 / half * (1.0 + numpy.cos(numpy.pi * middle / half)) / (2.0 * half), 0.0)
+    assert numpy.allclose(near.K, expected, rtol=0.0, atol=1e-9 * expected.max())
+    turned = riis.mark(riis.Surface(valve, half_thickness=half, offset=-offset, flip_normals=True), riis.Mesh(xyz))
+    assert same(turned.ids, marks.ids) and same(turned.leaflet_id, marks.leaflet_id)
+    assert numpy.allclose(turned.distance, marks.distance, rtol=0.0, atol=1e-14)  # turned triangles round differently
+    assert numpy.allclose(turned.height, -marks.height, rtol=0.0, atol=1e-12)
+
+
+def test_an_offset_of_0_changes_no_bit(valve, xyz):
+    found = []
+    for options in {}, {"offset": 0.0}, {"offset": -0.0}:
+        made = riis.mark(riis.Surface(valve, half_thickness=0.15, **options), riis.Mesh(xyz), fields="point side rim", R=2.0)
+        assert not hasattr(made, "height")
+        found.append([*lists_of(made), *map(numpy.array, (made.point, made.side, made.rim, made.K))])
+    assert all(map(same, found[0], found[1])) and all(map(same, found[0], found[2]))
 
 
 def test_derivatives_are_central_differences():

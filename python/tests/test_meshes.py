@@ -193,6 +193,36 @@ def test_find_by_area():
     assert found.values[0] < narrow.values[0] < 0.9
 
 
+def test_areas_over_time_become_a_cycle():
+    """The areas of a beat come back within 1e-6 with the fixed triangulation, and the openings with them. The effective areas
+    with an offset are larger than without."""
+    time = numpy.linspace(0.0, 0.3, 7)
+    law = riis.OpeningTable(time, numpy.array([0.0, 0.35, 0.8, 0.9, 0.7, 0.2, 0.0]))
+    valve = riis.Valve("coapting")
+
+    def measured(openings, **options):
+        surface, areas = riis.Surface(valve, triangulation="fixed", **options), []
+        for opening in openings:
+            valve["opening"] = float(opening)
+            surface.update(valve)
+            areas.append(surface.orifice(rim="cut"))
+        valve["opening"] = 0.0
+        return areas
+
+    areas = numpy.array([one.area for one in measured(law.opening)])
+    found = riis.find_by_area(valve, areas, triangulation="fixed", n_samples=9)
+    assert numpy.allclose(found.reached, areas, rtol=1e-6, atol=0.0)
+    back = numpy.array([one.area for one in measured(found.values)])
+    assert numpy.allclose(back, areas, rtol=1e-6, atol=1e-9 * areas.max())
+    cycle = riis.OpeningTable(time, found.values)
+    assert abs(cycle(0.05) - 0.35) < 1e-3 and cycle.rate(0.02) > 0.0 > cycle.rate(0.27)
+    plain, aside = (measured([0.5], half_thickness=0.1, offset=offset)[0] for offset in (0.0, 0.75))
+    assert plain.area == aside.area and plain.effective_area < aside.effective_area < aside.area
+    again = riis.find_by_area(valve, numpy.array([aside.effective_area]), effective=True, rim="cut", triangulation="fixed",
+                              half_thickness=0.1, offset=0.75, n_samples=9)
+    assert abs(again.values[0] - 0.5) < 1e-4
+
+
 def test_a_mesh_gives_its_coordinates(xyz):
     assert riis.Mesh(xyz).xyz is xyz
     columns = [numpy.ascontiguousarray(xyz[:, i]) for i in range(3)]

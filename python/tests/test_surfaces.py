@@ -55,9 +55,10 @@ def test_the_band_steps_aside_along_the_normals(valve):
     heights = numpy.array([-0.026, -0.024, 0.0, 0.075, 0.174, 0.176])
     mesh = riis.Mesh(middle + heights[:, None] * normal)
     marks = riis.mark(surface, mesh, R=1.0)
-    assert marks.marked.node_id.tolist() == [1, 2, 3, 4] and marks.marked.K.argmax() == 2
+    assert marks.ids.tolist() == [1, 2, 3, 4] and marks.K.argmax() == 2
+    assert numpy.allclose(marks.height, heights[1:5], atol=1e-12)
     surface.update(valve, flip_normals=True)
-    assert riis.mark(surface, mesh).marked.node_id.tolist() == [0, 1, 2]
+    assert riis.mark(surface, mesh).ids.tolist() == [0, 1, 2]
 
 
 def test_directions_are_differences_of_vertices(valve):

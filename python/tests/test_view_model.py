@@ -47,6 +47,7 @@ def placed_model(mesh, kinds, random, **options):
         model.set(i, "half_thickness", random.uniform(0.1, 0.25))
         name = "AP_diameter" if kind == "mitral" else "annulus"
         model.set(i, name, random.uniform(0.9, 1.0) * model.values(i)[name])
+        model.set(i, "offset", random.choice([0.0, 0.75, -0.5]))
     return model
 
 
@@ -55,7 +56,8 @@ def surface_of(state):
     valve = riis.Valve(state.kind, opening=state.opening)
     valve.update(state.parameters)
     return riis.Surface(valve, half_thickness=state.half_thickness, scale=state.scale, rotation_axis=state.rotation[:3],
-                        rotation_angle=state.rotation[3], translation=state.origin, triangulation=state.triangulation)
+                        rotation_angle=state.rotation[3], translation=state.origin, triangulation=state.triangulation,
+                        offset=state.offset)
 
 
 # ---- What is shown ----
@@ -198,7 +200,8 @@ def test_near_is_the_whole(kind, random):
     near, whole = view.Model.near(*mesh), view.Model(*mesh)
     for model in (near, whole):
         model.add(kind)
-        model.set(0, "half_thickness", 0.6)
+        model.set(0, "half_thickness", 0.55)
+        model.set(0, "offset", 0.75)
     regions = set()
     for z in (0.0, 0.3, 7.5, -8.0):
         axis = random.normal(size=3)
@@ -456,6 +459,42 @@ def test_a_thin_band_and_its_cure(small):
     assert 0.05 < model.valves[i].half_thickness < 0.2
 
 
+def test_an_offset_is_judged_with_its_band(fine):
+    """The offset does not open a valve without a gap. It opens a wider gap, and shortens the band beyond the rim. The edges that
+    leak are those of the shifted band."""
+    model = view.Model(*fine, unit="cm")
+    i = model.add("coapting")
+    model.set(i, "annulus", 2.55)
+    model.set(i, "stj", 2.55)
+    model.set(i, "half_thickness", 0.16)
+    marked = model.update().marked
+    with pytest.raises(riis.InvalidArgumentError, match="^offset is 1; it must be above -1 and below 1"):
+        model.set(i, "offset", 1.0)
+    assert model.update().marked is marked and model.valves[i].offset == 0.0
+    model.set(i, "offset", 0.5)
+    assert not numpy.array_equal(model.update().marked, marked)
+    assert {one.name: one.level for one in model.lights()} == dict.fromkeys(view.NAMES, "good")
+    model.set(i, "gap", 0.2)
+    model.set(i, "offset", 0.0)
+    assert light(model, "sealed").level == "good"
+    model.set(i, "offset", 0.9)
+    found = light(model, "sealed")
+    assert found.level == "bad" and re.search("a passage is open at .*, which a half thickness of [0-9.]+ marks", found.text)
+    assert found.advice.startswith("bring the offset nearer to 0") or found.cure is not None
+    model.unset(i, "gap")
+    for name in ("annulus", "stj"):
+        model.set(i, name, 2.35)  # the wall is 0.125 farther, which is 0.78 half thicknesses
+    levels = []
+    for offset in (0.0, 0.5, 0.75):  # the band reaches 1, 0.87 and 0.66 half thicknesses beyond the attachment
+        model.set(i, "offset", offset)
+        levels.append(light(model, "wall").level)
+    assert levels == ["good", "good", "bad"]
+    model.set(i, "half_thickness", 0.06)
+    model.update()
+    leaks = riis.find_leaks(model.surface(i), model._region().mesh, model._at(i).marks)
+    assert model.valves[i].offset == 0.75 and len(light(model, "half_thickness").edges) == leaks.n_edges > 100
+
+
 def test_a_mesh_in_millimetres(fine):
     """The unit is reported and corrected. One undo reverts scale, half thickness and unit."""
     model = view.Model(10.0 * fine[0], fine[1])
@@ -692,6 +731,7 @@ def test_python_lines_give_the_same_bits(unit, small, random):
         for parameter in random.choice(len(parameters), 2, replace=False):
             model.set(i, parameters[parameter].name, parameters[parameter].default * random.uniform(0.98, 1.02))
         model.set(i, "triangulation", "fixed" if random.uniform() < 0.5 else "adapted")
+        model.set(i, "offset", random.uniform(-0.9, 0.9))
         lines = {"points": mesh[0]}
         exec(model.python(), lines)
         shown, marks = model.update(), lines["marks"][kind]
@@ -716,6 +756,7 @@ def test_the_program_gives_the_same_bits(tmp_path, small, random):
         if kind != "bileaflet":
             model.set(i, "translation", (0.1, -0.05, random.uniform()))
         model.set(i, "triangulation", "fixed" if number < 3 else "adapted")
+        model.set(i, "offset", (0.0, 0.75, -0.3, 0.5, 0.95)[number])
         command = model.command(program=program, output=str(tmp_path / "marked.vtu"))
         done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
@@ -748,6 +789,7 @@ def test_the_program_marks_a_surface_from_a_file(tmp_path, small):
     read = pyvista.read(tmp_path / "ball.vtp")
     model = view.Model(*small, unit="cm", path=tmp_path / "tube.vtk")
     i = model.add_surface(read.points, read.regular_faces, path=tmp_path / "ball.vtp", half_thickness=0.15)
+    model.set(i, "offset", 0.5)
     model.place(i, (0.1, 0.2, 0.3), axis=(1.0, 1.0, 0.0), scale=1.2)
     assert model.valves[i].name == "ball"
     with pytest.raises(riis.InvalidArgumentError, match="name: is 'gap'; a surface has half_thickness, offset, resistance"):
@@ -919,6 +961,9 @@ def test_openfoam_s_dictionary(small):
     assert text.count("{") == text.count("}") and "law constant" in text
     model.set_cycle("mitral", 0.9)
     assert "law times;" in model.openfoam() and "period 0.9;" in model.openfoam()
+    assert "offset" not in text
+    model.set(i, "offset", 0.75)
+    assert "    halfThickness 0.001;  // [m]\n    offset 0.75;\n" in model.openfoam()
     with pytest.raises(riis.InvalidArgumentError, match="density: is 0; it must be above 0"):
         model.openfoam(0)
 
@@ -943,8 +988,8 @@ def test_a_session_opens_as_it_was(tmp_path, small, random):
             assert numpy.array_equal(getattr(a, name), getattr(b, name)), name
         for one, two in zip(model.valves, other.valves, strict=True):
             assert (one.name, one.kind, one.parameters, one.opening, one.rotation, one.origin, one.scale, one.resistance,
-                    one.triangulation) == (two.name, two.kind, two.parameters, two.opening, two.rotation, two.origin,
-                                           two.scale, two.resistance, two.triangulation)
+                    one.triangulation, one.offset) == (two.name, two.kind, two.parameters, two.opening, two.rotation,
+                                                       two.origin, two.scale, two.resistance, two.triangulation, two.offset)
         for each in (model, other):
             each.at(0.42)
         assert numpy.array_equal(model.update().distance, other.update().distance)
@@ -984,6 +1029,8 @@ def test_refused_sessions(tmp_path, small):
         (lambda root: root["valves"][0].update(opening=3.0), "is damaged: opening: is 3.0; it must be from 0 to 1"),
         (lambda root: root["valves"][0].update(half_thickness=-1.0), "is damaged: half_thickness: is -1.0"),
         (lambda root: root["valves"][0].update(scale=0), "is damaged: scale: is 0"),
+        (lambda root: root["valves"][0].update(offset="far"), "is damaged: offset: is 'far'; it must be a finite number"),
+        (lambda root: root["valves"][0].update(offset=1.0), "offset is 1; it must be above -1 and below 1"),
         (lambda root: root["valves"][0].update(origin=[0, 0]), "is damaged: ValueError"),
         (lambda root: root["valves"][0].update(time=NAN), "is damaged: time: is nan; it must be a finite number"),
         (lambda root: root["valves"][0].update(cycle={"source": 1, "period": 1.0, "law": {}}), "source of the cycle is 1"),

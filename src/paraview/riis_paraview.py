@@ -171,7 +171,7 @@ VALVE_DEFAULTS = {
     "Kind": 0, "PlacedValve": "", "Opening": 0.0, "Motion": 0,
     "BeginsToOpen": 0.1, "OpensIn": 0.05, "BeginsToClose": 0.4, "ClosesIn": 0.05, "Period": 0.8, "CycleFile": "",
     "Interpolation": 0, "NumberOfTimes": 41, "MeshUnit": 0, "RotationAxis": (0.0, 0.0, 1.0), "RotationAngle": 0.0,
-    "Translation": (0.0, 0.0, 0.0), "HalfThickness": 0.0, "Tolerance": 0.05,
+    "Translation": (0.0, 0.0, 0.0), "HalfThickness": 0.0, "Offset": 0.0, "Tolerance": 0.05,
 }  # fmt: skip
 PARAMETERS = {kind: _parameter_names(kind) for kind in KINDS}
 
@@ -218,6 +218,8 @@ def _valve_properties():
         _numbers("Translation", (0, 0, 0), "In the unit of the mesh, after the rotation."),
         _numbers("HalfThickness", 0.0,
                  "Nodes nearer to the leaflets are marked. In the unit of the mesh; 0 stands for 0.1 cm.", 0.0),
+        _numbers("Offset", 0.0, "The band of marked nodes steps aside along the normals by this number of half thicknesses, "
+                 "above -1 and below 1. 0.75 gives an open valve its full width.", -1.0, 1.0),
         _numbers("Tolerance", 0.05, "The error of the triangles, in half thicknesses.", 1e-6, 1.0, "advanced"),
         *(_group(kind) for kind in KINDS),
     ]  # fmt: skip
@@ -307,6 +309,8 @@ class _HeartValve(_Kept):
         options = {**placement, "tolerance": self.values["Tolerance"]}
         if self.length("HalfThickness") > 0.0:
             options["half_thickness"] = self.values["HalfThickness"]
+        if self.values["Offset"] != 0.0:
+            options["offset"] = self.values["Offset"]
         return options
 
     def motion(self):
@@ -391,6 +395,7 @@ def put_surface(surface, output):
     if surface.velocities is not None:
         _add(output.GetPointData(), "riis_velocity", surface.velocities)
     _add(output.GetFieldData(), "riis_half_thickness", numpy.array([surface.info.half_thickness]))
+    _add(output.GetFieldData(), "riis_offset", numpy.array([surface.info.offset]))
 
 
 def _id_array(values):
@@ -406,7 +411,7 @@ class HeartValve(_HeartValve):
 # ---- The filter ----
 
 MARK_DEFAULTS = {
-    "HalfThickness": 0.0, "DistanceLimit": 0.0, "FarDistance": 1e30, "Resistance": 0.0, "FindLeaks": 0,
+    "HalfThickness": 0.0, "Offset": 0.0, "DistanceLimit": 0.0, "FarDistance": 1e30, "Resistance": 0.0, "FindLeaks": 0,
     **{f"Field{field.capitalize()}": 0 for field in FIELDS},
 }  # fmt: skip
 
@@ -431,7 +436,10 @@ def _mark_properties():
         '<OutputPort name="Marked mesh" index="0"/><OutputPort name="Leaking edges" index="1"/>',
         _numbers("HalfThickness", 0.0,
                  "Nodes nearer to the leaflets are marked. 0 stands for the half thickness of the Heart Valve.", 0.0),
-        _numbers("DistanceLimit", 0.0, "Distances are known up to this limit. 0 stands for the half thickness.", 0.0),
+        _numbers("Offset", 0.0, "The band of marked nodes steps aside along the normals by this number of half thicknesses, "
+                 "above -1 and below 1. 0 stands for the offset of the Heart Valve.", -1.0, 1.0),
+        _numbers("DistanceLimit", 0.0,
+                 "Distances are known up to this limit. 0 stands for the half thickness, or with an offset for the band.", 0.0),
         _numbers("FarDistance", 1e30, "The distance of all nodes beyond the limit.", visibility="advanced"),
         _numbers("Resistance", 0.0, "R. If it is above 0, each node gets K.", 0.0),
         *(_switch(f"Field{field.capitalize()}", text) for field, text in fields.items()),
@@ -451,7 +459,7 @@ def _cells_of(cells):
     return vtk_to_numpy(cells.GetOffsetsArray()), vtk_to_numpy(cells.GetConnectivityArray())
 
 
-def _surface_of(data, half_thickness):
+def _surface_of(data, half_thickness, offset):
     """Returns the riis.Surface of the triangles, as ParaView shows them."""
     points = _points_of(data, "Valve")
     offsets, corners = _cells_of(data.GetPolys())
@@ -465,7 +473,10 @@ def _surface_of(data, half_thickness):
         if own is None:
             raise Refused("HalfThickness: it is 0, and the valve is not a Heart Valve, which has one")
         half_thickness = own.GetTuple1(0)
-    options = {}
+    of_valve = data.GetFieldData().GetArray("riis_offset")
+    if offset == 0.0 and of_valve is not None:
+        offset = of_valve.GetTuple1(0)
+    options = {"offset": offset}
     if leaflets is not None:
         options["leaflet_id"] = numpy.ascontiguousarray(vtk_to_numpy(leaflets), numpy.int32)
     if velocities is not None:
@@ -569,7 +580,7 @@ class _MarkByValve(_Kept):
         grid, leaflets = vtkUnstructuredGrid.GetData(inputs[0], 0), vtkPolyData.GetData(inputs[1], 0)
         marked, leaking = vtkUnstructuredGrid.GetData(outputs, 0), vtkPolyData.GetData(outputs, 1)
         kept = self.values
-        surface = _surface_of(leaflets, self.length("HalfThickness"))
+        surface = _surface_of(leaflets, self.length("HalfThickness"), kept["Offset"])
         mesh = self.kept_mesh.of(grid, kept["FindLeaks"])
         fields = [field for field in FIELDS if kept[f"Field{field.capitalize()}"]]
         if "velocity" in fields and surface.velocities is None:

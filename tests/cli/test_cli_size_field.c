@@ -158,6 +158,77 @@ TEST(case_of_two_valves) {
   drop_states();
 }
 
+/* ---- An offset ---- */
+
+/* With the offset 0.75, edges beside a rim leak from 2 sqrt(1 - 0.75^2) = 1.32 half thicknesses on. The rim of a plate is its
+ * outline. */
+TEST(an_offset_beside_the_rim_of_a_plate) {
+  const char text[] = "v -1 -0.5 0\nv 1 -0.5 0\nv 1 0.5 0\nv -1 0.5 0\nf 1 2 3\nf 1 3 4\n";
+  scratch_write("plate.obj", text, strlen(text));
+  RUN_FIELD("--surface", scratch_path("plate.obj"), "--half-thickness", "0.1", "--offset", "-0.75", "--largest-edge",
+            "0.25", "--growth", "0.5", "--spacing", "0.06");
+  assert_non_null(strstr(program_out, "edges     0.095 within the reach of the band, 0.175, and 0.0628 beside rims"));
+  const double beside_rims = 0.095 * sqrt(1 - 0.75 * 0.75);
+  int n_beside_rims = 0, n_at_middle = 0;
+  for (int i = 0; i < grid.n[0]; ++i)
+    for (int j = 0; j < grid.n[1]; ++j)
+      for (int k = 0; k < grid.n[2]; ++k) {
+        const double x = fabs(grid.origin[0] + grid.spacing[0] * i) - 1,
+                     y = fabs(grid.origin[1] + grid.spacing[1] * j) - 0.5;
+        const double z = grid.origin[2] + grid.spacing[2] * k, out = hypot(fmax(0, x), fmax(0, y));
+        const double from_rim = hypot(out > 0 ? out : fmax(x, y), z);
+        const double expected = fmin(length_at(hypot(out, z), (edges){0.175, 0.095, 0.5, 0.25}),
+                                     length_at(from_rim, (edges){0.175, beside_rims, 0.5, 0.25}));
+        CHECK_NEAR(grid.length[(i * grid.n[1] + j) * grid.n[2] + k], expected, 1e-3); /* the strip is 5e-4 wide */
+        n_beside_rims += expected == beside_rims;
+        n_at_middle += expected == 0.095;
+      }
+  assert_true(n_beside_rims > 500 && n_at_middle > 100);
+}
+
+/* Nodes whose closest point is on the rim of a valve get the length beside rims. The library tells the rim. */
+TEST(an_offset_beside_the_rims_of_valves) {
+  const char *const kinds[] = {"aortic", "mitral", "coapting", "bileaflet"};
+  const double openings[] = {0, 0.5, 1};
+  for (int i = 0; i < 4; ++i) {
+    RUN_FIELD("--valve", kinds[i], "--count", "3", "--offset", "0.5", "--largest-edge", "0.25", "--growth", "0.5",
+              "--spacing", "0.08");
+    add_states(kinds[i], 3, openings, NULL);
+    const int64_t n = (int64_t)grid.n[0] * grid.n[1] * grid.n[2];
+    double *xyz = calloc(3 * (size_t)n, sizeof *xyz);
+    for (int64_t node = 0; node < n; ++node) {
+      const int64_t at[3] = {node / grid.n[2] / grid.n[1], node / grid.n[2] % grid.n[1], node % grid.n[2]};
+      for (int k = 0; k < 3; ++k) xyz[3 * node + k] = grid.origin[k] + grid.spacing[k] * (double)at[k];
+    }
+    riis_mesh *mesh = NULL;
+    riis_marks *marks = NULL;
+    CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
+    CHECK_OK(riis_marks_create(&marks));
+    riis_mark_options how;
+    CHECK_OK(riis_mark_options_init(&how, sizeof how));
+    how.distance_limit = 0.15;
+    how.fields = RIIS_FIELD_RIM;
+    int n_beside_rims = 0, n_others = 0;
+    for (int state = 0; state < states.n; ++state) {
+      riis_mark_list near;
+      CHECK_OK(riis_mark_nodes(states.surface[state], mesh, &how, marks));
+      CHECK_OK(riis_marks_get_list(marks, RIIS_LIST_WITHIN_LIMIT, &near, sizeof near));
+      for (int64_t k = 0; k < near.n_nodes; ++k) {
+        const double length = grid.length[near.node_id[k]], beside_rims = 0.095 * sqrt(0.75);
+        assert_true(length >= 0.9999 * beside_rims && length <= 1.0001 * 0.095);
+        if (near.rim[k]) CHECK_NEAR(length, beside_rims, 1e-4);
+        n_beside_rims += near.rim[k];
+        n_others += length > 0.094;
+      }
+    }
+    assert_true(n_beside_rims > 100 && n_others > 100);
+    riis_marks_destroy(&marks);
+    riis_mesh_destroy(&mesh);
+    free(xyz);
+    drop_states();
+  }
+}
+
 TEST(refusals) {
   RUN_REFUSED(2, "OUT is required", "size-field");
   RUN_REFUSED(2, "--growth: 0 is not above 0", "size-field", "-", "--growth", "0");

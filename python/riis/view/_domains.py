@@ -98,8 +98,8 @@ def read_once(mesh: Any) -> Any:
     gmsh's version 2 repeats a cell for each of its further groups. For version 4.1, meshio keeps further groups by name only.
     """
     numbers = numpy.concatenate(mesh.cell_data.get(GROUPS, [[]]))
-    if len(numpy.unique(numbers)) < 2:
-        return mesh
+    if len(numbers) == 0 or (len(numpy.unique(numbers)) < 2 and len(groups_of_volumes(mesh)) < 2):
+        return mesh  # no cell has two groups
     starts = numpy.cumsum([0] + [len(block.data) for block in mesh.cells])
     original = _originals_of(mesh.cells, starts)
     cells = numpy.flatnonzero(original != numpy.arange(len(original)))

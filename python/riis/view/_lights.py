@@ -230,7 +230,6 @@ def wall(scene: Scene) -> Light:
     boundary = scene.region.wall() if scene.region.has_cells else None
     if boundary is None:
         return Light("wall", "off", "the mesh has no wall near the valve", valve=scene.number)
-    half = state.half_thickness
     if state.kind == "bileaflet":
         return _ring(scene, boundary)
     if state.surface is not None:
@@ -244,7 +243,7 @@ def wall(scene: Scene) -> Light:
     valve = state.valve()
     assert valve is not None
     skirt = float(valve["skirt_length"]) * state.scale
-    wide = (gap.distance > skirt + half) & ~missed
+    wide = (gap.distance > skirt + _beyond_rim(state)) & ~missed
     drawn = attachment[wide.any(axis=1) | missed.any(axis=1)]
     n_ends = gap.distance.size
     if gap.n_without_wall == n_ends:
@@ -269,6 +268,11 @@ def wall(scene: Scene) -> Light:
                  edges=drawn, valve=scene.number, value=needed / state.scale)
 
 
+def _beyond_rim(state: ValveState) -> float:
+    """Returns how far the band reaches beyond a rim, along the leaflet. With an offset it is a chord of the band's round end."""
+    return state.half_thickness * math.sqrt(1.0 - state.offset**2)
+
+
 def _ring(scene: Scene, boundary: Surface) -> Light:
     """Judges the distance from the wall to a bileaflet valve's housing, or to its circle without a housing."""
     state, valve = scene.state, scene.state.valve()
@@ -283,8 +287,9 @@ def _ring(scene: Scene, boundary: Surface) -> Light:
     assert found.side is not None and found.distance is not None
     gap = numpy.where(found.side > 0, -found.distance, found.distance)
     text = f"the wall is {shown(float(gap.min()))} to {shown(float(gap.max()))} from the {'housing' if height else 'annulus'}"
-    # If the wall meets one of the housing's circles at each angle, it seals the valve.
-    is_open = (gap.reshape(len(levels), 72) > state.half_thickness).all(axis=0)
+    # If the wall meets one of the housing's circles at each angle, it seals the valve. The housing's normals point outwards.
+    reach = (1.0 + state.offset) * state.half_thickness if height > 0.0 else _beyond_rim(state)
+    is_open = (gap.reshape(len(levels), 72) > reach).all(axis=0)
     if not is_open.any():
         return Light("wall", "good", text, valve=scene.number)
     return Light("wall", "bad", f"{text}: blood passes beside the valve", "make the annulus (radius) larger",
@@ -317,7 +322,12 @@ def sealed(scene: Scene) -> Light:
         nodes = region.path(ends[0], ends[1], is_open)
     line = region.points[nodes]
     edges = numpy.stack([line[:-1], line[1:]], axis=1) if len(line) > 1 else _NO_EDGES
-    text = f"a passage is open at {_place(found.point)}, {shown(found.distance)} from the leaflets"
+    # With an offset, the passage is as wide as the half thickness that closes it.
+    offset = scene.state.offset
+    width = shown(found.distance)
+    text = f"a passage is open at {_place(found.point)}, " + (
+        f"{width} from the leaflets" if offset == 0.0 else f"which a half thickness of {width} marks"
+    )
     points = numpy.array(found.point)[None, :]
     if scene.state.opening > 0.0:
         return Light("sealed", "off", f"the valve is open ({shown(scene.state.opening)}): {text}",
@@ -325,6 +335,8 @@ def sealed(scene: Scene) -> Light:
     advice = "look at the light wall and at the half thickness"
     if scene.state.kind == "aortic":
         advice = "the paper's aortic valve does not close between its cusps: the kind coapting does; or " + advice
+    if offset != 0.0:
+        advice = "bring the offset nearer to 0, because the bands of two leaflets part; or " + advice
     better = rounded_up(1.01 * found.distance)
     cure = None
     if better <= min(LARGEST_HALF_THICKNESS * scene.largest_side, 2.0 * scene.state.half_thickness):

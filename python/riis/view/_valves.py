@@ -319,7 +319,7 @@ def check_name(kind: str, name: str) -> None:
     if name not in names:
         raise UnknownParameterError(
             f"name: is {name!r}; a {kind} valve has {', '.join(sorted(names))}, and the view has opening, half_thickness, "
-            "resistance, scale and triangulation"
+            "offset, resistance, scale and triangulation"
         )
 
 

@@ -233,7 +233,8 @@ class Model(Valves):
     def set(self, i: int, name: str, value: Any) -> None:
         """Sets a parameter of a valve, or "opening", "half_thickness", "offset", "resistance", "scale", "triangulation", "name".
 
-        Lengths of parameters are in centimetres, the half thickness is in mesh units. The resistance is in kg/(m s) if the mesh
+        Lengths of parameters are in centimetres, the half thickness is in mesh units. The offset is in half thicknesses. The
+        resistance is in kg/(m s) if the mesh
         has a unit, and a text such as "1e5 g/(cm s)" then has its own. Otherwise it is in mesh units. A surgeon's name, such as
         "annulus", sets the parameter that it stands for. Refuses a value that is out of range, and sizes that do not fit
         together.
@@ -358,9 +359,8 @@ class Model(Valves):
     def _region(self) -> Region:
         lower, upper = numpy.full(3, math.inf), numpy.full(3, -math.inf)
         for placed in self._placed:
-            info = placed.surface.info
-            lower = numpy.minimum(lower, info.lower - info.half_thickness)
-            upper = numpy.maximum(upper, info.upper + info.half_thickness)
+            box = _box_of_band(placed.surface)
+            lower, upper = numpy.minimum(lower, box[0]), numpy.maximum(upper, box[1])
         if not self._placed:
             lower = upper = (self._mesh.lower + self._mesh.upper) / 2.0
         return self._mesh.region(lower, upper)
@@ -584,9 +584,9 @@ class Model(Valves):
                 columns["marked"].append(known[moved.opening][1])
                 continue
             placed = Placed.of(moved, placed)
-            info = placed.surface.info
-            if not region.holds(info.lower - info.half_thickness, info.upper + info.half_thickness):
-                region = self._mesh.region(info.lower - info.half_thickness, info.upper + info.half_thickness)
+            box = _box_of_band(placed.surface)
+            if not region.holds(*box):
+                region = self._mesh.region(*box)
             mark(placed.surface, region.mesh, into=marks)
             columns["orifice"].append(placed.surface.orifice().area)
             columns["marked"].append(float(len(marks)))
@@ -659,6 +659,13 @@ class Model(Valves):
         made.restore(path)
         made.forget_steps()
         return made
+
+
+def _box_of_band(surface: Surface) -> tuple[Reals, Reals]:
+    """Returns the least and the largest coordinates of nodes that the surface may mark."""
+    info = surface.info
+    reach = (1.0 + abs(info.offset)) * info.half_thickness
+    return info.lower - reach, info.upper + reach
 
 
 def _merged(lists: list[tuple[Ids, Integers, Reals, int]]) -> tuple[Ids, Integers, Reals, Ids]:

@@ -346,7 +346,7 @@ class Page(Hand, Heartbeat, saving.Files):
             )
             state.is_surface = valve.surface is not None
             state.sliders, state.rows = [], []
-            sliders, table = [rows.half_thickness_of(valve, unit)], []
+            sliders, table = [rows.half_thickness_of(valve, unit), rows.offset_of(valve)], []
             if valve.surface is None:
                 state.kind = valve.kind
                 values = model.values(state.current)

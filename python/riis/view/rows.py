@@ -52,6 +52,20 @@ def half_thickness_of(valve: Any, unit: str) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def offset_of(valve: Any) -> dict[str, Any]:
+    """Returns the slider of the offset, with the advice of riis params."""
+    advice = (
+        "leave it at 0, because the flow passes on both sides of the leaflets" if valve.kind == "bileaflet" else
+        "with a cut rim and a skirt, 0.75 gives an open valve its full width if the flow is on one side and the half thickness "
+        "is at least twice the gap of the closed valve. Take 0.5 from one gap on, and 0 for a wider gap"
+    )  # fmt: skip
+    return {
+        "name": "offset", "label": "offset of the band", "unit": "", "least": -1.0, "greatest": 1.0, "low": -0.95, "high": 0.95,
+        "step": 0.05, "value": float(valve.offset),
+        "description": f"by how many half thicknesses the band steps aside along the normals: {advice}",
+    }  # fmt: skip
+
+
 def slider_of(parameter: Any, value: float) -> dict[str, Any]:
     low, high = min(float(parameter.low), value), max(float(parameter.high), value)
     step = 10.0 ** math.floor(math.log10((high - low) / 100)) if high > low else 0.01

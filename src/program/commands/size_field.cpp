@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -48,9 +50,10 @@ Case case_of(const SizeFieldOptions &options) {
   return all;
 }
 
-// The edge lengths around one valve: `band` up to `band_reach` from its surface. They grow with the distance, up to `largest`.
+// The edge lengths around one valve: `band` up to `band_reach` from its surface, and `beside_rims` up to `band_reach` from its
+// rims. They grow with the distance, up to `largest`.
 struct Edges {
-  double half_thickness, band_reach, band, growth, largest;
+  double half_thickness, offset, band_reach, band, beside_rims, growth, largest;
 
   double at(double distance) const { return std::min(largest, band + growth * std::max(0.0, distance - band_reach)); }
   // The distance at which the edge length reaches its largest value.
@@ -62,8 +65,11 @@ std::vector<Edges> edges_of(const SizeFieldOptions &options, const std::vector<M
   double thickest = 0;
   for (const MovingValve &valve : valves) {
     const riis_surface_info info = info_of(valve.surface());
-    edges.push_back({info.half_thickness, (1 + std::abs(info.offset)) * info.half_thickness,
-                     options.band_edge * info.half_thickness, options.growth, 0});
+    const double half_thickness = info.half_thickness, o = info.offset, band = options.band_edge * half_thickness;
+    // With an offset, edges beside rims leak from 2 sqrt(1 - o^2) half thicknesses on, elsewhere from 2 (docs/theory/marks.md,
+    // "Offset"). Such an edge has an end at most as far from the rim as the band reaches.
+    edges.push_back({half_thickness, o, (1 + std::abs(o)) * half_thickness, band, band * std::sqrt((1 - o) * (1 + o)),
+                     options.growth, 0});
     thickest = std::max(thickest, info.half_thickness);
   }
   const double largest = options.largest_edge.value_or(4 * thickest);
@@ -95,32 +101,87 @@ struct Grid {
   }
 };
 
-// Returns the triangles of one valve at all times as one surface. The distance to this surface is the least distance over the
-// whole motion, so one marking per valve suffices.
-Surface swept_surface(MovingValve &valve, double half_thickness, const Case &all) {
-  const std::vector<double> &times = all.options.series.times;
-  JoinedTriangles swept;
-  std::set<double> openings;
-  StepProgress progress("collecting the states", times.size(), all.options.quiet);
-  for (std::size_t step = 0; step < times.size(); ++step) {
-    progress.begin(step);
-    valve.move_to(times[step]);
-    // An opening that occurs again is skipped, because the valve has the same triangles there.
-    if (valve.source().keyframes || openings.insert(valve.opening().value_or(0)).second)
-      swept.add(triangles_of(valve.surface()), 0);
+// A surface, and the edge lengths by the distance from it.
+struct Zone {
+  Surface surface;
+  Edges edges;
+};
+
+// Adds a narrow strip of triangles along the rim of a surface, which consists of the edges of only one triangle. Vertices with
+// equal coordinates count as one.
+void add_rim(const riis_triangles &triangles, JoinedTriangles &rim) {
+  std::map<std::array<double, 3>, std::int64_t> first;
+  std::map<std::array<std::int64_t, 2>, std::vector<std::array<std::int64_t, 3>>> of_edge;  // its triangles, by corners
+  for (std::int64_t triangle = 0; triangle < triangles.n_triangles; ++triangle) {
+    std::array<std::int64_t, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int64_t vertex = triangles.vertex_id[3 * triangle + static_cast<std::int64_t>(k)];
+      const double *at = triangles.xyz + 3 * vertex;
+      corners[k] = first.try_emplace({at[0], at[1], at[2]}, vertex).first->second;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int64_t a = corners[k], b = corners[(k + 1) % 3];
+      if (a != b) of_edge[{std::min(a, b), std::max(a, b)}].push_back({a, b, corners[(k + 2) % 3]});
+    }
   }
-  const riis_surface_arrays arrays = swept.arrays();
+  std::vector<double> xyz;
+  for (const auto &[edge, sides] : of_edge) {
+    if (sides.size() != 1) continue;
+    const double *corner[3];
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = triangles.xyz + 3 * sides[0][k];
+    xyz.insert(xyz.end(), corner[0], corner[0] + 3);
+    xyz.insert(xyz.end(), corner[1], corner[1] + 3);
+    for (int k = 0; k < 3; ++k) {
+      const double middle = (corner[0][k] + corner[1][k]) / 2;
+      xyz.push_back(middle + 1e-3 * (corner[2][k] - middle));
+    }
+  }
+  riis_triangles strip{};
+  strip.n_vertices = view(xyz).size() / 3;
+  strip.n_triangles = strip.n_vertices / 3;
+  std::vector<std::int64_t> vertex_id(static_cast<std::size_t>(strip.n_vertices));
+  std::iota(vertex_id.begin(), vertex_id.end(), 0);
+  const std::vector<std::int32_t> leaflet_id(static_cast<std::size_t>(strip.n_triangles), 0);
+  strip.xyz = xyz.data();
+  strip.vertex_id = vertex_id.data();
+  strip.leaflet_id = leaflet_id.data();
+  rim.add(strip, 0);
+}
+
+Surface surface_of(const JoinedTriangles &triangles, double half_thickness) {
+  const riis_surface_arrays arrays = triangles.arrays();
   auto how = defaults<riis_surface_options>();
   how.half_thickness = half_thickness;
   how.zero_area = RIIS_ZERO_AREA_SKIP;  // the valve's own surface has no such triangles, except by rounding
   return create_for<Surface>("the triangles of all states together", riis_surface_create_from_arrays, &arrays, &how);
 }
 
+// Adds the triangles of one valve at all times as one surface. The distance to this surface is the least distance over the
+// whole motion, so one marking per valve suffices. With an offset, the rims at all times are another surface.
+void add_zones(MovingValve &valve, const Edges &edges, const Case &all, std::vector<Zone> &zones) {
+  const std::vector<double> &times = all.options.series.times;
+  JoinedTriangles swept, rims;
+  std::set<double> openings;
+  StepProgress progress("collecting the states", times.size(), all.options.quiet);
+  for (std::size_t step = 0; step < times.size(); ++step) {
+    progress.begin(step);
+    valve.move_to(times[step]);
+    // An opening that occurs again is skipped, because the valve has the same triangles there.
+    if (!valve.source().keyframes && !openings.insert(valve.opening().value_or(0)).second) continue;
+    const riis_triangles triangles = triangles_of(valve.surface());
+    swept.add(triangles, 0);
+    if (edges.offset != 0) add_rim(triangles, rims);
+  }
+  zones.push_back({surface_of(swept, edges.half_thickness), edges});
+  if (rims.arrays().n_faces == 0) return;
+  zones.push_back({surface_of(rims, edges.half_thickness), edges});
+  zones.back().edges.band = edges.beside_rims;
+}
+
 // Returns the box around all points that are within reach of a surface.
-Box box_around(const std::vector<Surface> &surfaces, const std::vector<Edges> &edges) {
+Box box_around(const std::vector<Zone> &zones) {
   Box box = empty_box();
-  for (std::size_t at = 0; at < surfaces.size(); ++at)
-    box.grow(box_of(info_of(surfaces[at])).widened(edges[at].reach()));
+  for (const Zone &zone : zones) box.grow(box_of(info_of(zone.surface)).widened(zone.edges.reach()));
   return box;
 }
 
@@ -138,24 +199,23 @@ Grid grid_in(const Box &box, double spacing) {
   return grid;
 }
 
-// Returns the edge length at each point: the least over all valves.
-std::vector<double> lengths_at(const Grid &grid, const std::vector<Surface> &surfaces, const std::vector<Edges> &edges,
-                               const SizeFieldOptions &options) {
+// Returns the edge length at each point: the least over all zones.
+std::vector<double> lengths_at(const Grid &grid, const std::vector<Zone> &zones, const SizeFieldOptions &options) {
   const Stage stage("measuring the distances of the grid", options.quiet);
   const std::vector<double> xyz = grid.points();
   const auto mesh = create<Mesh>(riis_mesh_create, grid.n_points(), xyz.data(), xyz.data() + 1, xyz.data() + 2, 3);
   // Most points of the grid are within reach of the valves, so clusters pay off at once.
   check(riis_mesh_prepare(mesh, options.mark_options.n_threads));
   const Marks marks = new_result();
-  std::vector<double> lengths(static_cast<std::size_t>(grid.n_points()), edges[0].largest);
-  for (std::size_t at = 0; at < surfaces.size(); ++at) {
+  std::vector<double> lengths(static_cast<std::size_t>(grid.n_points()), zones[0].edges.largest);
+  for (const Zone &zone : zones) {
     riis_mark_options how = options.mark_options;
-    how.distance_limit = std::max(edges[at].reach(), edges[at].half_thickness);
-    check(riis_mark_nodes(surfaces[at].get(), mesh, &how, marks));
+    how.distance_limit = std::max(zone.edges.reach(), zone.edges.half_thickness);
+    check(riis_mark_nodes(zone.surface.get(), mesh, &how, marks));
     const riis_mark_list near = list_of(marks, RIIS_LIST_WITHIN_LIMIT);
     for (std::int64_t i = 0; i < near.n_nodes; ++i) {
       double &length = view(lengths)[near.node_id[i]];
-      length = std::min(length, edges[at].at(near.distance[i]));
+      length = std::min(length, zone.edges.at(near.distance[i]));
     }
   }
   return lengths;
@@ -201,9 +261,9 @@ void print_summary(const SizeFieldOptions &options, const Case &all, const std::
   std::string text = "states    " + counted(static_cast<std::int64_t>(all.options.series.times.size()), "state") +
                      (has_openings && all.options.series.times.size() > 1 ? ", openings from 0 to 1\n" : "\n");
   text += "edges     " + shown(least.band) + " within " +
-          (least.band_reach > least.half_thickness ? "the reach of the band, " : "the half thickness of ") +
-          shown(least.band_reach) + ", growing by " + shown(least.growth) + " a length, up to " + shown(least.largest) +
-          "\n";
+          (least.offset != 0 ? "the reach of the band, " : "the half thickness of ") + shown(least.band_reach) +
+          (least.offset != 0 ? ", and " + shown(least.beside_rims) + " beside rims" : "") + ", growing by " +
+          shown(least.growth) + " a length, up to " + shown(least.largest) + "\n";
   text += "grid      " + counted(grid.n_points(), "point") + ", spacing " + shown(grid.spacing) + "\n";
   text += "written   " + options.field + "\n";
   write_text("-", text + gmsh_lines(options, least.largest));
@@ -219,11 +279,10 @@ ExitCode run_size_field(const SizeFieldOptions &options) {
   double spacing = std::numeric_limits<double>::infinity();
   for (const Edges &one : edges) spacing = std::min(spacing, 0.5 * one.half_thickness);
   if (options.spacing) spacing = *options.spacing;
-  std::vector<Surface> surfaces;
-  for (std::size_t i = 0; i < valves.size(); ++i)
-    surfaces.push_back(swept_surface(valves[i], edges[i].half_thickness, all));
-  const Grid grid = grid_in(box_around(surfaces, edges), spacing);
-  const std::vector<double> lengths = lengths_at(grid, surfaces, edges, options);
+  std::vector<Zone> zones;
+  for (std::size_t i = 0; i < valves.size(); ++i) add_zones(valves[i], edges[i], all, zones);
+  const Grid grid = grid_in(box_around(zones), spacing);
+  const std::vector<double> lengths = lengths_at(grid, zones, options);
   write_text(options.field, text_of(grid, lengths));
   print_summary(options, all, edges, grid);
   return exit_fine;
