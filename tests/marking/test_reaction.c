@@ -433,7 +433,7 @@ TEST(leaflets_of_symmetric_valves_share_alike) {
                 {"coapting", 3, 0, 0.04},
                 {"bileaflet", 2, 0, 0.03},
                 {"bileaflet", 2, 0.5, 0.0005}};
-  for (int i = 0; i < (int)(sizeof valves / sizeof *valves); ++i)
+  for (int i = 0; i < (int)(sizeof valves / sizeof *valves); i += trial_step())
     for (int32_t how = RIIS_TRIANGULATION_ADAPTED; how <= RIIS_TRIANGULATION_FIXED; ++how) {
       const int owned_before = n_owned();
       riis_surface_options options = surface_options();
