@@ -4,6 +4,7 @@
 Objects are in centimetres. Lines, points and texts have sizes in pixels. Points are arrays (n, 3), segments (n, 2, 3)."""
 
 import importlib
+import os
 from typing import NamedTuple
 
 import numpy as np
@@ -26,6 +27,8 @@ BLUE, ORANGE, GREEN, PURPLE, VERMILION, SKY_BLUE = PALETTE
 DARK, GREY, LIGHT_GREY = (45, 45, 45), (130, 130, 130), (205, 205, 205)
 LEAFLETS = (BLUE, ORANGE, GREEN)
 TITLE_HEIGHT = 36  # pixels
+# Smooth edges take most of the time of a picture without a graphics card. The tests do without.
+N_SAMPLES = int(os.environ.get("RIIS_FIGURES_SAMPLES", "8"))
 
 
 def paler(colour, white):
@@ -258,7 +261,7 @@ class Picture:
         """Returns the bytes of a PNG file."""
         window, image, writer = vtkRenderWindow(), vtkWindowToImageFilter(), vtkPNGWriter()
         window.SetOffScreenRendering(1)
-        window.SetMultiSamples(8)
+        window.SetMultiSamples(N_SAMPLES)
         window.SetSize(self.width, self.height)
         window.AddRenderer(self.renderer)
         self.renderer.ResetCameraClippingRange()

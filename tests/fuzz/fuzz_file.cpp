@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes files of meshes, surfaces and motions in the format RIIS_FUZZ_ENDING. A file is read completely, or refused with the
+// Fuzzes files of meshes, surfaces and motions in the format fuzz_ending. A file is read completely, or refused with the
 // file's name and a reason. The content must be usable: nodes make a mesh or are refused because of their coordinates, cells
 // make an adjacency, faces make a surface, and frames make keyframes.
 #include <riis/riis_vtk.h>
@@ -7,23 +7,30 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
 
 #include "input.hpp"
 #include "read_mesh.hpp"
 
+extern const char *const fuzz_ending;  // each harness has its own, which CMakeLists.txt writes
+
 namespace {
 
 const fuzz::ScratchFile &file() {
-  static const fuzz::ScratchFile scratch("input." RIIS_FUZZ_ENDING);
+  static const fuzz::ScratchFile scratch(std::string("input.") + fuzz_ending);
   return scratch;
 }
 
-bool is_fine(riis_status status, riis_status refusal) {
-  return fuzz::is_fine(status, refusal, "input." RIIS_FUZZ_ENDING ": ");
+// Returns how messages name the file.
+const char *named() {
+  static const std::string name = std::string("input.") + fuzz_ending + ": ";
+  return name.c_str();
 }
 
+bool is_fine(riis_status status, riis_status refusal) { return fuzz::is_fine(status, refusal, named()); }
+
 void read_mesh() {
-  riis_vtk_mesh *read = fuzz::read_mesh(file().path().c_str(), "input." RIIS_FUZZ_ENDING ": ");
+  riis_vtk_mesh *read = fuzz::read_mesh(file().path().c_str(), named());
   riis_vtk_mesh_destroy(&read);
 }
 
@@ -50,12 +57,12 @@ void read_surface() {
 }
 
 // Makes keyframes of a motion. A collection may name any file.
-void use_motion(riis_status status, riis_vtk_motion *read, const char *named) {
+void use_motion(riis_status status, riis_vtk_motion *read, const char *part) {
   if (status != RIIS_OK) {
     const char *text = riis_last_error();
     EXPECT(status == RIIS_FILE_ERROR || status == RIIS_OUT_OF_MEMORY, "status %d: %s", status, text);
     EXPECT(read == nullptr, "a refused motion was written");
-    EXPECT(std::strstr(text, named) || status == RIIS_OUT_OF_MEMORY, "no file in '%s'", text);
+    EXPECT(std::strstr(text, part) || status == RIIS_OUT_OF_MEMORY, "no file in '%s'", text);
     return;
   }
   riis_surface_arrays faces;
@@ -74,14 +81,14 @@ void use_motion(riis_status status, riis_vtk_motion *read, const char *named) {
 void read_motion() {
   static const double times[2] = {0, 1};
   const char *const paths[2] = {file().path().c_str(), file().path().c_str()};
-  const std::string ending = RIIS_FUZZ_ENDING;
+  const std::string ending = fuzz_ending;
   riis_vtk_motion *read = nullptr;
   riis_status status = riis_vtk_motion_read_files(2, paths, times, nullptr, &read);
-  use_motion(status, read, "input." RIIS_FUZZ_ENDING ": ");
+  use_motion(status, read, named());
   if (ending != "vtp" && ending != "vtu") return;
   read = nullptr;
   status = riis_vtk_motion_read_displacements(paths[0], "d", 0, nullptr, nullptr, &read);
-  use_motion(status, read, "input." RIIS_FUZZ_ENDING ": ");
+  use_motion(status, read, named());
 }
 
 // Reads the list of a mesh in pieces. A piece that it names is refused, because the folder has no grid.
@@ -116,7 +123,7 @@ void read_collection() {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t size) {
   file().hold(bytes, size);
-  const std::string ending = RIIS_FUZZ_ENDING;
+  const std::string ending = fuzz_ending;
   if (ending == "msh" || ending == "xdmf") {
     read_mesh();
     return 0;

@@ -92,7 +92,7 @@ TEST(numbers_of_38_bits_are_told_apart) {
 /* A fan of triangles around a corner has no hole, so a segment through a point inside the fan meets at least one triangle. */
 TEST(a_fan_has_no_hole) {
   enum { n_sides = 7 };
-  for (int trial = 0; trial < 20000; ++trial) {
+  for (int trial = 0; trial < trials_of(60000); ++trial) {
     double corners[n_sides][3], centre[3] = {0, 0, 0}, a[3], b[3];
     for (int k = 0; k < n_sides; ++k) {
       const double angle = (k + random_between(&rng, -0.3, 0.3)) * 2 * 3.141592653589793 / n_sides;

@@ -31,7 +31,7 @@ TEST(test_ring) {
   enum { m = 90 };
   random_source random = random_start("test_plane_cover");
   static double corners[2 * m][6];
-  for (int turn = 0; turn < fewer_if_sanitized(8); ++turn) {
+  for (int turn = 0; turn < trials_of(24); ++turn) {
     const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
     const double radius = random_between(&random, 0.5, 2), hole = radius * random_between(&random, 0.2, 0.9);
     const double first = random_between(&random, 0, 2 * pi), step = 2 * pi / m;
@@ -124,7 +124,7 @@ TEST(test_open_lines) {
  * shrinks. */
 TEST(test_growing) {
   enum { m = 720 };
-  const int n_turns = is_long_test() ? 8 : fewer_if_sanitized(4);
+  const int n_turns = trials(4, 8);
   static double xy[2 * (2 * m + 1)];
   static int64_t ids[3 * 2 * m];
   random_source random = random_start("test_plane_cover");

@@ -21,7 +21,7 @@ static riis_cells_across cells_of(const riis_marks *marks, const riis_mesh *mesh
 }
 
 TEST(graphs_have_the_edges_of_a_serial_search) {
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < trials_of(180); ++trial) {
     const int owned_before = n_owned();
     const test_mesh graph = random_graph(random_integer(1, 300), random_between(&rng, 0.5, 6));
     const test_mesh rows = both_ways(&graph);

@@ -65,7 +65,7 @@ TEST(nodes_without_extent) {
     for (int kind = 0; kind < 5; ++kind) {
       double at[9], axis[2][3];
       const int n = counts[k];
-      if (is_sanitized() && n > 8000 && ((int)k + kind) % 2) continue;
+      if (n > 8000 && (5 * (int)k + kind) % trial_step()) continue;
       for (int i = 0; i < 3; ++i) point_near(surface, 0.05, at + 3 * i);
       for (int i = 0; i < 6; ++i) axis[i / 3][i % 3] = kind == 2 ? i == 2 : random_between(&rng, -1, 1);
       for (int i = 0; i < n; ++i) {
@@ -246,7 +246,7 @@ TEST(surfaces_from_arrays) {
   static int32_t ids[3 * max_triangles];
   for (int i = 0; i < 3 * max_triangles; ++i) ids[i] = i;
   most_within = 0;
-  for (int trial = 0; trial < trials_of(is_sanitized() ? 75 : 150); ++trial) {
+  for (int trial = 0; trial < trials_of(150); ++trial) {
     const int owned_before = n_owned();
     const int64_t n_triangles = 8 + (int64_t)(random_bits(&rng) % (max_triangles - 8));
     const double unit = trial % 3 ? 1 : random_power_of_ten(&rng, -45, 45),
@@ -293,7 +293,7 @@ TEST(needles_that_are_lines_in_the_frame) {
   double corners[9 * n_triangles];
   int32_t ids[3 * n_triangles];
   for (int i = 0; i < 3 * n_triangles; ++i) ids[i] = i;
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < trials_of(60); ++trial) {
     const int owned_before = n_owned();
     for (int i = 0; i < n_triangles; ++i) {
       double *p = corners + 9 * i;
@@ -369,7 +369,7 @@ static void any_point(const riis_surface *surface, int i) {
 TEST(every_distance_of_random_valves) {
   static const char *const kinds[] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
   enum { n_kinds = 5 };
-  const int64_t n_wanted = is_long_test() ? 10000000 : trials_of(fewer_if_sanitized(80000));
+  const int64_t n_wanted = trials((80000 + 2) / 3, 10000000);
   int64_t n_compared = 0;
   for (int trial = 0; n_compared < n_wanted; ++trial) {
     const int owned_before = n_owned();

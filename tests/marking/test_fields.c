@@ -258,7 +258,7 @@ static void check_all_ways(const riis_surface *surface, const rims *r, int32_t f
 }
 
 TEST(fields_of_valves_are_those_of_single_queries) {
-  for (int trial = 0; trial < 24; ++trial) {
+  for (int trial = 0; trial < trials_of(72); ++trial) {
     const int is_mitral = trial % 2, owned_before = n_owned();
     const char *kind = is_mitral ? "mitral" : "aortic";
     riis_valve *valve = new_valve(kind), *before = NULL, *open = new_valve(kind);
@@ -289,7 +289,7 @@ TEST(fields_of_valves_are_those_of_single_queries) {
 TEST(fields_of_arrays_are_those_of_single_queries) {
   enum { side = 9, max_vertices = 6 * side * side };
   riis_surface *surface = surface_of_kind("mitral", NULL); /* updates from arrays must replace the mitral valve's rim */
-  for (int trial = 0; trial < 24; ++trial) {
+  for (int trial = 0; trial < trials_of(72); ++trial) {
     const int owned_before = n_owned();
     static double height[side + 1][side + 1], xyz[3 * max_vertices];
     static int32_t ids[max_vertices];
@@ -415,7 +415,7 @@ TEST(valves_have_a_rim_all_around_and_none_inside) {
 TEST(no_other_patch_touches_the_rim) {
   for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
     int64_t n = 0;
-    for (int trial = 0; trial < 20; ++trial) {
+    for (int trial = 0; trial < trials_of(60); ++trial) {
       const int owned_before = n_owned();
       riis_valve *valve = new_valve(is_mitral ? "mitral" : "aortic");
       riis_surface_options options = surface_options();
@@ -465,7 +465,7 @@ TEST(no_other_patch_touches_the_rim) {
 /* --- Parameters ------------------------------------------------------------------------------------------------------ */
 
 TEST(parameters_turn_as_the_header_says) {
-  for (int trial = 0; trial < 24; ++trial) {
+  for (int trial = 0; trial < trials_of(72); ++trial) {
     const int is_mitral = trial % 2, is_flipped = trial / 2 % 2;
     riis_valve *valve = new_valve(is_mitral ? "mitral" : "aortic");
     riis_surface_options options = surface_options();

@@ -55,7 +55,7 @@ static riis_passage passage_at(riis_valve *valve, double opening, const riis_mes
 /* The valve fills a tube, so each path leads through the valve. */
 TEST(valves_first_open_where_a_ladder_says) {
   static const char *const kinds[4] = {"trileaflet", "bileaflet", "mitral", "coapting"};
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < trials_of(24); ++trial) {
     const int owned_before = n_owned(), kind = trial % 4;
     riis_valve *valve = new_valve(kinds[kind]);
     const double radius = kind % 3 == 0 ? 1.2 : kind == 1 ? 1.05 : 1.6;
@@ -134,7 +134,7 @@ TEST(slits_open_at_their_width) {
                 riis_find_first_passage(opened, mesh, &ends, NULL, &first, sizeof first));
   CHECK_OK(riis_valve_set_open_state(valve, opened));
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5)); /* the call must ignore the valve's own opening */
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < trials_of(24); ++trial) {
     riis_surface_options surface = surface_options();
     surface.half_thickness = random_between(&rng, 0.1, 0.45);
     riis_first_passage_options options = first_options();

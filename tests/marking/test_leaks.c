@@ -226,7 +226,7 @@ static int64_t check_case(const whole_case *c) {
 }
 
 TEST(random_meshes_leak_where_the_loop_says) {
-  const int n = is_long_test() ? 400000 : 400;
+  const int n = trials(400, 400000);
   int n_leaking = 0;
   static whole_case c;
   for (int trial = 0; trial < n; ++trial) {

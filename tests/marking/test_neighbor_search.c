@@ -99,7 +99,7 @@ TEST(valve_that_sticks_out_of_the_mesh) {
   const riis_surface_info info = info_of(surface);
   static const int64_t counts[3] = {24, 22, 26};
   /* Random boxes that contain a part of the valve, lie inside it, or miss it. */
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < trials_of(60); ++trial) {
     const int owned_before = n_owned();
     double lower[3], upper[3];
     for (int c = 0; c < 3; ++c) {
@@ -138,7 +138,7 @@ TEST(isolated_nodes) {
 TEST(any_adjacency_is_right) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.1, 0.3);
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < trials_of(24); ++trial) {
     const int64_t n_pairs = trial * nodes.n / 2;
     int64_t *pairs = own(malloc((size_t)(2 * n_pairs + 1) * sizeof *pairs));
     for (int64_t k = 0; k < 2 * n_pairs; ++k) pairs[k] = (int64_t)(random_bits(&rng) % (uint64_t)nodes.n);
@@ -241,7 +241,7 @@ TEST(degenerate_meshes) {
  * node. */
 TEST(nodes_at_the_limit_are_found) {
   static const int32_t ids[3] = {0, 1, 2};
-  for (int trial = 0; trial < 3000; ++trial) {
+  for (int trial = 0; trial < trials_of(9000); ++trial) {
     const int owned_before = n_owned();
     const double size = pow(10, random_between(&rng, -1, 6)), origin = trial % 3 ? 0 : random_between(&rng, -300, 300);
     double corners[9], normal[3], xyz[3 * 40], ab[3], ac[3];
@@ -278,7 +278,7 @@ TEST(nodes_at_the_limit_are_found) {
 TEST(needles_lose_no_node) {
   static const int32_t ids[3] = {0, 1, 2};
   int n_surfaces = 0;
-  for (int trial = 0; trial < 6000; ++trial) {
+  for (int trial = 0; trial < trials_of(18000); ++trial) {
     const int owned_before = n_owned();
     const double height = pow(10, random_between(&rng, -11.5, -7));
     double along[3], across[3], corners[9], xyz[6];
@@ -311,7 +311,7 @@ TEST(needles_lose_no_node) {
     ++n_surfaces;
     free_owned_after(owned_before);
   }
-  assert_true(n_surfaces > 3000);
+  CHECK_MET(n_surfaces > 3000);
 }
 
 /* --- Masks, limits --------------------------------------------------------------------------------------------------- */
@@ -324,7 +324,7 @@ TEST(masked_nodes_are_left_out) {
   riis_marks *reused = new_result();
   riis_mark_options options = mark_options();
   options.node_mask = mask;
-  for (int trial = 0; trial < 9; ++trial) {
+  for (int trial = 0; trial < trials_of(27); ++trial) {
     const int owned_before = n_owned();
     for (int64_t i = 0; i < nodes.n; ++i) mask[i] = (uint8_t)(random_bits(&rng) % 8 >= (uint64_t)trial ? 200 : 0);
     riis_marks *fresh = new_result();

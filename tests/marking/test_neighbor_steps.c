@@ -133,7 +133,7 @@ TEST(non_finite_coordinates_are_refused) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.13, 0.15);
   riis_marks *expected = NULL;
-  for (int trial = 0; trial < 36; ++trial) {
+  for (int trial = 0; trial < trials_of(108); ++trial) {
     riis_mesh *mesh = mesh_from(&nodes);
     riis_marks *result = new_result();
     riis_mark_options options = mark_options();

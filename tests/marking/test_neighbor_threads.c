@@ -26,7 +26,7 @@ TEST(any_number_of_threads_gives_the_same_bits) {
     assert_int_equal(stats_of(one).n_threads, 1);
     assert_true(stats_of(one).n_marked > 5000);
     int32_t most[5] = {0};
-    for (int repeat = 0; repeat < fewer_if_sanitized(3); ++repeat)
+    for (int repeat = 0; repeat < trials_of(9); ++repeat)
       for (int threads = 1; threads <= 4; ++threads) {
         const int n_outside = n_owned();
         riis_marks *many = marked_by(surface, mesh, searches[k], threads, NULL);

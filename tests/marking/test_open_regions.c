@@ -37,7 +37,7 @@ static int64_t check_labels(const test_mesh *graph, const riis_mesh *mesh, const
 }
 
 TEST(graphs_are_labelled_as_the_flood_fill_does) {
-  const int n_trials = is_long_test() ? 20000 : 100;
+  const int n_trials = trials(100, 20000);
   int n_many = 0;
   for (int trial = 0; trial < n_trials; ++trial) {
     const int owned_before = n_owned();
@@ -54,7 +54,7 @@ TEST(graphs_are_labelled_as_the_flood_fill_does) {
     n_many += check_labels(&graph, mesh, result, options.node_mask) > 1;
     free_owned_after(owned_before);
   }
-  assert_true(n_many > n_trials / 2);
+  CHECK_MET(n_many > n_trials / 2);
 }
 
 /* Makes a surface that is far from all nodes. */

@@ -32,7 +32,7 @@ TEST(nodes_ascend) {
   const riis_surface *surface = surface_of_kind("aortic", NULL);
   riis_surface_info info;
   CHECK_OK(riis_surface_get_info(surface, &info, sizeof info));
-  for (int trial = 0; trial < (is_long_test() ? 3000 : 300); ++trial) {
+  for (int trial = 0; trial < trials(300, 3000); ++trial) {
     const int64_t n_nodes = (int64_t)random_power_of_ten(&rng, 0, trial % 4 == 0 ? 9.9 : 6.5);
     int64_t n = trial % 3 == 0 ? below(100) : below(most);
     const int64_t range = trial % 2 ? n_nodes : n_nodes < 2 * n + 1 ? n_nodes : 2 * n + 1;

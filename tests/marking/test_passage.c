@@ -138,7 +138,7 @@ static int check_graph(const test_mesh *graph, const riis_surface *surface) {
 }
 
 TEST(graphs_have_the_passage_of_the_serial_search) {
-  int64_t n_of_state[3] = {0}, n = is_long_test() ? 20000 : 200;
+  int64_t n_of_state[3] = {0}, n = trials(200, 20000);
   for (int64_t trial = 0; trial < n; ++trial) {
     const int owned_before = n_owned();
     const test_mesh graph = random_graph(random_integer(2, 300), random_between(&rng, 0.5, 3));
@@ -147,12 +147,12 @@ TEST(graphs_have_the_passage_of_the_serial_search) {
     free_owned_after(owned_before);
   }
   printf("%d closed, %d open, %d without a path\n", (int)n_of_state[0], (int)n_of_state[1], (int)n_of_state[2]);
-  assert_true(n_of_state[RIIS_PASSAGE_OPEN] > 0 && n_of_state[RIIS_PASSAGE_NONE] > 0);
+  CHECK_MET(n_of_state[RIIS_PASSAGE_OPEN] > 0 && n_of_state[RIIS_PASSAGE_NONE] > 0);
 }
 
 /* In lattices around a plate, many nodes are at equal distances. */
 TEST(meshes_have_the_passage_of_the_serial_search) {
-  int64_t n_of_state[3] = {0}, n = is_long_test() ? 4000 : 100;
+  int64_t n_of_state[3] = {0}, n = trials(100, 4000);
   for (int64_t trial = 0; trial < n; ++trial) {
     const int owned_before = n_owned();
     static const double lower[3] = {-1, -1, -1}, upper[3] = {1, 1, 1};
@@ -168,7 +168,7 @@ TEST(meshes_have_the_passage_of_the_serial_search) {
     free_owned_after(owned_before);
   }
   printf("%d closed, %d open\n", (int)n_of_state[0], (int)n_of_state[1]);
-  assert_true(n_of_state[RIIS_PASSAGE_OPEN] > 0 && n_of_state[RIIS_PASSAGE_CLOSED] > 0);
+  CHECK_MET(n_of_state[RIIS_PASSAGE_OPEN] > 0 && n_of_state[RIIS_PASSAGE_CLOSED] > 0);
 }
 
 /* If the half thickness is the passage's distance, nothing joins the ends. If the half thickness is smaller, a path joins them.
@@ -176,7 +176,7 @@ TEST(meshes_have_the_passage_of_the_serial_search) {
 TEST(the_distance_is_what_just_closes) {
   static const int32_t ids[18] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
   double xyz[54];
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < trials_of(60); ++trial) {
     const int owned_before = n_owned();
     static const double lower[3] = {-1, -1, -1}, upper[3] = {1, 1, 1};
     double spacing;
@@ -238,7 +238,7 @@ TEST(a_hole_is_found_where_it_is) {
   const test_mesh nodes = tube(1.2, -1, 1, 0.05);
   riis_mesh *mesh = mesh_from(&nodes);
   const ends e = {1, 1, {node_at(&nodes, 0, 0, -1)}, {node_at(&nodes, 0, 0, 1)}};
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < trials_of(24); ++trial) {
     const int owned_before = n_owned();
     const int64_t i = random_integer(-14, 14), k = random_integer(-14, 14);
     const double radius = random_between(&rng, 0.15, 0.4), place[2] = {0.05 * (double)i, 0.05 * (double)k};
@@ -334,7 +334,7 @@ TEST(a_pierced_leaflet_is_found_where_it_is) {
   options.tolerance = 0.01; /* the triangles are small, so the hole is hardly larger than the ball */
   riis_surface *valve = new_surface(aortic_with_free_edges_at(0.02), &options);
   const riis_triangles all = triangles_of(valve);
-  for (int trial = 0; trial < fewer_if_sanitized(8); ++trial) {
+  for (int trial = 0; trial < trials_of(24); ++trial) {
     const int owned_before = n_owned();
     const double radius = random_between(&rng, 0.2, 0.3), *centre = centre_of_hole(&all);
     double reach;

@@ -118,7 +118,7 @@ static plate new_plate(double spin, const double *along) {
 /* In a flow u the force on the plate is (R / eps) u A, and it acts at the plate's centre. For a leaflet, or for a strip along
  * an edge, the formula holds with its area. */
 TEST(a_closed_plate_takes_the_drop) {
-  for (int trial = 0; trial < fewer_if_sanitized(6); ++trial) {
+  for (int trial = 0; trial < trials_of(18); ++trial) {
     const double u[3] = {between(-1, 1), between(-1, 1), between(-2, 2)}, r = pow(10, between(-2, 4));
     const plate p = new_plate(0, u);
     const double about[3] = {between(-9, 9), between(-9, 9), between(-9, 9)};
@@ -164,7 +164,7 @@ TEST(a_closed_plate_takes_the_drop) {
  * about the hinge is (R / eps) spin w a^3 / 3, against the spin. The sum over cells gives the integral of a^2 times the factor
  * 1 - (h / 2a)^2. The power of the forces at the nodes must be the moment times the spin. */
 TEST(a_hinged_plate_has_its_moment) {
-  for (int trial = 0; trial < fewer_if_sanitized(6); ++trial) {
+  for (int trial = 0; trial < trials_of(18); ++trial) {
     static const double rest[3] = {0, 0, 0};
     const double spin = between(-5, 5), r = pow(10, between(-2, 4));
     const plate p = new_plate(spin, rest);
@@ -408,9 +408,9 @@ static void check_case(int kind, int32_t triangulation, int trial) {
 }
 
 TEST(sums_are_those_of_plain_loops) {
-  for (int kind = 0; kind < n_kinds; ++kind)
+  for (int kind = 0; kind < n_kinds; kind += trial_step())
     for (int32_t how = RIIS_TRIANGULATION_ADAPTED; how <= RIIS_TRIANGULATION_FIXED; ++how)
-      for (int trial = 0; trial < (is_sanitized() ? 1 : 3); ++trial) {
+      for (int trial = 0; trial < trials_of(9); ++trial) {
         if (kind == 6 && how == RIIS_TRIANGULATION_FIXED) continue;
         const int owned_before = n_owned();
         check_case(kind, how, trial + kind);
@@ -433,7 +433,7 @@ TEST(leaflets_of_symmetric_valves_share_alike) {
                 {"coapting", 3, 0, 0.04},
                 {"bileaflet", 2, 0, 0.03},
                 {"bileaflet", 2, 0.5, 0.0005}};
-  for (int i = 0; i < (int)(sizeof valves / sizeof *valves); ++i)
+  for (int i = 0; i < (int)(sizeof valves / sizeof *valves); i += trial_step())
     for (int32_t how = RIIS_TRIANGULATION_ADAPTED; how <= RIIS_TRIANGULATION_FIXED; ++how) {
       const int owned_before = n_owned();
       riis_surface_options options = surface_options();

@@ -185,7 +185,7 @@ static riis_mark_list fields_of(const flow *f) {
 /* Compares K, K times the surface's velocity, and the force with a plain loop over all nodes, whatever fields the marking
  * keeps. */
 TEST(sums_are_those_of_plain_loops) {
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned();
     const double limit = trial % 3 ? between(0.1, 0.25) : 0;
     flow f = random_flow(trial % 4 == 3 ? RIIS_FIELD_RIM : all_fields, limit);
@@ -249,7 +249,7 @@ TEST(sums_are_those_of_plain_loops) {
 /* The result's lists and the arrays have the same K and K u, to the last bit. Arrays by component and arrays with gaps get
  * the same bits. Both lists contain K and K u, and the marking does not need the field of velocities for this. */
 TEST(lists_and_layouts_have_the_same_bits) {
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned();
     const double limit = trial % 3 ? between(0.11, 0.25) : 0.1;
     const int moves = trial % 4 != 3;
@@ -308,7 +308,7 @@ TEST(lists_and_layouts_have_the_same_bits) {
 
 /* The force on the surface is the momentum that the flow loses. Ranks that share the nodes add their parts. */
 TEST(ranks_add_up) {
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < trials_of(24); ++trial) {
     const int owned_before = n_owned();
     flow f = random_flow(all_fields, 0.2);
     const int64_t n = f.nodes.n;
@@ -377,7 +377,7 @@ TEST(two_surfaces_add_up) {
 
 TEST(band_sums_are_those_of_a_plain_loop) {
   int64_t n_rim = 0;
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned();
     flow f = random_flow(all_fields, 0.25);
     const found_nodes within = within_in(f.result);
@@ -410,7 +410,7 @@ TEST(band_sums_are_those_of_a_plain_loop) {
     }
     free_owned_after(owned_before);
   }
-  assert_true(n_rim > 100);
+  CHECK_MET(n_rim > 100);
 }
 
 /* The pressure jumps across the surface. The mean on each side is the pressure there. */

@@ -154,7 +154,7 @@ static void check_searches(const riis_surface *surface, const test_mesh *from, c
 
 TEST(valves_have_the_means_of_their_leaflets) {
   tie_counts all = {0, 0, 0, 0, 0};
-  for (int trial = 0; trial < fewer_if_sanitized(2 * n_kinds); ++trial) {
+  for (int trial = 0; trial < trials_of(6 * n_kinds); ++trial) {
     const int owned_before = n_owned();
     const double now = trial < n_kinds ? 0 : between(0, 1), before = between(0, 1);
     riis_surface_options options = surface_options();
@@ -180,7 +180,7 @@ TEST(valves_have_the_means_of_their_leaflets) {
 /* Random triangles occur three times, with permuted coordinates. Nodes on the diagonal are equally far from all three. */
 TEST(three_leaflets_of_arrays_count_alike) {
   tie_counts all = {0, 0, 0, 0, 0};
-  for (int trial = 0; trial < fewer_if_sanitized(30); ++trial) {
+  for (int trial = 0; trial < trials_of(90); ++trial) {
     const int owned_before = n_owned();
     const int64_t n = 1 + any_of(40), n_nodes = 600;
     double *xyz, *velocity = own(malloc((size_t)n * 27 * sizeof *velocity));
@@ -257,7 +257,7 @@ static double largest_difference(const double *a, const double *b, size_t n) {
 }
 
 TEST(rounding_does_not_change_k_u) {
-  for (int trial = 0; trial < fewer_if_sanitized(4 * n_kinds); ++trial) {
+  for (int trial = 0; trial < trials_of(12 * n_kinds); ++trial) {
     const int owned_before = n_owned();
     const char *kind = kinds[trial % n_kinds];
     const double now = trial < n_kinds ? 0 : between(0, 1), before = trial < 2 * n_kinds ? 0.01 : between(0, 1);
@@ -307,7 +307,7 @@ TEST(reaction_takes_the_means) {
 /* If the same triangles form one leaflet from arrays, there are no ties. Each node has the velocity of its closest triangle. */
 TEST(other_nodes_have_the_closest_triangle_s) {
   int64_t n_single = 0, n_other = 0;
-  for (int trial = 0; trial < fewer_if_sanitized(2 * n_kinds); ++trial) {
+  for (int trial = 0; trial < trials_of(6 * n_kinds); ++trial) {
     const int owned_before = n_owned();
     riis_surface_options options = surface_options();
     options.tolerance = 0.2;
@@ -338,7 +338,7 @@ TEST(other_nodes_have_the_closest_triangle_s) {
     }
     free_owned_after(owned_before);
   }
-  assert_true(n_single > 1000 && n_other > 10);
+  CHECK_MET(n_single > 1000 && n_other > 10);
 }
 
 /* The sheets are z = 0 and z = 2. A node is nearer to one of them by a given fraction of the half thickness. */

@@ -96,7 +96,7 @@ static riis_surface *valve_surface(const char *kind, double opening, int32_t dis
 TEST(valves_leak_where_the_loop_says) {
   static const char *const kinds[2] = {"aortic", "mitral"};
   int64_t n_leaking[3] = {0, 0, 0};
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned();
     riis_surface *surface = valve_surface(kinds[trial % 2], 0, (int32_t)(trial % 3));
     test_mesh nodes = mesh_round(surface, trial < 6 ? 0.27 : 0.24);

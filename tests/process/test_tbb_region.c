@@ -51,7 +51,7 @@ static void expect_same_as_outside(int region) {
   assert_true(marked_in(expected).n > 1000);
   int most_at_once = 0;
   for (int count = 0; count < 4; ++count)
-    for (int repeat = 0; repeat < fewer_if_sanitized(3); ++repeat) {
+    for (int repeat = 0; repeat < trials_of(9); ++repeat) {
       /* The mesh is new each time, so one of the tasks has to prepare it. */
       free_one_owned(mesh);
       mesh = mesh_from(&nodes);

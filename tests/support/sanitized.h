@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Defines IS_SANITIZED if the address or the thread sanitizer replaces the allocator; gcc and clang report this differently. A
- * sanitizer checks memory and undefined operations. A third of the random trials is enough for that. */
+ * Defines IS_SANITIZED if the address or the thread sanitizer replaces the allocator; gcc and clang report this differently. */
 #ifndef RIIS_TEST_SANITIZED_H
 #define RIIS_TEST_SANITIZED_H
 
@@ -19,8 +18,5 @@ static inline int is_sanitized(void) {
   return 0;
 #endif
 }
-
-/* Returns how many of n trials to make. */
-static inline int fewer_if_sanitized(int n) { return is_sanitized() ? (n + 2) / 3 : n; }
 
 #endif

@@ -72,7 +72,7 @@ static riis_valve *state_by_hand(const riis_valve *valve, double radius_ratio, d
 /* At any opening, the surface equals the surface of a valve that was given the same open state. */
 TEST(state_is_the_one_of_the_formulas) {
   random_source random = random_start("test_aortic_opening");
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < trials_of(60); ++trial) {
     const int owned_before = n_owned();
     double ratio = 0.75, expansion = 0.05;
     riis_valve *valve = new_valve("aortic");

@@ -68,7 +68,7 @@ static int is_held(const char *kind, int32_t patch_id, const double *uv) {
 
 TEST(edges_are_those_of_one_triangle_on_the_side) {
   static const char *const kinds[4] = {"aortic", "trileaflet", "mitral", "coapting"};
-  for (int trial = 0; trial < 24; ++trial) {
+  for (int trial = 0; trial < trials_of(72); ++trial) {
     const int owned_before = n_owned();
     const char *kind = kinds[trial / 2 % 4];
     const riis_surface_options options = placed(trial % 2, between(0.5, 2));
@@ -113,7 +113,7 @@ TEST(edges_are_those_of_one_triangle_on_the_side) {
 /* Each of three equal cusps has two mirrored halves. Their lines go from a root to a commissure, where the next cusp begins. The
  * mitral annulus is one loop of both leaflets. In each case every end of an edge is also an end of another edge. */
 TEST(attachments_are_closed_lines) {
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned();
     const int is_mitral = trial % 3 == 2;
     const riis_surface_options options = placed(trial % 2, between(0.5, 2));
@@ -149,7 +149,7 @@ TEST(attachments_are_closed_lines) {
 /* The attachment of a square patch is its side v = 0. A bent side has several edges. A side that two patches share does not
  * belong to the attachment. A bileaflet valve has no attachment. */
 TEST(patches_are_held_at_v_0) {
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < trials_of(24); ++trial) {
     const riis_surface_options options = placed(trial % 2, 2);
     shape squares = unit_square();
     squares.leaflet_id[0] = 3;

@@ -38,7 +38,7 @@ TEST(defaults_are_as_documented) {
 TEST(half_discs_have_their_distances) {
   const double tolerance[3] = {0.05, 1e-3, 1e-5};
   double largest[3] = {0, 0, 0};
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned(), t = trial % 3;
     bileaflet of = random_bileaflet(&rng, 0);
     of.gap = 0;
@@ -67,7 +67,7 @@ TEST(half_discs_have_their_distances) {
 
 /* Leaflets that are half ellipses, with slits between them, at any opening. */
 TEST(leaflets_have_their_distances) {
-  for (int trial = 0; trial < 30; ++trial) {
+  for (int trial = 0; trial < trials_of(90); ++trial) {
     const int owned_before = n_owned();
     const bileaflet of = random_bileaflet(&rng, trial % 2 ? 80 : 40);
     riis_surface_options options = surface_options();
@@ -102,7 +102,7 @@ TEST(other_distances_are_right_too) {
 }
 
 TEST(areas_are_those_of_ellipses) {
-  for (int trial = 0; trial < 40; ++trial) {
+  for (int trial = 0; trial < trials_of(120); ++trial) {
     const int owned_before = n_owned();
     const bileaflet of = random_bileaflet(&rng, 80);
     riis_surface_options options = surface_options();
@@ -118,7 +118,7 @@ TEST(areas_are_those_of_ellipses) {
 /* The rim of closed leaflets lies on the housing. Their middle edges are straight, at half a gap from the plane x = 0.
  * In a closed valve x was not rotated, so it is exactly 0 without a gap. */
 TEST(closed_leaflets_fill_the_housing) {
-  for (int trial = 0; trial < 40; ++trial) {
+  for (int trial = 0; trial < trials_of(120); ++trial) {
     const int owned_before = n_owned();
     bileaflet of = random_bileaflet(&rng, 80);
     of.opening = 0;
@@ -137,7 +137,7 @@ TEST(closed_leaflets_fill_the_housing) {
 
 /* As the leaflets open, the corners of their middle edges leave the housing: docs/theory/bileaflet.md. */
 TEST(open_leaflets_reach_beyond_the_housing) {
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < trials_of(60); ++trial) {
     const int owned_before = n_owned();
     bileaflet of = trial ? random_bileaflet(&rng, 60) : bileaflet_defaults();
     of.gap = 0, of.opening = 1;
@@ -160,7 +160,7 @@ TEST(open_leaflets_reach_beyond_the_housing) {
 /* The patches are four images of one half leaflet. Closed leaflets without a gap have the same bits where they meet. */
 TEST(images_are_images) {
   static const double sign[4][2] = {{1, 1}, {1, -1}, {-1, -1}, {-1, 1}};
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < trials_of(60); ++trial) {
     const int owned_before = n_owned();
     bileaflet of = random_bileaflet(&rng, 80);
     if (trial % 2) of.opening = 0, of.gap = 0;
@@ -192,7 +192,7 @@ static void area_vector(const riis_triangles *c, int64_t triangle, double *norma
 /* Every triangle's normal is its plane's normal. It points downstream in the closed valve, and towards the axis in the open
  * valve. */
 TEST(normals_point_downstream) {
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < trials_of(60); ++trial) {
     const int owned_before = n_owned();
     bileaflet of = random_bileaflet(&rng, 80);
     const riis_surface *surface = bileaflet_surface(&of, NULL);
@@ -219,7 +219,7 @@ TEST(normals_point_downstream) {
 
 /* The ring is a closed cylinder that does not move, half of it on each side of the orifice plane. */
 TEST(a_ring_is_the_housing) {
-  for (int trial = 0; trial < 10; ++trial) {
+  for (int trial = 0; trial < trials_of(30); ++trial) {
     const int owned_before = n_owned();
     bileaflet of = random_bileaflet(&rng, 60), without = of;
     of.ring_height = random_between(&rng, 0.01, 1) * of.radius;

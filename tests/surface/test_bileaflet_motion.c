@@ -50,7 +50,7 @@ static void spin_velocity(const bileaflet *of, int32_t leaflet_id, const double 
 }
 
 TEST(vertices_and_closest_points_turn_exactly) {
-  for (int trial = 0; trial < 30; ++trial) {
+  for (int trial = 0; trial < trials_of(90); ++trial) {
     const int owned_before = n_owned();
     bileaflet of = random_bileaflet(&rng, 80);
     if (trial % 3 == 0) of.ring_height = 0.5 * of.radius;
@@ -175,7 +175,7 @@ static int leaks(const bileaflet *of, double spacing, double half_thickness) {
  * thickness of 0.55 spacings therefore seals: half a spacing plus the tolerance. */
 TEST(a_closed_valve_seals_its_housing) {
   static const double angle[4] = {0, 25, 30, 45};
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < trials_of(24); ++trial) {
     bileaflet of = bileaflet_defaults();
     of.closed_angle = angle[trial % 4];
     of.hinge_offset = random_between(&rng, 0, 0.9);
@@ -262,7 +262,7 @@ TEST(fixed_triangles_stay) {
 /* A second state changes all numbers. The angle then goes from the first state's closed angle to the second state's open
  * angle. */
 TEST(numbers_blend_to_a_second_state) {
-  for (int trial = 0; trial < 10; ++trial) {
+  for (int trial = 0; trial < trials_of(30); ++trial) {
     const int owned_before = n_owned();
     bileaflet from = random_bileaflet(&rng, 40), to = random_bileaflet(&rng, 40);
     from.open_angle = random_between(&rng, 41, 90), to.open_angle = random_between(&rng, 41, 90);

@@ -74,7 +74,7 @@ TEST(openings_have_their_areas) {
   const int n_trials = is_long_test() ? 8 * 4 * n_kinds : 2 * n_kinds;
   double worst[2] = {0, 0};
   int64_t most_surfaces = 0;
-  for (int trial = 0; trial < n_trials; trial += is_sanitized() ? 3 : 1) {
+  for (int trial = 0; trial < n_trials; trial += trial_step()) {
     const int kind = trial % n_kinds, is_fixed = trial / n_kinds % 2;
     const double scale = exp(between(log(0.01), log(10)));
     const riis_surface_options options =
@@ -149,7 +149,7 @@ static double area_by_raster(const riis_surface *surface) {
 
 TEST(openings_have_the_areas_of_a_raster) {
   static const double wanted[n_kinds] = {2.5, 3, 1.8, 1.5, 2};
-  for (int kind = 0; kind < n_kinds; ++kind) {
+  for (int kind = 0; kind < n_kinds; kind += trial_step()) {
     riis_valve *valve = new_valve(kinds[kind]);
     riis_area_search search = area_search();
     search.n_samples = kind == 0 ? 33 : 5;
@@ -165,7 +165,7 @@ TEST(openings_have_the_areas_of_a_raster) {
 
 /* Areas grow with the square of the scale. So do effective areas, if the half thickness grows with the scale. */
 TEST(scales_are_roots_of_areas) {
-  for (int trial = 0; trial < (is_long_test() ? 4 : 1) * n_kinds; trial += is_sanitized() ? 3 : 1) {
+  for (int trial = 0; trial < (is_long_test() ? 4 : 1) * n_kinds; trial += trial_step()) {
     const double scale = between(0.5, 2), factor = between(0.2, 5);
     const riis_surface_options options = oblique(scale, trial / 2 % 2);
     riis_area_search search = area_search();
@@ -201,7 +201,7 @@ TEST(sizes_have_their_areas) {
   } sizes[] = {{"trileaflet", "annulus"},        {"trileaflet", "root_radius"}, {"coapting", "root_radius"},
                {"mitral", "ALPM_diameter"},      {"bileaflet", "radius"},       {"bileaflet", "open_angle"},
                {"aortic", "right.leaflet_angle"}};
-  for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i) {
+  for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i += (size_t)trial_step()) {
     if (i % 2 && !is_long_test()) continue;
     riis_valve *valve = new_valve(sizes[i].kind);
     riis_area_search search = area_search();
@@ -236,7 +236,7 @@ TEST(a_cycle_is_recovered) {
   riis_area_search search = area_search();
   search.surface = &options;
   search.n_samples = 9;
-  for (int kind = 2; kind < 4; ++kind) {
+  for (int kind = 2; kind < 4; kind += trial_step()) {
     riis_valve *valve = new_valve(kinds[kind]);
     double time[n], opening[n], area[n], found[n], rate;
     for (int i = 0; i < n; ++i) {
@@ -343,7 +343,7 @@ TEST(turns_are_told) {
 
 /* The area 0 stands for the closed valve, even if slits remain. */
 TEST(no_area_closes) {
-  for (int kind = 0; kind < n_kinds; ++kind) {
+  for (int kind = 0; kind < n_kinds; kind += trial_step()) {
     riis_area_search search = area_search();
     search.n_samples = 3;
     const solution closed = solve(new_valve(kinds[kind]), "opening", 0, &search);

@@ -48,7 +48,7 @@ TEST(aortic_valve_equals_the_oracle) {
 }
 
 TEST(random_soups_equal_the_oracle) {
-  for (int trial = 0; trial < 40; ++trial) {
+  for (int trial = 0; trial < trials_of(120); ++trial) {
     const int owned_before = n_owned();
     const int64_t n = 1 + (int64_t)(random_bits(&rng) % 300);
     double *xyz;
@@ -308,7 +308,7 @@ TEST(closest_is_consistent) {
   const int64_t n = triangles_of(surface).n_triangles;
   const int64_t *vertex_id = triangles_of(surface).vertex_id;
   const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
-  for (int trial = 0; trial < 3000; ++trial) {
+  for (int trial = 0; trial < trials_of(9000); ++trial) {
     const double p[3] = {random_between(&rng, -1.6, 1.6), random_between(&rng, -1.6, 1.6),
                          random_between(&rng, -1.1, 0.2)};
     const riis_closest c = closest_to(surface, p[0], p[1], p[2]);

@@ -331,7 +331,7 @@ static double largest_crease(const half *of) {
 /* Every vertex is at the oracle's place for its label, within the bound of the surface's error. */
 TEST(vertices_are_where_the_formulas_say) {
   random_source random = random_start("test_coapting");
-  for (int trial = 0; trial < fewer_if_sanitized(12); ++trial) {
+  for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned();
     riis_surface_options options = surface_options();
     options.tolerance = 0.01;
@@ -367,7 +367,7 @@ TEST(vertices_are_where_the_formulas_say) {
 /* The sizes that the parameters promise, and the coaptation zone beside the planes between the cusps. */
 TEST(closed_cusps_coapt) {
   random_source random = random_start("test_coapting");
-  for (int trial = 0; trial < fewer_if_sanitized(10); ++trial) {
+  for (int trial = 0; trial < trials_of(30); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = trial ? random_valve(&random) : new_valve("coapting");
     const sizes v = sizes_of(valve);
@@ -507,7 +507,7 @@ TEST(a_nearly_tangent_leaflet_does_not_cross) {
  * for random sizes. Cusps meet in the commissures in the same bits. */
 TEST(cusps_are_equal) {
   random_source random = random_start("test_coapting");
-  for (int trial = 0; trial < 6; ++trial) {
+  for (int trial = 0; trial < trials_of(18); ++trial) {
     const int owned_before = n_owned();
     riis_surface_options options = surface_options();
     options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
@@ -571,7 +571,7 @@ TEST(random_valves_open_well) {
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));
   own(crossings);
-  const int n = is_long_test() ? 300 : 8;
+  const int n = trials(8, 300);
   double low = 1, high = 1, creases[2] = {0, 0}, least_opening = 9;
   int64_t n_crossing = 0, n_shallow = 0, n_wrong = 0;
   n_refused = 0;
@@ -627,7 +627,7 @@ TEST(random_valves_open_well) {
 /* A flood fill over a grid finds no way through closed valves with a cylindrical root, and a way through open ones. */
 TEST(closes_cylinders) {
   random_source random = random_start("test_coapting");
-  const int n = is_long_test() ? 20 : 2;
+  const int n = trials(2, 20);
   for (int trial = 0; trial < n; ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = trial ? random_valve(&random) : new_valve("coapting");
@@ -663,7 +663,7 @@ TEST(path_is_smooth) {
   random_source random = random_start("test_coapting");
   riis_surface_options options = surface_options();
   options.triangulation = RIIS_TRIANGULATION_FIXED;
-  for (int trial = 0; trial < fewer_if_sanitized(3); ++trial) {
+  for (int trial = 0; trial < trials_of(9); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = trial ? random_valve(&random) : new_valve("coapting");
     riis_surface *at[5];
@@ -826,7 +826,7 @@ TEST(every_parameter_by_name) {
 /* Sizes that are not set follow from others, in any order of settings, and the shape scales with them. */
 TEST(sizes_follow) {
   random_source random = random_start("test_coapting");
-  for (int trial = 0; trial < 10; ++trial) {
+  for (int trial = 0; trial < trials_of(30); ++trial) {
     const double r = random_between(&random, 0.2, 20), rc = r * random_between(&random, 0.8, 1.2);
     riis_valve *valve = new_valve("coapting");
     double value;

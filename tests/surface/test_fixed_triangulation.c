@@ -123,7 +123,7 @@ static void check_distances(riis_valve *valve) {
   options = surface_options();
   options.tolerance = 0.002;
   riis_surface *fine = new_surface(valve, &options);
-  for (int i = 0; i < fewer_if_sanitized(20); ++i) {
+  for (int i = 0; i < trials_of(60); ++i) {
     set_opening(valve, i < 2 ? i : between(0, 1));
     CHECK_OK(riis_surface_update(fixed, valve, NULL));
     CHECK_OK(riis_surface_update(fine, valve, NULL));
@@ -230,7 +230,7 @@ TEST(flat_mitral_leaflets_stay_within_the_bound) {
 TEST(openings_of_the_choice_are_never_refused) {
   rng = random_start("test_fixed_triangulation");
   const riis_surface_options defaults = fixed_options();
-  for (int trial = 0; trial < fewer_if_sanitized(30); ++trial) {
+  for (int trial = 0; trial < trials_of(90); ++trial) {
     const int owned_before = n_owned();
     shape made[2] = {{0}, {0}};
     for (int k = 0; k < 2; ++k) {

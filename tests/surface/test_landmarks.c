@@ -179,7 +179,7 @@ static patient trileaflet(double R, double Rc, double h) {
 }
 
 TEST(test_exact_trileaflet) {
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < trials_of(180); ++trial) {
     const double R = between(0.7, 1.6), Rc = between(0.7, 1.5), h = between(0.8, 2.2);
     patient p = trileaflet(R, Rc, h);
     if (trial % 3 == 0) add(&p, RIIS_LANDMARK_COAPTATION, 0, 0, between(0.2, 0.8) * h);
@@ -229,7 +229,7 @@ TEST(test_exact_trileaflet) {
 
 /* A coapting valve has the same landmarks. The sizes that follow from these stay tied to them. */
 TEST(test_exact_coapting) {
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < trials_of(60); ++trial) {
     const double R = between(1, 1.4), Rc = R * between(0.95, 1.05), h = 1.4 * Rc * between(0.97, 1.05);
     patient p = trileaflet(R, Rc, h);
     place_patient(&p, scales[trial % 3]);
@@ -340,7 +340,7 @@ static patient aortic(double R, const double *Rc, double h, const double *angle)
 
 TEST(test_exact_aortic) {
   static const char *const cusps[3] = {"right", "left", "non_coronary"};
-  for (int trial = 0; trial < 40; ++trial) {
+  for (int trial = 0; trial < trials_of(120); ++trial) {
     const double R = between(0.9, 1.6), end = between(1.0, 1.6), h = between(0.9, 1.5), Rc[3] = {end, end, end};
     double angle[3] = {between(54, 66), between(54, 66), 0};
     angle[2] = 180 - angle[0] - angle[1];
@@ -431,7 +431,7 @@ static void add_commissures(patient *p, double anterior_ratio, const double *siz
 }
 
 TEST(test_exact_mitral) {
-  for (int trial = 0; trial < 9; ++trial) {
+  for (int trial = 0; trial < trials_of(27); ++trial) {
     double sizes[n_sizes], ratio;
     patient p = mitral(16, trial % 2 == 1, sizes, &ratio);
     const bool has_more = trial % 3 != 0;
@@ -514,7 +514,7 @@ TEST(test_noisy_mitral) {
 /* ---- Bileaflet ---- */
 
 TEST(test_exact_bileaflet) {
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < trials_of(60); ++trial) {
     const double R = between(0.8, 1.4), offset = between(0.1, 0.4), height = between(-0.1, 0.2);
     patient p = empty_patient();
     for (int i = 0; i < 5; ++i) add_around(&p, RIIS_LANDMARK_ANNULUS, R, 72 * i + between(-20, 20), 0);

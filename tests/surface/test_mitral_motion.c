@@ -214,7 +214,7 @@ static compared compare(const states *now, const states *before, double seconds,
  * corners. */
 TEST(vertices_move_as_the_oracles) {
   double share = 0;
-  for (int trial = 0; trial < trials_of(fewer_if_sanitized(40)); ++trial) {
+  for (int trial = 0; trial < trials_of(40); ++trial) {
     const double opening = random_between(&rng, 0, 1), opening_before = random_between(&rng, 0, 1);
     const double tolerance = pow(10, random_between(&rng, -1.7, -0.5));
     const double seconds = (trial % 2 ? 1 : -1) * pow(10, random_between(&rng, -3, 1));
@@ -290,7 +290,7 @@ TEST(no_vertex_is_an_outlier) {
   options.n_threads = 1;
   riis_surface *surface = new_surface(valve, &options);
   double largest = 0;
-  for (int i = 1; i <= 1000; i += is_sanitized() ? 9 : 1) {
+  for (int i = 1; i <= 1000; i += trial_step()) {
     CHECK_OK(riis_valve_set_scalar(before, "opening", 0.001 * (i - 1)));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", fmin(1, 0.001 * i)));
     CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.001, NULL, NULL));

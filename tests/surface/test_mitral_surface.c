@@ -288,7 +288,7 @@ static double least_step(const riis_triangles *c, int32_t patch, double *longer)
 TEST(has_no_slivers) {
   random_source rng = random_start("test_mitral_surface");
   double least = 1e30;
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < trials_of(180); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = mitral_valve(trial % 3 == 0 ? 0 : random_between(&rng, 0, 1));
     for (int i = 0; i < 16; ++i)

@@ -347,7 +347,7 @@ TEST(patches_grow_and_drift) {
 
 /* The same two states with a negative time give the opposite velocities, to the last bit. */
 TEST(time_goes_back) {
-  for (int trial = 0; trial < fewer_if_sanitized(15); ++trial) {
+  for (int trial = 0; trial < trials_of(45); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = random_valve(trial % 3), *before = copy_of(valve);
     riis_surface_options options = surface_options(), then = surface_options();
@@ -367,7 +367,7 @@ TEST(time_goes_back) {
 /* A vertex that is moved back by its velocity is a point of the earlier surface, on the same patch at the same u and v. */
 TEST(vertices_come_from_their_place_before) {
   double worst = 0, worst_uv = 0;
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = random_valve(0), *before = copy_of(valve);
     riis_surface_options options = surface_options(), then;

@@ -34,7 +34,7 @@ static riis_orifice orifice_of(const riis_surface *surface, const riis_resistanc
 
 enum { n_kinds = 5 };
 static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet", "coapting"};
-static int n_trials(void) { return is_long_test() ? 2 * n_kinds : fewer_if_sanitized(n_kinds); }
+static int n_trials(void) { return trials(n_kinds, 2 * n_kinds); }
 
 static riis_valve *valve_at(int kind, double opening) {
   riis_valve *valve = new_valve(kinds[kind]);
@@ -320,7 +320,7 @@ TEST(leaflets_share_the_surface) {
 }
 
 TEST(leaks_are_ideal) {
-  for (int trial = 0; trial < 10; ++trial) {
+  for (int trial = 0; trial < trials_of(30); ++trial) {
     riis_surface_options options = surface_options();
     options.half_thickness = between(0.05, 0.2);
     const riis_surface *surface = new_surface(valve_at(trial % n_kinds, 0), &options);

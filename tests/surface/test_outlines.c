@@ -89,7 +89,7 @@ static double length_of_commissure(const riis_surface *surface) {
  * and these edges do not count as boundary. The attachment is the outline. */
 TEST(arrays_have_the_edges_of_their_valve) {
   static const char *const kinds[3] = {"trileaflet", "aortic", "mitral"};
-  for (int trial = 0; trial < fewer_if_sanitized(12); ++trial) {
+  for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned(), kind = trial % 3;
     riis_valve *valve = new_valve(kinds[kind]);
     if (kind == 0) CHECK_OK(riis_valve_set_scalar(valve, "leaflet_height", between(1.3, 1.6)));
@@ -235,7 +235,7 @@ static riis_surface *plates(double w, double turn, double x, double z, const rii
 }
 
 TEST(contacts_have_known_areas) {
-  for (int trial = 0; trial < trials_of(fewer_if_sanitized(6)); ++trial) {
+  for (int trial = 0; trial < trials_of(6); ++trial) {
     const riis_surface_options options = oblique();
     const double s = options.scale, reach = between(0.05, 0.2), w = between(1, 2);
     /* Parallel plates touch over their overlap, widened by sqrt(reach^2 - distance^2). */

@@ -166,7 +166,7 @@ static void check_sample(int kind, int opening, int share, int how) {
 TEST(leaflets_that_do_not_touch_have_an_orifice) {
   const int n_all = n_kinds * n_openings * n_shares;
   if (!is_long_test()) {
-    for (int trial = 0; trial < 20; ++trial)
+    for (int trial = 0; trial < trials_of(60); ++trial)
       check_sample(trial % n_kinds, (int)between(0, n_openings), trial / n_kinds % n_shares, (int)between(0, 8));
     return;
   }

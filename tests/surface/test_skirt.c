@@ -105,12 +105,12 @@ static void outwards_from(const axis_line *axis, const double *p, double *out) {
   for (int c = 0; c < 3; ++c) out[c] = q[c] / size;
 }
 
-/* Every kind of valve is tested with both triangulations. With a sanitizer, each kind is tested once. */
+/* With RIIS_TEST_LONG=1 each kind of valve has both triangulations. */
 static int n_trials_of_kinds(void) { return is_long_test() ? 2 * n_skirted : n_skirted; }
 
 /* Checks the vertices of both edges of the skirt. */
 TEST(the_outer_edge_is_the_length_away) {
-  for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
+  for (int trial = 0; trial < n_trials_of_kinds(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;
     const double length = between(0.02, 0.3);
     riis_valve *valve = skirted_valve(kind, length, trial % 2 ? between(0, 1) : 0);
@@ -168,7 +168,7 @@ TEST(the_outer_edge_is_the_length_away) {
 
 /* The skirt comes after the leaflets, which stay as they are. */
 TEST(leaflets_stay_as_they_are) {
-  for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
+  for (int trial = 0; trial < n_trials_of_kinds(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
     const double opening = trial < n_skirted ? 0 : between(0, 1);
     const uint64_t seed = rng.state;
@@ -205,7 +205,7 @@ TEST(leaflets_stay_as_they_are) {
 /* Along the attachment, the leaflets' edges and the skirt's edges run in opposite directions. Normals therefore point the same
  * way on both sides. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, to the last bit. */
 TEST(the_skirt_continues_the_leaflets) {
-  for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
+  for (int trial = 0; trial < n_trials_of_kinds(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;
     riis_valve *valve = skirted_valve(kind, between(0.05, 0.2), trial % 2 ? between(0, 1) : 0);
     const riis_surface_options options =
@@ -241,7 +241,7 @@ TEST(skirts_cross_nothing) {
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));
   own(crossings);
-  const int n_trials = is_long_test() ? 100 * n_skirted : n_skirted;
+  const int n_trials = trials(n_skirted, 100 * n_skirted);
   for (int trial = 0; trial < n_trials; ++trial) {
     const int kind = trial % n_skirted;
     const double length = between(0.05, 0.25);
@@ -263,7 +263,7 @@ TEST(skirts_cross_nothing) {
 
 /* The side of a point beside the skirt follows the skirt's normals. */
 TEST(sides_are_right_beside_the_skirt) {
-  for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
+  for (int trial = 0; trial < n_trials_of_kinds(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
     riis_surface_options options = random_placement(trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
     const riis_surface *surface =
@@ -568,7 +568,7 @@ static double largest_step(riis_valve *valve, riis_warp *warp, int n, const doub
 /* The gap to a round tube is the root of a quadratic equation. A skirt to that tube ends on it, and the leaflets stay the
  * same. */
 TEST(skirts_reach_walls_and_no_farther) {
-  for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
+  for (int trial = 0; trial < n_trials_of_kinds(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
     riis_valve *valve = skirted_valve(kind, 0, 0);
     set_random_sizes(valve, kind);
@@ -778,7 +778,7 @@ TEST(wrong_skirts_are_refused) {
 TEST(skirts_to_cutting_walls_cross_nothing) {
   static const char *const kinds[] = {"coapting", "trileaflet", "aortic", "mitral"};
   static const int as_kind[] = {0, 0, 2, 1}; /* the position in `skirted` of a kind with the same axis */
-  const int n_trials = is_long_test() ? 400 : fewer_if_sanitized(8);
+  const int n_trials = trials(8, 400);
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));
   own(crossings);
@@ -809,14 +809,14 @@ TEST(skirts_to_cutting_walls_cross_nothing) {
     free_owned_after(owned_before);
   }
   printf("%d of %d walls cut the valve\n", n_cut, n_trials);
-  assert_true(n_cut > n_trials / 4);
+  CHECK_MET(n_cut > n_trials / 4);
 }
 
 /* A warped aortic valve's cusps are not joined at the commissures, and its skirts end beside each other there. If a violent warp
  * lets the cusps themselves go through each other, the skirt is not judged. A patch that such a warp folds onto its own skirt
  * is not judged either. */
 TEST(skirts_of_warped_cusps_cross_nothing) {
-  const int n_trials = is_long_test() ? 100 : fewer_if_sanitized(6);
+  const int n_trials = trials(6, 100);
   int n_states = 0, n_judged = 0, n_own = 0;
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));
@@ -859,13 +859,13 @@ TEST(skirts_of_warped_cusps_cross_nothing) {
   }
   printf("%d of %d states have cusps that do not cross; in %d a cusp lies along its own skirt\n", n_judged, n_states,
          n_own);
-  assert_true(n_judged > 0.9 * n_states);
+  CHECK_MET(n_judged > 0.9 * n_states);
 }
 
 /* The ends of two cusps move past each other, and the line between them turns. If the skirt jumped, the jump would be as large in
  * a 64th of the step. */
 TEST(skirts_move_continuously_with_a_warp) {
-  const int n_trials = is_long_test() ? 60 : 4;
+  const int n_trials = trials(4, 60);
   int n_turned = 0; /* by more than 45 degrees */
   for (int trial = 0; trial < n_trials; ++trial) {
     const int owned_before = n_owned();
@@ -930,7 +930,7 @@ TEST(skirts_move_continuously_with_a_warp) {
     free_owned_after(owned_before);
   }
   printf("%d of %d lines between ends turn by more than 45 degrees\n", n_turned, n_trials);
-  assert_true(n_turned > 0);
+  CHECK_MET(n_turned > 0);
 }
 
 static int start(void **state) {

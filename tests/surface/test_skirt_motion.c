@@ -305,7 +305,7 @@ static double across(const riis_triangles *t, const double *was, double seconds,
 /* With a fixed triangulation, the skirt's vertices move with their velocities, except that the lines of a mitral skirt slide
  * along the annulus with the lines of the leaflet. The velocity does not contain this slide. */
 TEST(vertices_of_fixed_skirts_move_with_their_velocities) {
-  for (int kind = 0; kind < n_kinds; kind += is_sanitized() ? 2 : 1) {
+  for (int kind = 0; kind < n_kinds; kind += trial_step()) {
     const int owned_before = n_owned();
     const double seconds = 0.01;
     state_of_skirt then, now;

@@ -103,7 +103,7 @@ static int64_t check_strip(const riis_surface *surface, int64_t n_given, double 
 static double largest_distance(const riis_surface *from, const riis_surface *to, int32_t patch_of_from) {
   const riis_triangles all = triangles_of(from);
   double largest = 0;
-  for (int64_t t = 0; t < all.n_triangles; ++t)
+  for (int64_t t = 0; t < all.n_triangles; t += trial_step())
     for (int k = 0; k < 3; ++k) {
       if (patch_of_from >= 0 ? all.patch_id[t] != patch_of_from : all.leaflet_id[t] != RIIS_LEAFLET_SKIRT) continue;
       const double *p = all.xyz + 3 * all.vertex_id[3 * t + k];
@@ -143,7 +143,7 @@ static const double share_of_length[n_kinds] = {0.005, 0.005, 0.02, 0.1};
 
 TEST(a_valve_that_is_given_back_gets_its_own_skirt) {
   const int n_openings = is_long_test() ? 9 : 3;
-  for (int trial = 0; trial < n_kinds * n_openings * 2; trial += is_sanitized() ? 7 : 1) {
+  for (int trial = 0; trial < n_kinds * n_openings * 2; trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_kinds, is_fixed = trial / n_kinds % 2;
     const double opening = (double)(trial / n_kinds / 2) / (n_openings - 1), length = between(0.05, 0.3);
     const int32_t how = is_fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;

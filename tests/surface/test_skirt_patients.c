@@ -191,7 +191,7 @@ static riis_surface *mitral_patient(riis_valve *valve, riis_surface_options *opt
 
 TEST(skirts_of_patients_reach_the_wall) {
   static const char *const kinds[4] = {"coapting", "trileaflet", "aortic", "mitral"};
-  const int n_trials = is_long_test() ? 100 : 4;
+  const int n_trials = trials(4, 100);
   int n_states = 0, n_with_leaflets = 0, n_folded = 0;
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));

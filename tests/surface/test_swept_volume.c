@@ -29,7 +29,7 @@ static void set(riis_valve *valve, const char *name, double value) {
 
 enum { n_kinds = 5 };
 static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet", "coapting"};
-static int n_trials(void) { return is_long_test() ? 2 * n_kinds : fewer_if_sanitized(n_kinds); }
+static int n_trials(void) { return trials(n_kinds, 2 * n_kinds); }
 
 /* A valve of a kind with some of its own parameters. */
 static riis_valve *random_valve(int kind) {
@@ -116,7 +116,7 @@ static double value_of(const riis_valve *valve, const char *name) {
 
 /* A leaflet that turns about its hinge sweeps the angle times the moment of its area about the hinge. */
 TEST(rigid_leaflets_sweep_their_moments) {
-  for (int trial = 0; trial < fewer_if_sanitized(20); ++trial) {
+  for (int trial = 0; trial < trials_of(60); ++trial) {
     riis_valve *valve = new_valve("bileaflet");
     set(valve, "closed_angle", between(15, 45));
     set(valve, "open_angle", between(70, 90));
@@ -138,7 +138,7 @@ TEST(rigid_leaflets_sweep_their_moments) {
 
 /* A square that translates sweeps its area times the shift along its normal. */
 TEST(squares_sweep_boxes) {
-  for (int trial = 0; trial < 10; ++trial) {
+  for (int trial = 0; trial < trials_of(30); ++trial) {
     const shape closed = unit_square();
     shape moved = unit_square();
     double shift[3];

@@ -68,7 +68,7 @@ static void check_common_vertices(const riis_surface *surface, double scale) {
 /* Cusps have the same bits where they meet: in both triangulations, in placed surfaces and after moving updates. */
 TEST(cusps_meet_in_the_same_bits) {
   random_source random = random_start("test_trileaflet");
-  for (int trial = 0; trial < 24; ++trial) {
+  for (int trial = 0; trial < trials_of(72); ++trial) {
     const int owned_before = n_owned();
     riis_surface_options options = surface_options();
     options.tolerance = trial % 3 ? 0.3 : 0.1;

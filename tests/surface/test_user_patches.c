@@ -191,7 +191,7 @@ TEST(patch_is_the_coons_patch_of_its_sides) {
 
 TEST(random_patches_are_coons_patches) {
   random_source rng = random_start("random_patches_are_coons_patches");
-  for (int trial = 0; trial < fewer_if_sanitized(6); ++trial) {
+  for (int trial = 0; trial < trials_of(18); ++trial) {
     shape from = {0};
     const double corner[4][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
     double p[4][3]; /* the corners are moved */

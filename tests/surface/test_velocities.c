@@ -68,7 +68,7 @@ static compared compare(const riis_surface *surface, const smooth_motion *motion
 TEST(velocities_follow_the_smooth_valve) {
   static const int known[] = {957, 930, 950, 755, 1000};
   enum { n_known = sizeof known / sizeof *known };
-  const int is_long = is_long_test(), n_random = is_sanitized() ? 1 : trials_of(4);
+  const int is_long = is_long_test(), n_random = trials_of(4);
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed)
       for (int fine = 0; fine < 2; ++fine) {
@@ -80,7 +80,7 @@ TEST(velocities_follow_the_smooth_valve) {
         CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
         riis_surface *surface = new_surface(valve, &options);
         compared worst = {0, 0};
-        for (int i = 0; i < (is_long ? 1000 : n_known + n_random); i += is_sanitized() ? 2 : 1) {
+        for (int i = 0; i < (is_long ? 1000 : n_known + n_random); i += trial_step()) {
           const int at = is_long ? i + 1 : i < n_known ? known[i] : 1 + (int)(random_bits(&rng) % 1000);
           CHECK_OK(riis_valve_set_scalar(valve, "opening", at / 1000.));
           CHECK_OK(riis_valve_set_scalar(before, "opening", (at - 1) / 1000.));
@@ -167,7 +167,7 @@ static double farthest_at_labels(const riis_surface *surface, const smooth_motio
 
 TEST(the_bound_holds_for_any_motion) {
   double least_ratio = INFINITY;
-  for (int trial = 0; trial < (is_sanitized() ? 2 * n_kinds : trials_of(80)); ++trial) {
+  for (int trial = 0; trial < trials_of(80); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_kinds;
     riis_valve *valve = new_valve(kinds[kind]), *before = NULL;
     riis_surface_options options = surface_options(), then;
@@ -232,7 +232,7 @@ TEST(the_bound_is_near) {
    * its length changes many times over. An earlier bound reached 3.8 times the largest speed on such a piece. */
   riis_valve *passing = new_valve("mitral"), *just_before = new_valve("mitral");
   double worst = 0;
-  for (int i = 2; i <= 60; i += is_sanitized() ? 6 : 1) {
+  for (int i = 2; i <= 60; i += trial_step()) {
     const double opening = 0.62 + 0.0005 * i;
     CHECK_OK(riis_valve_set_scalar(passing, "opening", opening));
     CHECK_OK(riis_valve_set_scalar(just_before, "opening", opening - 0.001));

@@ -166,7 +166,7 @@ static void solve_dense(int n, double *a, double *b) {
 }
 
 TEST(the_map_solves_its_equations) {
-  for (int trial = 0; trial < fewer_if_sanitized(20); ++trial) {
+  for (int trial = 0; trial < trials_of(60); ++trial) {
     const int owned_before = n_owned(), n = 5 + (int)between(0, 40), m = n + 4;
     double from[3 * max_landmarks], to[3 * max_landmarks], probe[3], got[3];
     double *a = own(calloc((size_t)(m * m), sizeof *a)), *b = own(calloc((size_t)(3 * m), sizeof *b));
@@ -233,7 +233,7 @@ TEST(the_map_solves_its_equations) {
 }
 
 TEST(affine_and_planar_maps_are_reproduced) {
-  for (int trial = 0; trial < fewer_if_sanitized(30); ++trial) {
+  for (int trial = 0; trial < trials_of(90); ++trial) {
     const int owned_before = n_owned(), n = 8 + (int)between(0, 30), is_planar = trial % 2;
     const affine turn = {.linear = {{0.6, 0, 0.8}, {0, 1, 0}, {-0.8, 0, 0.6}}, .shift = {1, 2, 3}};
     double from[3 * max_landmarks], to[3 * max_landmarks];
@@ -265,7 +265,7 @@ TEST(affine_and_planar_maps_are_reproduced) {
  * no kink: its direction changes little over a short step. */
 TEST(a_landmark_adds_no_kink) {
   double worst = 0;
-  for (int trial = 0; trial < fewer_if_sanitized(10); ++trial) {
+  for (int trial = 0; trial < trials_of(30); ++trial) {
     const int owned_before = n_owned(), n = 30;
     double from[3 * max_landmarks], to[3 * max_landmarks];
     for (int i = 0; i < n; ++i) {
@@ -298,7 +298,7 @@ TEST(a_landmark_adds_no_kink) {
 /* --- Warped valves ---------------------------------------------------------------------------------------------------- */
 
 TEST(an_identity_changes_nothing) {
-  for (int trial = 0; trial < 12; trial += is_sanitized() ? 4 : 1) {
+  for (int trial = 0; trial < trials_of(36); trial += trial_step()) {
     const int owned_before = n_owned();
     const riis_surface_options options = random_placement(trial % 4 == 3);
     riis_valve *valve = new_valve(kinds[trial % 3]);
@@ -335,7 +335,7 @@ TEST(an_identity_changes_nothing) {
 /* A rigid warp gives the same shape as the placement: points of either surface lie on the other surface, within the errors of
  * both. The orifice, the swept volume and the attachment also agree. */
 TEST(a_rigid_warp_equals_a_placement) {
-  for (int trial = 0; trial < 9; trial += is_sanitized() ? 4 : 1) {
+  for (int trial = 0; trial < trials_of(27); trial += trial_step()) {
     const int owned_before = n_owned();
     const char *kind = kinds[trial % 3];
     const riis_surface_options placed = random_placement(trial >= 6);
@@ -381,7 +381,7 @@ static riis_valve_patches patches_of(riis_valve *valve) {
 
 TEST(warped_curves_are_near_mapped_curves) {
   double worst = 0, worst_angle = 0;
-  for (int trial = 0; trial < 12; trial += is_sanitized() ? 4 : 1) {
+  for (int trial = 0; trial < trials_of(36); trial += trial_step()) {
     const int owned_before = n_owned();
     riis_valve *valve = new_valve(kinds[trial % 3]), *warped = NULL;
     CHECK_OK(riis_valve_set_scalar(valve, "opening", trial < 3 ? 0 : between(0, 1)));
@@ -442,7 +442,7 @@ TEST(warped_curves_are_near_mapped_curves) {
 
 /* If the patches are Coons patches, the patches that are read out make the same valve again. */
 TEST(patches_make_the_same_valve) {
-  for (int trial = 0; trial < fewer_if_sanitized(12); ++trial) {
+  for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned(), is_warped = trial / 2 % 2;
     riis_valve *valve = new_valve(kinds[trial % 2]), *again = NULL;
     CHECK_OK(riis_valve_set_scalar(valve, "opening", trial < 4 ? 0 : between(0, 1)));
@@ -488,7 +488,7 @@ TEST(patches_make_the_same_valve) {
 
 /* The warped annulus of a mitral valve has landmarks of its own in both states, and meets them at both ends. */
 TEST(closed_and_open_landmarks_are_met) {
-  for (int trial = 0; trial < 6; ++trial) {
+  for (int trial = 0; trial < trials_of(18); ++trial) {
     const int owned_before = n_owned();
     const char *kind = kinds[trial % 3];
     double from[2][3 * max_landmarks], to[2][3 * max_landmarks];
@@ -671,7 +671,7 @@ TEST(a_moving_annulus_has_its_velocities) {
     uint64_t state;
   } hard[] = {{1, 55}, {3, 4}};
   enum { n_hard = sizeof hard / sizeof *hard };
-  for (int trial = 0; trial < n_hard + fewer_if_sanitized(8); ++trial) {
+  for (int trial = 0; trial < n_hard + trials_of(24); ++trial) {
     const random_source kept = rng;
     const int owned_before = n_owned(), is_hard = trial < n_hard, is_fixed = !is_hard && (trial - n_hard) / 4;
     const int kind = is_hard ? hard[trial].kind : (trial - n_hard) % 4;
@@ -754,7 +754,7 @@ TEST(fixed_vertices_move_with_their_velocities) {
 
 /* The same targets give the same bits, regardless of earlier targets. */
 TEST(a_restart_repeats_velocities) {
-  for (int trial = 0; trial < 6; trial += is_sanitized() ? 4 : 1) {
+  for (int trial = 0; trial < trials_of(18); trial += trial_step()) {
     const int owned_before = n_owned();
     const riis_surface_options options =
         random_placement(trial / 3 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
@@ -777,7 +777,7 @@ TEST(a_restart_repeats_velocities) {
 /* A surface remembers the patches of its last state, which is often the earlier state of the next step. If the valve has
  * changed since then, the patches are made again. */
 TEST(a_changed_earlier_state_is_made_again) {
-  for (int trial = 0; trial < 6; trial += is_sanitized() ? 4 : 1) {
+  for (int trial = 0; trial < trials_of(18); trial += trial_step()) {
     const int owned_before = n_owned();
     const riis_surface_options options =
         random_placement(trial / 3 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);

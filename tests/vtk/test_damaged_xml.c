@@ -227,7 +227,7 @@ static void damage(random_source *random, char *bytes, size_t size) {
 
 TEST(test_random_damage) {
   random_source random = random_start("test_damaged_xml");
-  const int n_trials = is_long_test() ? 2000 : fewer_if_sanitized(9);
+  const int n_trials = trials(9, 2000);
   int n_read = 0, n_all = 0;
   for (int form = 0; form < 2 * 2 * 4 * 3; ++form) {
     const int surface = form % 2, bits = form / 2 % 2 ? 64 : 32, compressor = form / 4 % 4,
