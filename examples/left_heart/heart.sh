@@ -4,8 +4,8 @@
 # examples/openfoam/openfoam.sh, whose steps build the plug-in and set OpenFOAM's environment.
 
 heart_here=examples/left_heart
-heart_stiff='open_radius_ratio 0.45; commissure_expansion 0; skirt_length 0.5;' # of the stenotic aortic valve
-heart_least_opening=0.35                                     # of the regurgitant mitral valve
+heart_stiff='open_radius_ratio 0.3; commissure_expansion 0; skirt_length 0.5;' # of the stenotic aortic valve
+heart_least_opening=0.08                                     # of the regurgitant mitral valve
 # shellcheck source=examples/left_heart/coupled/coupled.sh
 . "$heart_here/coupled/coupled.sh"
 
@@ -13,10 +13,10 @@ heart_least_opening=0.35                                     # of the regurgitan
 #   Beats a left heart in OpenFOAM: a ventricle whose wall moves, with a mitral and an aortic valve, which a heart without space
 #   drives. It measures leaks, and checks the balance of blood, the pressures, 1 and 2 ranks and a restart. It leaves tables,
 #   pictures and a movie in out/heart. --all adds a heart with a stenotic aortic valve, and one with a regurgitant mitral valve.
-#   --short has one beat in a coarse mesh. --offset 0 has bands around the leaflets, in place of bands that step aside by 0.75
-#   half thicknesses. With --coupled, the pressures of the flow open the valves, and the wall moves by its elastance. --walls
-#   compares the open aortic valve with the same leaflets as walls. --resume continues a run that was cut off. It is left out like
-#   openfoam.
+#   --short has one beat in a coarse mesh. --offset 0 has bands around the leaflets with round rims, in place of bands that step
+#   aside by 0.75 half thicknesses, with cut rims. With --coupled, the pressures of the flow open the valves, and the wall moves by
+#   its elastance. --walls compares the open aortic valve with the same leaflets as walls. --resume continues a run that was cut
+#   off. It is left out like openfoam.
 run_heart() {
   local python name of_keep=
   heart_offset=0.75
@@ -114,8 +114,16 @@ heart_case() {
   rm -rf "${of_cases:?}/$1"
   cp -r "$heart_here/case" "$of_cases/$1" &&
     cp -r "$of_cases/mesh/constant/polyMesh" "$of_cases/$1/constant" &&
-    of_set "$1" system/fvOptions mitral/halfThickness "$heart_half_thickness" mitral/offset "$heart_offset" || return
+    heart_band "$1" mitral "$heart_offset" || return
   [[ ${2:-} != stenosis ]] || of_set "$1" system/fvOptions aortic/valve "{ kind coapting; $heart_stiff }"
+}
+
+# heart_band NAME VALVE OFFSET: the band of the valve has the half thickness of this mesh and the offset. The aortic valve copies
+# the entries of the mitral valve.
+heart_band() {
+  local rim=cut
+  [[ $3 != 0 ]] || rim=round
+  of_set "$1" system/fvOptions "$2/halfThickness" "$heart_half_thickness" "$2/offset" "$3" "$2/rim" "$rim"
 }
 
 # heart_held NAME INLET OUTLET: the heart stands still, with closed valves, between these pressures in mmHg.
@@ -158,8 +166,8 @@ heart_walls() {
 heart_open() {
   heart_case "$1" && heart_held "$1" 12 0 &&
     echo 'period 0.8; keys ((0 1) (0.4 1));' >"$of_cases/$1/constant/aorticKeys" &&
-    of_set "$1" system/fvOptions aortic/offset "$2" aortic/active yes mitral/active no &&
-    of_set "$1" system/controlDict endTime 0.5
+    heart_band "$1" aortic "$2" && of_set "$1" system/fvOptions aortic/active yes mitral/active no &&
+    of_set "$1" system/controlDict endTime 0.3
 }
 
 heart_steady() { heart_open "$1" "$2" && of_run "$1" 1; }
@@ -175,7 +183,8 @@ heart_walled() {
       { leaflets { type faceZone; zoneName leaflets; patches { master $side slave $side } } }" &&
     topoSet -case "$case" -dict system/leafletsSet && createBaffles -case "$case" -dict system/leafletsWalls -overwrite &&
     topoSet -case "$case" &&
-    of_set walls 0/U boundaryField/leaflets '{ type noSlip; }' 0/p boundaryField/leaflets '{ type zeroGradient; }' &&
+    of_set walls 0/U boundaryField/leaflets '{ type noSlip; }' &&
+    of_set walls 0/p boundaryField/leaflets '{ type zeroGradient; }' &&
     of_run walls 1
 }
 

@@ -4,8 +4,7 @@
     walls.py faces CASE LEAFLETS.vtk    # writes the set `leaflets` of faces of the mesh, which become walls
     walls.py table WALLS BAND [BAND ...]    # prints flow, fastest blood and jet area of the cases
 
-A face becomes a wall if the leaflets cut the line between the centres of its two cells. The walls are therefore staircases. They
-are as tight as the leaflets.
+A face becomes a wall if the leaflets cut the line between the centres of its two cells. The walls are therefore staircases.
 """
 import pathlib
 import sys
@@ -25,9 +24,8 @@ def inner_faces(mesh):
     points = foam.vectors(mesh / "points")
     faces = zero_d.triangles(mesh / "faces")
     owner, neighbour = foam.labels(mesh / "owner"), foam.labels(mesh / "neighbour")
-    n = owner.max() + 1
     # Each corner of a tetrahedron belongs to three of its four faces.
-    sums, corners = np.zeros((n, 3)), points[faces].sum(axis=1)
+    sums, corners = np.zeros((foam.n_cells(mesh), 3)), points[faces].sum(axis=1)
     np.add.at(sums, owner, corners)
     np.add.at(sums, neighbour, corners[: len(neighbour)])
     return owner[: len(neighbour)], neighbour, sums / 12
@@ -52,11 +50,34 @@ def crossed(start, end, points, corners):
     return found
 
 
+def regions(n_cells, owner, neighbour):
+    """Returns the number of each cell's region: the least number of a cell that can be reached through these faces."""
+    region, before = np.arange(n_cells), None
+    while not np.array_equal(region, before):
+        before = region.copy()
+        least = np.minimum(region[owner], region[neighbour])
+        np.minimum.at(region, owner, least)
+        np.minimum.at(region, neighbour, least)
+    return region
+
+
+def without_pockets(wall, owner, neighbour, n_cells):
+    """Opens one wall of each pocket that walls enclose, because the pressure there would have no level."""
+    wall = wall.copy()
+    while True:
+        region = regions(n_cells, owner[~wall], neighbour[~wall])
+        between = np.flatnonzero(wall & (region[owner] != region[neighbour]))
+        if not len(between):
+            return wall
+        wall[between[0]] = False
+
+
 def faces(case, leaflets):
     mesh = pathlib.Path(case) / "constant/polyMesh"
     owner, neighbour, centres = inner_faces(mesh)
     points, corners, _ = foam.triangles(leaflets)
-    found = np.flatnonzero(crossed(centres[owner], centres[neighbour], points, corners))
+    wall = crossed(centres[owner], centres[neighbour], points, corners)
+    found = np.flatnonzero(without_pockets(wall, owner, neighbour, len(centres)))
     if not len(found):
         sys.exit(f"walls.py: the leaflets of {leaflets} cut no line between cells of {case}")
     (mesh / "sets").mkdir(exist_ok=True)
@@ -74,7 +95,8 @@ def numbers(case):
     jets = []
     for time in clinic.written(case):
         if float(time) > flow[-1, 0] - LAST:
-            jets.append(clinic.jet(*clinic.plane(case, time)[::2]))
+            points, _, velocity = foam.triangles(case / "postProcessing/slice" / time / "middle.vtk")
+            jets.append(clinic.jet(points[:, 1:], velocity[:, 1:]))
     return flow[late, 1].mean() / ML, pressure.mean(), np.mean(jets)
 
 
