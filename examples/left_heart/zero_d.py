@@ -29,7 +29,7 @@ PERIOD, STEP, STEP_IN_SPACE = 0.8, 5e-5, 2e-3  # s
 SYSTOLE, RELAXATION, STEEP = 0.35, 0.14, 0.6    # s, s, -: of the ventricle's activation
 KICK_START, KICK = 0.60, 0.17               # s, of the atrium's activation
 E_MIN, E_MAX, V_0 = 0.055, 2.2, 6.0         # mmHg/ml, mmHg/ml, ml
-ATRIUM_MIN, ATRIUM_KICK, ATRIUM_V_0 = 0.17, 0.13, 5.0  # mmHg/ml, mmHg/ml, ml
+ATRIUM_MIN, ATRIUM_KICK, ATRIUM_V_0 = 0.17, 0.15, 5.0  # mmHg/ml, mmHg/ml, ml
 VEIN_PRESSURE, VEIN_RESISTANCE = 12.0, 0.045           # mmHg, mmHg s/ml
 PROXIMAL, DISTAL, COMPLIANCE = 0.08, 1.05, 1.4         # mmHg s/ml, ml/mmHg
 MOVE = {"mitral": 0.07, "aortic": 0.05}     # s, to open and to close
@@ -232,7 +232,7 @@ class Mesh:
 
 def amplitude_of(mesh, change):
     """Returns the amplitudes for these changes of the mesh's volume against the volume at rest, in m3."""
-    amplitudes = np.linspace(-0.6, 1.5, 66)
+    amplitudes = np.linspace(-0.6, 1.6, 69)
     changes = np.array([mesh.volume(a) for a in amplitudes]) - mesh.volume(0)
     if changes[0] < change.max() or changes[-1] > change.min():
         sys.exit(f"zero_d.py: the motion spans {changes[-1] / ML:.1f} to {changes[0] / ML:.1f} ml, and the heart needs "
