@@ -21,8 +21,11 @@ from zero_d import ML, MMHG, PERIOD, RHO, foam
 # Without a pressure, the valve first goes to these shares of the way from the least opening to 1, at these times. The flow tells
 # the volume that the leaflets displace.
 SWEPT, SWEEP = ((0.0, 0.0), (0.08, 0.4), (0.12, 1.0), (0.16, 0.0)), 0.17
-# The openings at which the orifice is then measured: shares of the same way. Each is held for HOLD seconds.
-HELD, HOLD = (0.0, 0.1, 0.125, *np.arange(0.15, 0.36, 0.0125), *np.arange(0.4, 0.91, 0.05), 1.0), 0.03
+# The openings at which the orifice is then measured: shares of the same way. Each is held for HOLD seconds. With an offset, the
+# bands part below 0.01. Without one they part near 0.2.
+HELD = (0.0, 0.001, 0.002, 0.003, 0.004, 0.006, 0.008, 0.01, 0.015, 0.02, 0.03, 0.04, 0.06, 0.08, 0.1, 0.125,
+        *np.arange(0.15, 0.36, 0.0125), *np.arange(0.4, 0.91, 0.05), 1.0)
+HOLD = 0.03
 
 failures = []
 
@@ -190,18 +193,18 @@ def check_beat(case, model_file, mitral, aortic):
 def print_numbers(beat, n):
     """Prints the numbers of each whole beat, and demands that the last two agree."""
     step = beat.time[1] - beat.time[0]
-    kick = n - round((PERIOD - zero_d.KICK_START) / step)  # the run begins at the end of the A wave
     rows = []
     for first in range(0, len(beat.time) - n + 1, n):
         part = slice(first, first + n)
         volume, pressure = beat.volume[part] - beat.volume.max(), beat.ventricle[part]
         filling = beat.mitral[part]
+        e_wave, _, a_wave = zero_d.waves(beat.time[: n], filling)
         rows.append({
             "stroke volume, ml": volume.max() - volume.min(),
             "largest pressure, mmHg": pressure.max(),
             "aortic peak, ml/s": beat.aortic[part].max(),
-            "E wave, ml/s": filling[: kick].max(),
-            "A wave, ml/s": filling[kick:].max(),
+            "E wave, ml/s": filling[e_wave],
+            "A wave, ml/s": filling[a_wave],
             "backflow mitral, ml": -filling[filling < 0].sum() * step,
             "backflow aortic, ml": -beat.aortic[part][beat.aortic[part] < 0].sum() * step,
             "stroke work, J": -np.sum(pressure * np.gradient(volume)) * MMHG * ML,

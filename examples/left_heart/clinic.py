@@ -33,6 +33,12 @@ def plane(case, time):
     return points[:, 1:] + (0, descent), corners, vectors[:, 1:]
 
 
+def jet(points, velocity):
+    """Returns the speed of the fastest blood of the plane in the aortic tube."""
+    in_tube = (points[:, 1] > 2e-3) & (points[:, 0] > 0)
+    return np.linalg.norm(velocity[in_tube], axis=1).max()
+
+
 def vortex(points, corners, velocity):
     """Returns the circulation of the strongest vortex in the ventricle, in m2/s, and its centre and radius in mm.
 
@@ -79,12 +85,8 @@ def numbers(case, tables):
     open_ = {name: orifices[name].is_open(beat.openings[name][last]) for name in orifices}
     ejects = np.flatnonzero(open_["aortic"])
 
-    # The run begins at the end of the A wave, so the A wave enters after the time KICK_START of the run.
-    filling = mitral * (time > time[ejects[-1]])
-    kick = time > zero_d.KICK_START
-    e_wave = filling[~kick].max()
-    e_volume = np.clip(filling[~kick], 0, None).sum() * step
-    a_wave = filling[kick].max()
+    e_wave, trough, a_wave = zero_d.waves(time, mitral)
+    e_volume = np.clip(mitral[ejects[-1] : trough], 0, None).sum() * step
     stroke = volume.max() - volume.min()
 
     # Isovolumetric phases: neither valve leaves an orifice.
@@ -94,7 +96,9 @@ def numbers(case, tables):
     relaxation = (closed & (time > time[ejects[-1]])).sum() * step * 1e3
     has_phases = open_["mitral"].any() and not open_["mitral"].all()
 
-    forward = (aortic > 0) & open_["aortic"] & (ventricle > aorta)
+    # While the flow slows down, its inertia keeps the aorta above the ventricle. Over the whole ejection, this part of the
+    # gradient cancels the part that speeds the blood up. The steps with the ventricle above the aorta contain only the latter.
+    forward = (aortic > 0) & open_["aortic"]
     gradient = (ventricle - aorta)[forward]
     effective = aortic[forward].mean() * ML * np.sqrt(RHO / (2 * gradient.mean() * MMHG))
     back = -np.clip(mitral, None, 0).sum() * step
@@ -105,10 +109,8 @@ def numbers(case, tables):
         if not 0 < at <= PERIOD + step / 2:
             continue
         points, corners, velocity = plane(case, name)
-        speed = np.linalg.norm(velocity, axis=1)
-        in_tube, k = (points[:, 1] > 2e-3) & (points[:, 0] > 0), min(n - 1, round(at / step) - 1)
-        if open_["aortic"][k]:
-            jets.append(speed[in_tube].max())
+        if open_["aortic"][min(n - 1, round(at / step) - 1)]:
+            jets.append(jet(points, velocity))
         if time[ejects[-1]] < at < zero_d.KICK_START:
             below = (points[:, 0] < 0) & (points[:, 1] > -30e-3)
             drops.append(-velocity[below, 1].min())
@@ -129,14 +131,16 @@ def numbers(case, tables):
         "pressure in the aorta, mmHg": (aorta.min(), aorta.max()),
         "pressure in the atrium, mean, mmHg": atrium.mean(),
         "largest pressure in the atrium, mmHg": atrium.max(),
-        "aortic gradient, mean, mmHg": gradient.mean(),
+        "aortic gradient, mean over the ejection, mmHg": gradient.mean(),
+        "the same, while the ventricle is above the aorta": gradient[gradient > 0].mean(),
         "aortic gradient, largest, mmHg": gradient.max(),
         "effective aortic area, cm2": effective * 1e4,
         "largest flow into the aorta, ml/s": aortic.max(),
         "fastest blood in the aorta, m/s": max(jets),
-        "E wave, ml/s": e_wave,
-        "A wave, ml/s": a_wave,
-        "E/A": e_wave / a_wave,
+        "jet area, largest flow over fastest blood, cm2": aortic.max() * ML / max(jets) * 1e4,
+        "E wave, ml/s": mitral[e_wave],
+        "A wave, ml/s": mitral[a_wave],
+        "E/A": mitral[e_wave] / mitral[a_wave],
         "fastest blood of the E wave, m/s": max(drops),
         "isovolumetric contraction, ms": contraction if has_phases else NONE,
         "ejection, ms": len(ejects) * step * 1e3,

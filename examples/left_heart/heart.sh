@@ -4,29 +4,35 @@
 # examples/openfoam/openfoam.sh, whose steps build the plug-in and set OpenFOAM's environment.
 
 heart_here=examples/left_heart
-heart_stiff='open_radius_ratio 0.45; commissure_expansion 0;' # of the stenotic aortic valve
-heart_least_opening=0.35                                     # of the regurgitant mitral valve
+heart_stiff='open_radius_ratio 0.3; commissure_expansion 0; skirt_length 0.5;' # of the stenotic aortic valve
+heart_least_opening=0.08                                     # of the regurgitant mitral valve
 # shellcheck source=examples/left_heart/coupled/coupled.sh
 . "$heart_here/coupled/coupled.sh"
 
-# ./run heart [--resume] [--all] [--short], ./run heart [--resume] --coupled [--short]
+# ./run heart [--resume] [--offset O] [--all | --coupled | --walls] [--short]
 #   Beats a left heart in OpenFOAM: a ventricle whose wall moves, with a mitral and an aortic valve, which a heart without space
 #   drives. It measures leaks, and checks the balance of blood, the pressures, 1 and 2 ranks and a restart. It leaves tables,
 #   pictures and a movie in out/heart. --all adds a heart with a stenotic aortic valve, and one with a regurgitant mitral valve.
-#   --short has one beat in a coarse mesh. With --coupled, the pressures of the flow open the valves, and the wall moves by its
-#   elastance. --resume continues a run that was cut off. It is left out like openfoam.
+#   --short has one beat in a coarse mesh. --offset 0 has bands around the leaflets with round rims, in place of bands that step
+#   aside by 0.75 half thicknesses, with cut rims. With --coupled, the pressures of the flow open the valves, and the wall moves by
+#   its elastance. --walls compares the open aortic valve with the same leaflets as walls. --resume continues a run that was cut
+#   off. It is left out like openfoam.
 run_heart() {
   local python name of_keep=
+  heart_offset=0.75
   [[ ${1:-} != --resume ]] || { of_keep=yes && shift; }
+  [[ ${1:-} != --offset || $# -lt 2 ]] || { heart_offset=$2 && shift 2; }
   heart_fine=2.2 heart_coarse=4.5 heart_half_thickness=1.8e-3 heart_beats=3 heart_only='' heart_diseases=()
   case $* in
     '' | --short | --all | '--all --short') ;;
     --coupled | '--coupled --short') heart_only=coupled ;;
+    --walls | '--walls --short') heart_only=walls ;;
     *)
       echo "./run heart: '$*' is not an option" >&2
       exit 2
       ;;
   esac
+  [[ $heart_only$of_keep != wallsyes ]] || refuse "--resume does not go with --walls"
   [[ $* != --all* ]] || heart_diseases=(stenosis regurgitation)
   [[ $* != *--short ]] || heart_fine=3.5 heart_coarse=8 heart_half_thickness=2.3e-3 heart_beats=1
   openfoam_start left_heart_cases heart ffmpeg || return 0
@@ -43,6 +49,10 @@ run_heart() {
     }
   else
     step "mesh the heart" heart_mesh
+    if [[ $heart_only == walls ]]; then
+      heart_walls
+      return
+    fi
     step "measure what the mitral valve leaves to the flow at each opening" heart_orifice mitral
     step "measure what the aortic valve leaves to the flow at each opening" heart_orifice aortic
   fi
@@ -104,14 +114,22 @@ heart_case() {
   rm -rf "${of_cases:?}/$1"
   cp -r "$heart_here/case" "$of_cases/$1" &&
     cp -r "$of_cases/mesh/constant/polyMesh" "$of_cases/$1/constant" &&
-    of_set "$1" system/fvOptions mitral/halfThickness "$heart_half_thickness" || return
+    heart_band "$1" mitral "$heart_offset" || return
   [[ ${2:-} != stenosis ]] || of_set "$1" system/fvOptions aortic/valve "{ kind coapting; $heart_stiff }"
+}
+
+# heart_band NAME VALVE OFFSET: the band of the valve has the half thickness of this mesh and the offset. The aortic valve copies
+# the entries of the mitral valve.
+heart_band() {
+  local rim=cut
+  [[ $3 != 0 ]] || rim=round
+  of_set "$1" system/fvOptions "$2/halfThickness" "$heart_half_thickness" "$2/offset" "$3" "$2/rim" "$rim"
 }
 
 # heart_held NAME INLET OUTLET: the heart stands still, with closed valves, between these pressures in mmHg.
 heart_held() {
   local constant=$of_cases/$1/constant valve
-  echo 'amplitude constant 0;' >"$constant/amplitude"
+  echo 'amplitude table ((0 0) (2 0));' >"$constant/amplitude"
   awk -v p="$2" 'BEGIN { printf "p0 constant %.10g;\n", p * 133.322 / 1060 }' >"$constant/inletPressure"
   awk -v p="$3" 'BEGIN { printf "p0 constant %.10g;\n", p * 133.322 / 1060 }' >"$constant/outletPressure"
   for valve in mitral aortic; do echo 'period 0.8; keys ((0 0) (0.4 0));' >"$constant/${valve}Keys"; done
@@ -128,9 +146,50 @@ heart_orifice() {
     heart_python check.py keys "$least" >"$of_cases/$name/constant/$1Keys" &&
     sed -i 's/constant \(.*\);/table ((0 0) (0.164 0) (0.166 \1));/' "$of_cases/$name/constant/inletPressure" &&
     echo 'period 0.8; keys ((0 1) (0.4 1));' >"$of_cases/$name/constant/${other}Keys" &&
-    of_set "$name" system/controlDict endTime 1.13 writeInterval 1.13 &&
+    of_set "$name" system/controlDict endTime 1.52 writeInterval 1.52 &&
     of_run "$name" 1 && heart_python check.py orifice "$of_cases/$name" "$1" "$least" >"$folder/$1.csv"
 }
+
+# heart_walls: the heart stands still, without a mitral valve, between 12 and 0 mmHg. The open aortic valve is a band with the
+# offset, a band without it, and walls. createBaffles loses the cells that topoSet has found, so topoSet finds them again.
+heart_walls() {
+  local name
+  for name in band-"$heart_offset" band-0; do
+    step "the open aortic valve, $name" heart_steady "$name" "${name#*-}"
+  done
+  step "the open aortic valve as walls" heart_walled "$of_cases/band-$heart_offset"/postProcessing/aortic/*/leaflets.vtk
+  heart_python walls.py table "$of_cases"/{walls,"band-$heart_offset",band-0} | tee "$of_out/walls.txt"
+  say "wrote out/heart/walls.txt"
+}
+
+# heart_open NAME OFFSET: the case with an open aortic valve, without a mitral one.
+heart_open() {
+  heart_case "$1" && heart_held "$1" 12 0 &&
+    echo 'period 0.8; keys ((0 1) (0.4 1));' >"$of_cases/$1/constant/aorticKeys" &&
+    heart_band "$1" aortic "$2" && of_set "$1" system/fvOptions aortic/active yes mitral/active no &&
+    of_set "$1" system/controlDict endTime 0.3
+}
+
+heart_steady() { heart_open "$1" "$2" && of_run "$1" 1; }
+
+# heart_walled LEAFLETS...: takes the first file of leaflets.
+heart_walled() {
+  local case=$of_cases/walls side='{ name leaflets; type wall; }'
+  heart_open walls 0 && of_set walls system/fvOptions aortic/active no &&
+    heart_python walls.py faces "$case" "$1" &&
+    foam_dict "$case" leafletsSet "actions
+      ({ name leaflets; type faceZoneSet; action new; source setToFaceZone; faceSet leaflets; });" &&
+    foam_dict "$case" leafletsWalls "internalFacesOnly true; noFields true; baffles
+      { leaflets { type faceZone; zoneName leaflets; patches { master $side slave $side } } }" &&
+    topoSet -case "$case" -dict system/leafletsSet && createBaffles -case "$case" -dict system/leafletsWalls -overwrite &&
+    topoSet -case "$case" &&
+    of_set walls 0/U boundaryField/leaflets '{ type noSlip; }' &&
+    of_set walls 0/p boundaryField/leaflets '{ type zeroGradient; }' &&
+    of_run walls 1
+}
+
+# foam_dict CASE NAME TEXT: writes a dictionary in the folder system.
+foam_dict() { echo "FoamFile { version 2.0; format ascii; class dictionary; object $2; } $3" >"$1/system/$2"; }
 
 # heart_zero_d CASE TABLES BEATS: makes the case, and its tables of motion, pressures and openings.
 heart_zero_d() {

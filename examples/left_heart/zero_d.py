@@ -26,12 +26,12 @@ import foam_files as foam  # noqa: E402
 
 MMHG, ML, RHO = 133.322, 1e-6, 1060.0  # Pa, m3, kg/m3
 PERIOD, STEP, STEP_IN_SPACE = 0.8, 5e-5, 2e-3  # s
-SYSTOLE, RELAXATION, STEEP = 0.31, 0.14, 0.65  # s, s, -: of the ventricle's activation
+SYSTOLE, RELAXATION, STEEP = 0.35, 0.14, 0.6    # s, s, -: of the ventricle's activation
 KICK_START, KICK = 0.60, 0.17               # s, of the atrium's activation
 E_MIN, E_MAX, V_0 = 0.055, 2.2, 6.0         # mmHg/ml, mmHg/ml, ml
-ATRIUM_MIN, ATRIUM_KICK, ATRIUM_V_0 = 0.17, 0.13, 5.0  # mmHg/ml, mmHg/ml, ml
+ATRIUM_MIN, ATRIUM_KICK, ATRIUM_V_0 = 0.17, 0.15, 5.0  # mmHg/ml, mmHg/ml, ml
 VEIN_PRESSURE, VEIN_RESISTANCE = 12.0, 0.045           # mmHg, mmHg s/ml
-PROXIMAL, DISTAL, COMPLIANCE = 0.05, 1.05, 1.4         # mmHg s/ml, ml/mmHg
+PROXIMAL, DISTAL, COMPLIANCE = 0.08, 1.05, 1.4         # mmHg s/ml, ml/mmHg
 MOVE = {"mitral": 0.07, "aortic": 0.05}     # s, to open and to close
 # A valve begins to close when its flow falls below CLOSE_BELOW. Closing at full backflow would stop blood abruptly.
 OPEN_ABOVE, CLOSE_BELOW, DWELL = 2.0, 60.0, 0.06  # mmHg, ml/s, s
@@ -58,7 +58,7 @@ def atrial_elastance(t):
 class Orifice(typing.NamedTuple):
     """The area that a valve leaves to the flow at each opening, and the largest opening at which it seals: -1 if it never seals.
 
-    It seals while its leak is less than 1.1 times the leak at opening 0.
+    It seals while it has no area, and its leak is less than 1.1 times the leak at opening 0.
     """
 
     openings: np.ndarray
@@ -164,10 +164,21 @@ def start_of(rows):
     return ending[np.argmin(np.abs(rows[ending, 7]))]
 
 
+def waves(time, flow):
+    """Returns the rows of the E wave's peak, of the trough behind it, and of the A wave's peak, from a beat of the mitral flow.
+
+    The A wave begins at the trough. When the atrium begins to contract, the end of a high E wave may exceed the A wave. A run in
+    space begins shortly before the beat of zero_d.py, so the same times hold for it.
+    """
+    filling, kick = np.where(time > SYSTOLE, flow, 0), np.searchsorted(time, KICK_START + KICK / 2)
+    e_wave = np.argmax(filling[:kick])
+    trough = e_wave + np.argmin(filling[e_wave:kick])
+    return e_wave, trough, trough + np.argmax(filling[trough:])
+
+
 def report(rows, valves, out=sys.stdout):
     col = {name: rows[:, i] for i, name in enumerate(COLUMNS)}
-    e_wave = col["mitral_flow"][(col["time"] > SYSTOLE) & (col["time"] < KICK_START)].max()
-    a_wave = col["mitral_flow"][col["time"] > KICK_START].max()
+    e_wave, _, a_wave = (col["mitral_flow"][row] for row in waves(col["time"], col["mitral_flow"]))
     both = valves[0].orifice.is_open(col["mitral_opening"]) & valves[1].orifice.is_open(col["aortic_opening"])
     stroke = col["volume"].max() - col["volume"].min()
     print(f"0D: {col['volume'].max():.1f} to {col['volume'].min():.1f} ml, ejection fraction {stroke / col['volume'].max():.2f}, "
@@ -221,7 +232,7 @@ class Mesh:
 
 def amplitude_of(mesh, change):
     """Returns the amplitudes for these changes of the mesh's volume against the volume at rest, in m3."""
-    amplitudes = np.linspace(-0.6, 1.3, 60)
+    amplitudes = np.linspace(-0.6, 1.6, 69)
     changes = np.array([mesh.volume(a) for a in amplitudes]) - mesh.volume(0)
     if changes[0] < change.max() or changes[-1] > change.min():
         sys.exit(f"zero_d.py: the motion spans {changes[-1] / ML:.1f} to {changes[0] / ML:.1f} ml, and the heart needs "
@@ -291,7 +302,9 @@ def read_orifice(path):
         sys.exit(f"zero_d.py: {path}: the leak is {leak:g}, and must be positive")
     if not (ascend and areas[0] == 0 and openings[0] == 0):
         sys.exit(f"zero_d.py: {path}: openings must ascend from 0 to 1, and areas must begin with 0 and end with a positive one")
-    return Orifice(openings, areas, leaks, displaced, openings[np.flatnonzero(leaks < 1.1 * leak)[-1]])
+    # The leak of a row with an area is that of the last row without one. So a seal also needs an area of 0.
+    parts = np.flatnonzero((areas > 0) | (leaks >= 1.1 * leak))[0]
+    return Orifice(openings, areas, leaks, displaced, openings[parts - 1])
 
 
 def main():

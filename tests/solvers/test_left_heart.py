@@ -20,10 +20,12 @@ sys.path[:0] = [str(pathlib.Path(__file__).parents[2] / "examples/left_heart" / 
 import check  # noqa: E402
 import clinic  # noqa: E402
 import study  # noqa: E402
+import walls  # noqa: E402
 import zero_d  # noqa: E402
 
 HEAD = "opening,area,leak,displaced\n"
 WELL = HEAD + "0,0,0.03,2\n0.2,0,0.032,3\n0.25,0,0.1,3.25\n0.5,1e-4,0.1,4.5\n1,3e-4,0.1,7\n"
+JET = HEAD + "0,0,0.03,2\n0.001,2e-6,0.03,2\n0.5,1e-4,0.03,4.5\n1,3e-4,0.03,7\n"  # the first opening above 0 leaves a jet
 OPEN = HEAD + "0.3,2e-5,0,5\n0.5,1e-4,0,5\n1,3e-4,0,5\n"
 
 
@@ -76,7 +78,7 @@ class Tables(unittest.TestCase):
         self.assertIn(words, str(raised.exception))
 
     def test_orifices(self):
-        for text, sealed, rest, leak in ((WELL, 0.2, 0.2, 0.032), (OPEN, -1, 0.3, 0)):
+        for text, sealed, rest, leak in ((WELL, 0.2, 0.2, 0.032), (JET, 0, 0, 0.03), (OPEN, -1, 0.3, 0)):
             orifice = self.read(text)
             self.assertEqual((orifice.sealed, orifice.rest, orifice.leak), (sealed, rest, leak))
             self.assertFalse(orifice.is_open(sealed))
@@ -102,6 +104,27 @@ class Tables(unittest.TestCase):
                              np.arange(len(openings)) * zero_d.STEP, openings)
         displaced = np.interp(in_space[1:], orifice.openings, orifice.displaced) @ np.diff(in_space)
         self.assertAlmostEqual(pushed, displaced, delta=1e-2)  # 4.0 without the position at the end
+
+    def test_waves(self):
+        """When the atrium begins to contract, the end of the E wave exceeds the A wave."""
+        time = np.arange(0, zero_d.PERIOD, zero_d.STEP_IN_SPACE)
+        kick = zero_d.KICK_START + zero_d.KICK / 2
+        flow = np.interp(time, (0, 0.05, 0.45, 0.5, kick - 0.03, kick + 0.03, 0.8), (90, 0, 0, 400, 20, 150, 60))
+        e_wave, trough, a_wave = zero_d.waves(time, flow)
+        self.assertGreater(flow[np.searchsorted(time, zero_d.KICK_START)], 150)
+        for row, value, close in ((e_wave, 400, 1), (trough, 20, 12), (a_wave, 150, 5)):
+            self.assertAlmostEqual(flow[row], value, delta=close)
+
+    def test_crossed_lines(self):
+        """Lines cross a triangulated square if they pass through its plane within it."""
+        random = np.random.default_rng(3)
+        start, end = random.uniform(-1, 1, (2, 400, 3))
+        points = np.array([(-0.5, -0.5, 0.1), (0.5, -0.5, 0.1), (0.5, 0.5, 0.1), (-0.5, 0.5, 0.1)])
+        share = (0.1 - start[:, 2]) / (end - start)[:, 2]
+        at = start + share[:, None] * (end - start)
+        expected = (share > 0) & (share < 1) & (np.abs(at[:, :2]) < 0.5).all(axis=1)
+        self.assertGreater(expected.sum(), 20)
+        np.testing.assert_array_equal(walls.crossed(start, end, points, np.array([(0, 1, 2), (0, 2, 3)])), expected)
 
     def test_refusals(self):
         self.refused("a,b\n1,2\n", "has no column opening")

@@ -20,7 +20,7 @@ heart_coupled() {
 # heart_coupled_case NAME: the case with the files of the coupled heart over it.
 heart_coupled_case() {
   heart_case "$1" && cp -r "$heart_here"/coupled/case/. "$of_cases/$1" &&
-    of_set "$1" system/fvOptions mitral/halfThickness "$heart_half_thickness" &&
+    heart_band "$1" mitral "$heart_offset" &&
     heart_python coupled/coupled.py tables "$of_cases/$1" "$of_out/mitral.csv" "$of_out/aortic.csv"
 }
 
