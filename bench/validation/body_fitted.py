@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the tables, rows and pictures of body_fitted.sh. They compare the effective areas of open leaflets in two forms: as walls
-of no thickness, and as obstacles of riis. body_fitted.py FOLDER reads the cases in FOLDER, prints the tables, and leaves
-body_fitted.json and pictures in FOLDER."""
+of no thickness, and as obstacles of riis. body_fitted.py FOLDER [--quick] reads the cases in FOLDER, prints the tables, and leaves
+body_fitted.json and pictures in FOLDER. Rows of all.json without cases are kept. With --quick none are kept."""
 import json
 import pathlib
 import re
@@ -11,6 +11,7 @@ import sys
 import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+ALL = ROOT / "bench/validation/all.json"
 sys.path.insert(0, str(ROOT / "examples/openfoam"))
 import foam_files as foam  # noqa: E402
 
@@ -22,6 +23,8 @@ RADIUS = {"bileaflet": 1.1, "trileaflet": 1.22}  # radii of the tubes, in centim
 COPIES = {"bileaflet": 4, "trileaflet": 6}  # number of equal pieces of the valve; one piece is computed
 BAR = 0.1  # bar of the row for the smallest eps
 LINE_BAR = 0.02  # bar of the row for the line through all eps
+OFFSET_BARS = {1.0: 0.015, 0.5: 0.04, 0.25: 0.05}  # for each opening, bar of the rows whose offset is 0.75
+STEADY = 2e-5  # largest share of the drop by which it may change over the last 100 steps of a run that did not converge
 SOLVER = "OpenFOAM 1912, simpleFoam, tetrahedra"
 
 
@@ -40,10 +43,11 @@ def outline(valve, opening, n=200001):
         x, y_arc = edge + q * radius * numpy.cos(angle), radius * numpy.sin(angle)
         covered = numpy.trapz(arc - edge, y)
         length = top + _length_inside(x, y_arc, radius)
-    else:  # docs/theory/trileaflet.md: the free edge is a parabola, and the cusp covers only the part outside this parabola
-        y_end = 1.1 * 1.25 * numpy.sin(numpy.pi / 3)
-        y = numpy.linspace(0, y_end, n)
-        x = 1.0 + (1.1 * 1.25 * numpy.cos(numpy.pi / 3) - 1.0) * (y / y_end) ** 2
+    else:  # docs/theory/trileaflet.md: x of the free edge is linear (closed) or quadratic (open) in y, and the cusp covers only
+        # the part outside the edge
+        u, expanded = numpy.linspace(0, 1, n), 1 + 0.1 * opening
+        y = expanded * 1.25 * numpy.sin(numpy.pi / 3) * u
+        x = (1 - opening) * 0.625 * u + opening * (1.0 + (1.1 * 0.625 - 1.0) * u ** 2)
         inside = x ** 2 + y ** 2 < radius ** 2
         angle, distance = numpy.arctan2(y, x), numpy.hypot(x, y)
         covered = numpy.trapz(numpy.where(inside, radius ** 2 - distance ** 2, 0) / 2, angle)
@@ -55,6 +59,10 @@ def outline(valve, opening, n=200001):
 def _length_inside(x, y, radius):
     middle = numpy.hypot((x[1:] + x[:-1]) / 2, (y[1:] + y[:-1]) / 2) < radius
     return float((numpy.hypot(numpy.diff(x), numpy.diff(y)) * middle).sum())
+
+
+class Unsteady(Exception):
+    """A run whose flow is not steady."""
 
 
 class Run:
@@ -70,13 +78,21 @@ class Run:
         self.size = float(words[0 if self.fitted else 1])
         self.far = float(words[1]) if self.fitted and len(words) > 1 else 0.13
         self.resistance = float(words[3]) if kind == "riis" else None
-        mesh = self.name if kind != "riis" else f"free-{self.valve}-{opening}-{words[0]}-{words[1]}"
+        self.offset = float(words[4]) if kind == "riis" and len(words) > 4 else None
+        mesh = self.name
+        if kind == "riis":
+            mesh = f"{'free' if self.offset is None else 'wide'}-{self.valve}-{opening}-{words[0]}-{words[1]}"
         self.cells = foam.n_cells(meshes / mesh / "constant/polyMesh")
         log = foam.text(folder / "log.simpleFoam")
         pressure = foam.table(folder, "inlet")[:, 1]
         self.steps = len(pressure)
-        if "SIMPLE solution converged" not in log:
-            raise SystemExit(f"{folder}: simpleFoam did not converge in {self.steps} steps")
+        self.converged = "SIMPLE solution converged" in log
+        # The total drop differs from the static drop by a constant, and decides the area.
+        total = pressure[-100:] + INLET ** 2 / 2
+        self.change = (total.max() - total.min()) / total[-1]
+        if not self.converged and not self.change <= STEADY:
+            raise Unsteady(f"{folder.name}: simpleFoam did not converge in {self.steps} steps, and the drop still changes by"
+                           f" {self.change:.1e} of it in 100 steps")
         self.seconds = float(re.findall(r"ExecutionTime = (\S+) s", log)[-1])
         self.settled = abs(pressure[-1] / pressure[-20] - 1)
         self.drop = RHO * pressure[-1]  # Pa, static, from the inlet to the outlet
@@ -380,26 +396,148 @@ def blood(folder, runs):
         "note": "means over 0.06 s in a quarter of the valve; fluctuations across its planes of symmetry are missing"}]
 
 
-def main(folder):
+def stall(run):
+    """Returns words for a run that ended above the limit of the residuals, else no words."""
+    if run.converged:
+        return ""
+    return f"; stalled above the limit of the residuals, but the drop changes by {run.change:.0e} of it in the last 100 steps"
+
+
+def walls_of(valve, opening, runs, kept):
+    """Returns the area of the walls in cm2, from the finest mesh, and the entries for a row's grids. If the cases are missing,
+    both are from a row of `kept`."""
+    fitted = sorted((run for run in runs if run.fitted and run.far == 0.13), key=lambda run: -run.size)
+    if fitted:
+        return fitted[-1].area, [place(run, run.area) for run in fitted]
+    for row in kept.values():
+        if row["id"].startswith((f"offset_{valve}_{opening:g}_", f"bodyfit_{valve}_{opening:g}_cut_")):
+            return row["reference"], [grid for grid in row["grids"] if grid["eps"] == 0]
+    return None, []
+
+
+def beside(valve, opening, runs, kept):
+    """Prints the table of one valve at one opening whose band lies beside the leaflets, and returns its rows."""
+    mine = [run for run in runs if run.offset is not None]
+    if not mine:
+        return []
+    walls, grids = walls_of(valve, opening, runs, kept)
+    if walls is None:
+        print(f"\nThe {valve} valve, opening {opening:g}: no case with walls, so offsets have no rows")
+        return []
+    print(f"\nThe {valve} valve, opening {opening:g}, the band beside the leaflets, cut rim; walls {walls:.4f} cm2"
+          f" ({', '.join(grid['n'] for grid in grids)})")
+    print("  eps, mm  offset    cells  steps  seconds  total, Pa  area, cm2  off walls  drop off walls")
+    rows = []
+    for run in sorted(mine, key=lambda one: (-one.eps, one.offset)):
+        off, drop = run.area / walls - 1, (walls / run.area) ** 2 - 1
+        print(f"  {10 * run.eps:>7g} {run.offset:>7g} {run.cells:>8,} {run.steps:>6} {run.seconds:>8.0f} {run.total:>10.2f}"
+              f" {run.area:>10.4f} {100 * off:>+8.2f} % {100 * drop:>+13.1f} %{stall(run)}")
+        rows.append({
+            "id": f"offset_{valve}_{opening:g}_{10 * run.eps:g}_{run.offset:g}", "group": "offset",
+            "quantity": f"{valve} valve, opening {opening:g}, rim cut, ε {10 * run.eps:g} mm, o = {run.offset:g}: effective area,"
+                        " cm²",
+            "reference": round(float(walls), 4), "source": "the same leaflets as walls of no thickness, body-fitted",
+            "solver": SOLVER, "grids": [*grids, place(run, run.area)], "order": None, "extrapolated": round(float(run.area), 4),
+            "deviation": round(float(off), 4), "bar": OFFSET_BARS.get(opening) if run.offset == 0.75 else None,
+            "opening": opening, "eps": run.eps * 1e-2, "offset": run.offset, "drop": round(float(drop), 4),
+            "note": f"total drop {run.total:.1f} Pa, {100 * drop:+.1f} % off walls; {run.steps} steps{stall(run)}"})
+    return rows
+
+
+def profile(run):
+    """Returns places on a diameter 4.5 mm behind the free edges, in mm, and the axial speeds there. Negative places lie on the
+    line through a commissure, positive places on the line through the middle of a cusp."""
+    from matplotlib import tri
+    slices = sorted((run.folder / "postProcessing/slices").iterdir(), key=lambda path: float(path.name))[-1]
+    points, corners, velocity = foam.triangles(slices / "across.vtk")
+    speed = tri.LinearTriInterpolator(tri.Triangulation(points[:, 0], points[:, 1], corners), velocity[:, 2])
+    radius = numpy.linspace(0, RADIUS[run.valve] * 1e-2, 201)
+    places, speeds = [], []
+    for sign, angle in ((-1, numpy.pi / 3 - 1e-3), (1, 1e-3)):  # just inside the planes of symmetry
+        places.append(sign * radius * 1e3)
+        speeds.append(speed(radius * numpy.cos(angle), radius * numpy.sin(angle)).filled(numpy.nan))
+    order = numpy.argsort(numpy.concatenate(places), kind="stable")
+    return numpy.concatenate(places)[order], numpy.concatenate(speeds)[order]
+
+
+def profiles(runs, path):
+    """Draws profiles of the axial speed behind the open and the half-open trileaflet valve, with walls and with the band at two
+    offsets. Draws nothing if a case is missing."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    shown = []
+    for opening in (1.0, 0.5):
+        mine = [run for run in runs if (run.valve, run.opening) == ("trileaflet", opening)]
+        fitted = sorted((run for run in mine if run.fitted and run.far == 0.13), key=lambda run: run.size)
+        bands = sorted((run for run in mine if run.eps == 0.1 and run.offset in (0, 0.75)), key=lambda run: run.offset)
+        if not fitted or len(bands) < 2:
+            return
+        shown.append([fitted[0], *bands])
+    figure, axes = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
+    for axis, some in zip(axes, shown):
+        for run, colour in zip(some, ("k", "#d55e00", "#0072b2")):
+            words = "walls" if run.fitted else f"o = {run.offset:g}"
+            axis.plot(*profile(run), color=colour, linewidth=2.4 if run.fitted else 1.4, alpha=0.6 if run.fitted else 1,
+                      label=f"{words}, {run.area:.2f} cm²")
+        axis.set(xlabel="to a commissure < 0 < to the middle of a cusp, mm", ylabel="axial speed, m/s",
+                 title=f"opening {some[0].opening:g}")
+        axis.grid(True, linewidth=0.3)
+        axis.legend(fontsize=8)
+    figure.savefig(path, dpi=100, metadata={"Software": None})
+    plt.close(figure)
+
+
+def read_runs(folder):
+    """Returns the complete cases of the folder. Says which ones are not steady, and leaves them out."""
+    runs = []
+    for case in sorted((folder / "cases").iterdir()):
+        if not (case / "complete").exists():
+            continue
+        try:
+            runs.append(Run(case, folder / "meshes"))
+        except Unsteady as reason:
+            print(f"left out: {reason}")
+    return runs
+
+
+def merged(rows, kept, now):
+    """Returns the rows, each with the commit on which it was measured, in the order of `kept` and then of `rows`."""
+    new = {row["id"]: {**row, "commit": now} for row in rows}
+    return [new.pop(key, row) for key, row in kept.items()] + list(new.values())
+
+
+def main(folder, quick):
     folder = pathlib.Path(folder)
-    runs = [Run(case, folder / "meshes") for case in sorted((folder / "cases").iterdir()) if (case / "complete").exists()]
-    if not runs:
+    runs, kept, about = read_runs(folder), {}, {"commit": commit(), "machine": machine()}
+    if not quick:
+        old = json.loads(ALL.read_text(encoding="utf-8"))
+        kept = {row["id"]: {**row, "commit": row.get("commit", old["commit"])} for row in old["rows"]}
+        about = {name: old[name] for name in about}
+    if not runs and not kept:
         raise SystemExit(f"{folder} has no complete case")
     all_solids = [run for run in runs if run.solid]
     runs = [run for run in runs if not run.solid]
-    print(f"The largest change of the drop over the last 20 steps is {max(run.settled for run in runs):.1e} of it."
-          f" {len(runs)} cases took {sum(run.seconds for run in runs) / 60:.1f} minutes of processor time.")
+    if runs:
+        print(f"The largest change of the drop over the last 20 steps is {max(run.settled for run in runs):.1e} of it."
+              f" {len(runs)} cases took {sum(run.seconds for run in runs) / 60:.1f} minutes of processor time.")
     same_leaflets(folder)
-    rows = []
+    rows, plain = [], []
     for valve, opening in sorted({(run.valve, run.opening) for run in runs}, key=lambda pair: (pair[0], -pair[1])):
-        solids = {run.eps: run.area for run in all_solids if (run.valve, run.opening) == (valve, opening)}
-        rows += compare(valve, opening, runs, solids, folder)
-    rows += blood(folder, runs) + clinical(runs)
-    text = {"commit": commit(), "machine": machine(), "command": "bench/validation/body_fitted.sh FOLDER", "rows": rows}
+        mine = [run for run in runs if (run.valve, run.opening) == (valve, opening)]
+        if any(run.offset is None and not run.fitted for run in mine) and any(run.fitted for run in mine):
+            solids = {run.eps: run.area for run in all_solids if (run.valve, run.opening) == (valve, opening)}
+            some = [run for run in mine if run.offset is None]
+            rows += compare(valve, opening, some, solids, folder)
+            plain += some
+        rows += beside(valve, opening, mine, kept)
+    rows += blood(folder, runs) + (clinical(plain) if plain else [])
+    profiles(runs, folder / "profiles.png")
+    text = {**about, "command": "bench/validation/body_fitted.sh FOLDER", "rows": merged(rows, kept, commit())}
     (folder / "body_fitted.json").write_text(json.dumps(text, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        raise SystemExit("usage: body_fitted.py FOLDER")
-    main(sys.argv[1])
+    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--quick"]):
+        raise SystemExit("usage: body_fitted.py FOLDER [--quick]")
+    main(sys.argv[1], len(sys.argv) == 3)

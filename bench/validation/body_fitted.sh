@@ -6,8 +6,9 @@
 # viscosity enters with a uniform velocity of 0.5 m/s. The effective area is Q / sqrt(2 dp /
 # rho). Here dp is the total pressure at the inlet minus the pressure at the outlet. The jet
 # still exists at the outlet, so it has not regained pressure. FOLDER gets the table
-# body_fitted.txt, the rows body_fitted.json, pictures, and the cases. A complete case in
-# FOLDER is not run again.
+# body_fitted.txt, the rows body_fitted.json, pictures, and the cases. Only cases whose rows
+# all.json lacks are run, and a complete case in FOLDER is not run again. To measure a row
+# again, remove it from all.json. If a case fails, the others still run, and the status is 1.
 set -euo pipefail
 here=$(dirname -- "$(readlink -f -- "$0")")
 [[ ${1:-} && ${1:-} != -* && (${2:-} == '' || ${2:-} == --quick) && $# -le 2 ]] || {
@@ -68,14 +69,14 @@ make_mesh() {
     rm "$mesh/mesh.msh" && touch "$mesh/complete"
 }
 
-# set_valve CASE VALVE EPS RIM RESISTANCE: writes the valve and its numbers into the case's fvOptions.
+# set_valve CASE VALVE EPS RIM RESISTANCE OFFSET: writes the valve and its numbers into the case's fvOptions.
 set_valve() {
-  sed -i "s/halfThickness .*/halfThickness $3;/; s/rim .*/rim $4;/; s/resistance .*/resistance $5;/; s/kind .*/kind ${2%%-*}; }/
-    s/opening 1;/opening ${2#*-};/" "$1/system/fvOptions"
+  sed -i "s/halfThickness .*/halfThickness $3;/; s/rim .*/rim $4;/; s/resistance .*/resistance $5;/; s/offset .*/offset $6;/
+    s/kind .*/kind ${2%%-*}; }/; s/opening 1;/opening ${2#*-};/" "$1/system/fvOptions"
 }
 
-# run_case NAME MESH VALVE [EPS RIM RESISTANCE]: runs simpleFoam. EPS is in metres. If walls replace riis in a mesh, it has no
-# EPS, RIM and RESISTANCE.
+# run_case NAME MESH VALVE [EPS RIM RESISTANCE OFFSET]: runs simpleFoam. EPS is in metres. If walls replace riis in a mesh, it
+# has no EPS, RIM, RESISTANCE and OFFSET.
 run_case() {
   local case=$out/cases/$1
   [[ ! -e $case/complete ]] || return 0
@@ -87,7 +88,7 @@ run_case() {
   else
     rm "$case/system/fvOptions"
   fi
-  logged "$case/log.simpleFoam" timeout 3600 "${of_with[@]}" simpleFoam -case "$case" && touch "$case/complete" &&
+  logged "$case/log.simpleFoam" timeout 14400 "${of_with[@]}" simpleFoam -case "$case" && touch "$case/complete" &&
     rm -rf "$case/constant/polyMesh" && say "$1"
 }
 
@@ -122,9 +123,9 @@ run_blood() {
 same_leaflets() {
   local case=$out/leaflets-$1 first
   [[ ! -e $case/complete ]] || return 0
-  first=$(find "$out/meshes" -maxdepth 1 -name "free-$1-*" | sort | tail -n 1)
+  first=$(find "$out/meshes" -maxdepth 1 \( -name "free-$1-*" -o -name "wide-$1-*" \) | sort | tail -n 1)
   rm -rf "$case"
-  cp -r "$first" "$case" && set_valve "$case" "$1" 1e-4 round 1e3 &&
+  cp -r "$first" "$case" && set_valve "$case" "$1" 1e-4 round 1e3 0 &&
     sed -i 's/velocity no;/velocity no; writeLeaflets yes;/' "$case/system/fvOptions" &&
     sed -i 's/endTime .*/endTime 1;/; s/writeInterval .*/writeInterval 1;/' "$case/system/controlDict" &&
     logged "$case/log.simpleFoam" "${of_with[@]}" simpleFoam -case "$case" &&
@@ -152,8 +153,9 @@ in_turn() {
 }
 
 # A case with walls has the name fitted-VALVE-SIZE, a case with solid leaflets solid-VALVE-EPS-SIZE. A case of riis has the name
-# riis-VALVE-EPS-SIZE-RIM-RESISTANCE. SIZE is the length of the edges in the band. Lengths are in centimetres.
-meshes='' cases='' blood=''
+# riis-VALVE-EPS-SIZE-RIM-RESISTANCE, with -OFFSET at its end in wide meshes. SIZE is the length of the edges in the band. Lengths
+# are in centimetres.
+meshes='' cases='' blood='' valves=()
 # fitted VALVE SIZE [FAR]: adds a case with walls and its mesh. FAR is the length of the edges elsewhere, by default 0.13.
 fitted() {
   meshes+="fitted-$1-$2${3:+-$3} $1 1 $2 0.06 ${3:-}"$'\n'
@@ -164,42 +166,42 @@ solid() {
   meshes+="solid-$1-$2-$3 $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }') 0.13 $2"$'\n'
   cases+="solid-$1-$2-$3 solid-$1-$2-$3 $1"$'\n'
 }
-# obstacle VALVE EPS SIZE RIM [RESISTANCE]: adds a case of riis and its mesh. Up to the distance EPS + SIZE from the
-# leaflet, edges have the length SIZE.
+# obstacle VALVE EPS SIZE RIM [RESISTANCE [OFFSET]]: adds a case of riis and its mesh. Up to the distance EPS + SIZE from the
+# leaflet, edges have the length SIZE. With OFFSET this distance is 1.75 EPS + SIZE, so that one mesh serves offsets from 0 to
+# 0.75.
 obstacle() {
-  local name=free-$1-$2-$3 line
-  line="$name $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }')"
+  local kind=${6:+wide} name line
+  name=${kind:-free}-$1-$2-$3
+  line="$name $1 0 $3 $(awk -v a="$2" -v b="$3" -v wide="${6:+0.75}" 'BEGIN { print a * (1 + wide) + b }')"
   [[ $meshes == *"$line"* ]] || meshes+=$line$'\n'
-  cases+="riis-$1-$2-$3-$4-${5:-1e3} $name $1 $(awk -v a="$2" 'BEGIN { print a / 100 }') $4 ${5:-1e3}"$'\n'
+  cases+="riis-$1-$2-$3-$4-${5:-1e3}${6:+-$6} $name $1 $(awk -v a="$2" 'BEGIN { print a / 100 }') $4 ${5:-1e3} ${6:-0}"$'\n'
+}
+# finished ID: tells whether all.json has the row. Its cases then need not run.
+finished() { grep -qF "\"id\": \"$1\"" "$here/all.json"; }
+# beside OPENING EPS OFFSET: adds the case of the trileaflet valve with this offset if all.json lacks its row. EPS is in
+# millimetres.
+beside() {
+  local eps
+  ! finished "offset_trileaflet_$1_$2_$3" || return 0
+  eps=$(awk -v a="$2" 'BEGIN { print a / 10 }')
+  obstacle "trileaflet-$1" "$eps" "$(awk -v a="$eps" 'BEGIN { print a / 2 }')" cut 1e3 "$3"
+  [[ " ${valves[*]} " == *" trileaflet-$1 "* ]] || valves+=("trileaflet-$1")
 }
 
-valves=(bileaflet-1)
-if [[ $quick ]]; then
-  fitted bileaflet-1 0.1
-  fitted bileaflet-1 0.05
-  solid bileaflet-1 0.1 0.05
-  solid bileaflet-1 0.07 0.035
-  for rim in round cut; do
-    obstacle bileaflet-1 0.1 0.05 "$rim"
-    obstacle bileaflet-1 0.07 0.035 "$rim"
-  done
-else
+# The open bileaflet valve.
+bileaflet() {
+  local size rim
+  valves+=(bileaflet-1)
   for size in 0.1 0.07 0.05 0.035 0.025; do fitted bileaflet-1 "$size"; done
   fitted bileaflet-1 0.035 0.09
   solid bileaflet-1 0.1 0.05
   solid bileaflet-1 0.07 0.035
   solid bileaflet-1 0.05 0.025
-  valves+=(bileaflet-0.75 bileaflet-0.5)
-  for valve in "${valves[@]}"; do
-    [[ $valve == bileaflet-1 ]] || for size in 0.05 0.035 0.025; do fitted "$valve" "$size"; done
-    for rim in round cut; do
-      obstacle "$valve" 0.1 0.05 "$rim"
-      obstacle "$valve" 0.07 0.035 "$rim"
-      obstacle "$valve" 0.05 0.025 "$rim"
-    done
-  done
-  # Further cases have a smaller half thickness, other numbers of edges across the band, or other resistances.
   for rim in round cut; do
+    obstacle bileaflet-1 0.1 0.05 "$rim"
+    obstacle bileaflet-1 0.07 0.035 "$rim"
+    obstacle bileaflet-1 0.05 0.025 "$rim"
+    # Further cases have a smaller half thickness, other numbers of edges across the band, or other resistances.
     obstacle bileaflet-1 0.035 0.0175 "$rim"
     obstacle bileaflet-1 0.1 0.1 "$rim"
     obstacle bileaflet-1 0.1 0.025 "$rim"
@@ -209,21 +211,59 @@ else
   blood='fitted-bileaflet-1-0.05
     riis-bileaflet-1-0.1-0.05-round-1e3
     riis-bileaflet-1-0.07-0.035-round-1e3'
-  valves+=(trileaflet-1)
-  for size in 0.05 0.035 0.025; do fitted trileaflet-1 "$size"; done
+}
+
+# some_open VALVE: a valve as walls and as obstacle, with three sizes.
+some_open() {
+  local size rim
+  valves+=("$1")
+  for size in 0.05 0.035 0.025; do fitted "$1" "$size"; done
   for rim in round cut; do
-    obstacle trileaflet-1 0.1 0.05 "$rim"
-    obstacle trileaflet-1 0.07 0.035 "$rim"
-    obstacle trileaflet-1 0.05 0.025 "$rim"
+    obstacle "$1" 0.1 0.05 "$rim"
+    obstacle "$1" 0.07 0.035 "$rim"
+    obstacle "$1" 0.05 0.025 "$rim"
+  done
+}
+
+# Adds the trileaflet valve whose band lies beside the leaflets. The cases of the bars come first.
+beside_leaflets() {
+  local opening offset some
+  for offset in 0.75 0; do for opening in 1 0.5 0.25; do beside "$opening" 1 "$offset"; done; done
+  for offset in 0.75 0; do for opening in 1 0.5 0.25; do beside "$opening" 0.5 "$offset"; done; done
+  for opening in 1 0.5 0.25; do beside "$opening" 1 0.5; done
+  some=$cases cases=''
+  [[ $some != *riis-trileaflet-1-* ]] || fitted trileaflet-1 0.03
+  [[ $some != *riis-trileaflet-0.5-* ]] || { fitted trileaflet-0.5 0.03 && fitted trileaflet-0.5 0.05; }
+  [[ $some != *riis-trileaflet-0.25-* ]] || fitted trileaflet-0.25 0.03
+  cases+=$some
+}
+
+if [[ $quick ]]; then
+  valves+=(bileaflet-1)
+  fitted bileaflet-1 0.1
+  fitted bileaflet-1 0.05
+  solid bileaflet-1 0.1 0.05
+  solid bileaflet-1 0.07 0.035
+  for rim in round cut; do
+    obstacle bileaflet-1 0.1 0.05 "$rim"
+    obstacle bileaflet-1 0.07 0.035 "$rim"
+  done
+else
+  beside_leaflets
+  finished bodyfit_bileaflet_1_cut_line || bileaflet
+  for valve in bileaflet-0.75 bileaflet-0.5 trileaflet-1; do
+    finished "bodyfit_${valve/-/_}_cut_line" || some_open "$valve"
   done
 fi
 
-in_turn make_mesh "$meshes"
+status=0
+in_turn make_mesh "$meshes" || status=1
 mesh=$out/meshes/$(head -n 1 <<<"$meshes" | cut -d ' ' -f 1)
-openfoam_digests
-in_turn run_case "$cases"
-in_turn run_blood "$blood"
-in_turn same_leaflets "$(printf '%s\n' "${valves[@]}")"
+[[ ! $meshes ]] || openfoam_digests
+in_turn run_case "$cases" || status=1
+in_turn run_blood "$blood" || status=1
+in_turn same_leaflets "$(printf '%s\n' "${valves[@]}")" || status=1
 python=python3
 [[ ! -x /usr/bin/python3 ]] || python=/usr/bin/python3
-"$python" -B "$here/body_fitted.py" "$out" | tee "$out/body_fitted.txt"
+"$python" -B "$here/body_fitted.py" "$out" ${quick:+--quick} | tee "$out/body_fitted.txt"
+exit "$status"
