@@ -4,9 +4,13 @@ of marks.c.
 
 The order of a series, the reading of committed rows and the page are tried on made-up rows."""
 
+import contextlib
 import copy
+import io
 import json
+import math
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
@@ -15,6 +19,7 @@ import unittest
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path[:0] = [os.path.join(ROOT, "bench", folder) for folder in ("validation", "report")]
 try:
+    import body_fitted
     import exact
     import jets
     import marking
@@ -160,6 +165,50 @@ class Judged(unittest.TestCase):
                 self.assertEqual("jet_0.3 is +20.00 % off, and its bar is 10 %" in run.stdout, bool(status))
                 with open(os.path.join(folder, "validation.md"), encoding="utf-8") as file:
                     self.assertEqual("**missed**" in file.read(), bool(status))
+
+    def test_offsets(self):
+        # A case of each kind, from files as simpleFoam leaves them.
+        def case(folder, name, mesh, pressures, words):
+            at = pathlib.Path(folder)
+            owner, log = at / "meshes" / mesh / "constant/polyMesh/owner", at / "cases" / name / "log.simpleFoam"
+            for path, text in ((owner, 'note "nCells:1";'), (log, words + "\nExecutionTime = 2 s"),
+                               (log.parent / "complete", ""), (log.parent / "400/U", "internalField uniform (0 0 1);")):
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text)
+            for patch, values in (("inlet", pressures), ("outlet", [0.5e-4 * math.pi * 1.22**2 / 6] * len(pressures))):
+                table = log.parent / "postProcessing" / patch / "0/surfaceFieldValue.dat"
+                table.parent.mkdir(parents=True)
+                table.write_text("".join(f"{at + 1} {value}\n" for at, value in enumerate(values)))
+
+        done, valve = "SIMPLE solution converged in 400 iterations", "trileaflet-0.5"
+        steady, moving = [2.0] * 350 + [2.00001] * 50, [2.0] * 350 + [2.1] * 50
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()) as told:
+            case(folder, f"fitted-{valve}-0.03", f"fitted-{valve}-0.03", [1.5] * 400, done)
+            case(folder, f"riis-{valve}-0.1-0.05-cut-1e3-0.75", f"wide-{valve}-0.1-0.05", steady, "")
+            case(folder, f"riis-{valve}-0.1-0.05-cut-1e3-0", f"wide-{valve}-0.1-0.05", moving, "")
+            runs = body_fitted.read_runs(pathlib.Path(folder))
+            made = body_fitted.beside("trileaflet", 0.5, runs, {})
+            # Without the case, the walls are those of a row that is kept.
+            again = body_fitted.beside("trileaflet", 0.5, runs[1:], {made[0]["id"]: made[0]})
+            none = body_fitted.beside("trileaflet", 0.5, runs[1:], {})
+        self.assertIn(f"left out: riis-{valve}-0.1-0.05-cut-1e3-0: simpleFoam did not converge in 400 steps", told.getvalue())
+        self.assertEqual([row["id"] for row in made], ["offset_trileaflet_0.5_1_0.75"])
+        # The area is Q / sqrt(2 dp / rho), with the total pressure 1.625 or 2.125 rho.
+        self.assertAlmostEqual(made[0]["deviation"], math.sqrt(1.625 / 2.12501) - 1, delta=1e-4)
+        self.assertAlmostEqual(made[0]["drop"], 2.12501 / 1.625 - 1, delta=1e-4)
+        self.assertEqual(made[0]["bar"], 0.04)
+        self.assertIn("stalled above the limit of the residuals", made[0]["note"])
+        self.assertEqual([row["reference"] for row in again + none], [made[0]["reference"]])
+        validate.check_rows(made, "here")
+        table = validate.offsets_of([*made, {**made[0], "opening": 1.0, "offset": 0, "deviation": -0.05, "drop": 0.1}])
+        self.assertEqual(table.splitlines(), ["| opening | ε | o = 0 | o = 0.75 |", "|---|---|---|---|",
+                                              "| 1 | 1 mm | -5.0 % (+10 %) |  |", "| 0.5 | 1 mm |  | -12.6 % (+31 %) |"])
+
+    def test_rows_are_kept(self):
+        kept = {key: {"id": key, "commit": "old", "deviation": 1} for key in "ab"}
+        found = body_fitted.merged([{"id": "b", "deviation": 2}, {"id": "c", "deviation": 3}], kept, "new")
+        self.assertEqual([(row["id"], row["commit"], row["deviation"]) for row in found],
+                         [("a", "old", 1), ("b", "new", 2), ("c", "new", 3)])
 
     def test_grid_that_does_not_fit(self):
         with self.assertRaisesRegex(ValueError, "do not fit between 0 and 6"):
