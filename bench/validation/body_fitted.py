@@ -19,8 +19,8 @@ RHO = 1060.0  # kg/m3
 INLET = 0.5  # m/s, of steady_case/0/U
 MMHG = 133.322  # Pa
 GORLIN = 44.3  # cm2, ml/s and mmHg: the constant of Gorlin's formula for the aortic valve
-RADIUS = {"bileaflet": 1.1, "trileaflet": 1.22}  # radii of the tubes, in centimetres
-COPIES = {"bileaflet": 4, "trileaflet": 6}  # number of equal pieces of the valve; one piece is computed
+RADIUS = {"bileaflet": 1.1, "trileaflet": 1.22, "coapting": 1.24}  # radii of the tubes, in centimetres
+COPIES = {"bileaflet": 4, "trileaflet": 6, "coapting": 6}  # number of equal pieces of the valve; one piece is computed
 BAR = 0.1  # bar of the row for the smallest eps
 LINE_BAR = 0.02  # bar of the row for the line through all eps
 OFFSET_BARS = {1.0: 0.015, 0.5: 0.04, 0.25: 0.05}  # for each opening, bar of the rows whose offset is 0.75
@@ -438,8 +438,8 @@ def beside(valve, opening, runs, kept):
                         " cm²",
             "reference": round(float(walls), 4), "source": "the same leaflets as walls of no thickness, body-fitted",
             "solver": SOLVER, "grids": [*grids, place(run, run.area)], "order": None, "extrapolated": round(float(run.area), 4),
-            "deviation": round(float(off), 4), "bar": OFFSET_BARS.get(opening) if run.offset == 0.75 else None,
-            "opening": opening, "eps": run.eps * 1e-2, "offset": run.offset, "drop": round(float(drop), 4),
+            "deviation": round(float(off), 4), "bar": OFFSET_BARS.get(opening) if (valve, run.offset) == ("trileaflet", 0.75) else None,
+            "valve": valve, "opening": opening, "eps": round(run.eps * 1e-2, 7), "offset": run.offset, "drop": round(float(drop), 4),
             "note": f"total drop {run.total:.1f} Pa, {100 * drop:+.1f} % off walls; {run.steps} steps{stall(run)}"})
     return rows
 

@@ -37,6 +37,7 @@ openfoam_build >"$out/build.log" 2>&1 || {
   exit 1
 }
 openfoam_environment
+gcc -O2 -I "$of_work/riis/include" -o "$of_work/points" "$here/points.c" -L "$of_work/riis/lib" -lriis -lm
 
 # logged LOG COMMAND...: runs the command with its output in the file. If the command fails, shows the file's end.
 logged() {
@@ -49,16 +50,30 @@ logged() {
 # Tests whether OpenFOAM can run a function object in the folder of the mesh. This function replaces the one in openfoam.sh.
 openfoam_function_object() { "${of_with[@]}" postProcess -case "$mesh" -func writeCellCentres -time 0; }
 
-# make_mesh NAME VALVE FITTED SIZE BAND [FAR [SOLID]]: makes a mesh with gmsh, in meshes/NAME. VALVE is the name of the .geo file,
-# a hyphen, and the opening. The other arguments are options of the .geo file. Lengths are in centimetres.
+# geometry FOLDER VALVE: prints the path of the valve's .geo file. A valve that has none gets one in the folder, from points of the
+# library. VALVE is the kind, a hyphen, and the opening.
+geometry() {
+  local kind=${2%%-*}
+  if [[ -e $here/$kind.geo ]]; then
+    echo "$here/$kind.geo"
+    return
+  fi
+  LD_LIBRARY_PATH=$of_work/riis/lib "$of_work/points" "$kind" "${2#*-}" >"$1/$kind.geo" &&
+    cat "$here/cusps.geo" >>"$1/$kind.geo" && cp "$here"/{patches,fluid}.geo "$1" && echo "$1/$kind.geo"
+}
+
+# make_mesh NAME VALVE FITTED SIZE BAND [FAR [SOLID]]: makes a mesh with gmsh, in meshes/NAME. The arguments after VALVE are
+# options of the .geo file. Lengths are in centimetres.
 make_mesh() {
+  local geo
   mesh=$out/meshes/$1
   [[ ! -e $mesh/complete ]] || return 0
   rm -rf "$mesh"
   cp -r "$here/steady_case" "$mesh"
+  geo=$(geometry "$mesh" "$2") || return
   logged "$mesh/log.gmsh" gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber opening "${2#*-}" \
     -setnumber fitted "$3" -setnumber size "$4" -setnumber band "$5" -setnumber far "${6:-0.13}" -setnumber solid "${7:-0}" \
-    -format msh22 -o "$mesh/mesh.msh" "$here/${2%%-*}.geo" &&
+    -format msh22 -o "$mesh/mesh.msh" "$geo" &&
     logged "$mesh/log.gmshToFoam" gmshToFoam -case "$mesh" "$mesh/mesh.msh" || return
   sed -i '/^ *wall$/,/}/s/patch;/wall;/; /^ *planes$/,/}/s/patch;/symmetry;/; /physicalType/d' "$mesh/constant/polyMesh/boundary"
   if (($3)); then
@@ -121,7 +136,7 @@ run_blood() {
 # same_leaflets VALVE: writes the leaflets of the fitted mesh and the leaflets of the library into the folder leaflets-VALVE. The
 # half thickness of 0.1 mm makes the library's triangles exact to 0.005 mm.
 same_leaflets() {
-  local case=$out/leaflets-$1 first
+  local case=$out/leaflets-$1 first geo
   [[ ! -e $case/complete ]] || return 0
   first=$(find "$out/meshes" -maxdepth 1 \( -name "free-$1-*" -o -name "wide-$1-*" \) | sort | tail -n 1)
   rm -rf "$case"
@@ -129,9 +144,9 @@ same_leaflets() {
     sed -i 's/velocity no;/velocity no; writeLeaflets yes;/' "$case/system/fvOptions" &&
     sed -i 's/endTime .*/endTime 1;/; s/writeInterval .*/writeInterval 1;/' "$case/system/controlDict" &&
     logged "$case/log.simpleFoam" "${of_with[@]}" simpleFoam -case "$case" &&
-    mv "$case/postProcessing/valve/1/leaflets.vtk" "$case" || return
+    mv "$case/postProcessing/valve/1/leaflets.vtk" "$case" && geo=$(geometry "$case" "$1") || return
   logged "$case/log.gmsh" gmsh -2 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber opening "${1#*-}" -setnumber fitted 1 \
-    -setnumber size 0.05 -setnumber band 0.1 -format msh22 -o "$case/fitted.msh" "$here/${1%%-*}.geo" &&
+    -setnumber size 0.05 -setnumber band 0.1 -format msh22 -o "$case/fitted.msh" "$geo" &&
     rm -rf "$case"/[0-9]* "$case/constant" "$case/postProcessing" && touch "$case/complete"
 }
 
@@ -178,14 +193,13 @@ obstacle() {
 }
 # finished ID: tells whether all.json has the row. Its cases then need not run.
 finished() { grep -qF "\"id\": \"$1\"" "$here/all.json"; }
-# beside OPENING EPS OFFSET: adds the case of the trileaflet valve with this offset if all.json lacks its row. EPS is in
-# millimetres.
+# beside VALVE EPS OFFSET: adds the case of the valve with this offset if all.json lacks its row. EPS is in millimetres.
 beside() {
   local eps
-  ! finished "offset_trileaflet_$1_$2_$3" || return 0
+  ! finished "offset_${1/-/_}_$2_$3" || return 0
   eps=$(awk -v a="$2" 'BEGIN { print a / 10 }')
-  obstacle "trileaflet-$1" "$eps" "$(awk -v a="$eps" 'BEGIN { print a / 2 }')" cut 1e3 "$3"
-  [[ " ${valves[*]} " == *" trileaflet-$1 "* ]] || valves+=("trileaflet-$1")
+  obstacle "$1" "$eps" "$(awk -v a="$eps" 'BEGIN { print a / 2 }')" cut 1e3 "$3"
+  [[ " ${valves[*]} " == *" $1 "* ]] || valves+=("$1")
 }
 
 # The open bileaflet valve.
@@ -225,16 +239,20 @@ some_open() {
   done
 }
 
-# Adds the trileaflet valve whose band lies beside the leaflets. The cases of the bars come first.
+# Adds the valves whose band lies beside the leaflets, with walls first. The cases of the bars are next.
 beside_leaflets() {
-  local opening offset some
-  for offset in 0.75 0; do for opening in 1 0.5 0.25; do beside "$opening" 1 "$offset"; done; done
-  for offset in 0.75 0; do for opening in 1 0.5 0.25; do beside "$opening" 0.5 "$offset"; done; done
-  for opening in 1 0.5 0.25; do beside "$opening" 1 0.5; done
+  local offset valve size three=(trileaflet-1 trileaflet-0.5 trileaflet-0.25) two=(coapting-1 coapting-0.5) some
+  for offset in 0.75 0; do for valve in "${three[@]}"; do beside "$valve" 1 "$offset"; done; done
+  for offset in 0.75 0; do for valve in "${three[@]}"; do beside "$valve" 0.5 "$offset"; done; done
+  for valve in "${three[@]}"; do beside "$valve" 1 0.5; done
+  for valve in "${two[@]}"; do
+    for offset in 0.75 0.5 0; do beside "$valve" 1 "$offset"; done
+    for offset in 0.75 0; do beside "$valve" 0.5 "$offset"; done
+  done
   some=$cases cases=''
-  [[ $some != *riis-trileaflet-1-* ]] || fitted trileaflet-1 0.03
-  [[ $some != *riis-trileaflet-0.5-* ]] || { fitted trileaflet-0.5 0.03 && fitted trileaflet-0.5 0.05; }
-  [[ $some != *riis-trileaflet-0.25-* ]] || fitted trileaflet-0.25 0.03
+  for valve in "${valves[@]}"; do
+    for size in 0.05 0.03 0.02; do fitted "$valve" "$size"; done
+  done
   cases+=$some
 }
 
@@ -266,4 +284,4 @@ in_turn same_leaflets "$(printf '%s\n' "${valves[@]}")" || status=1
 python=python3
 [[ ! -x /usr/bin/python3 ]] || python=/usr/bin/python3
 "$python" -B "$here/body_fitted.py" "$out" ${quick:+--quick} | tee "$out/body_fitted.txt"
-exit "$status"
+((status == 0))

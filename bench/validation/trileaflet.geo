@@ -10,8 +10,6 @@ DefineConstant[ far = 0.13 ];
 DefineConstant[ opening = 1 ];
 
 tube = 1.22; below = -2.2; above = 1.6;
-Cylinder(1) = {0, 0, below, 0, 0, above - below, tube, Pi / 3};
-fluid() = {1};
 
 // docs/theory/trileaflet.md and docs/theory/aortic.md define these curves. The parameters have their defaults. edge_x, edge_y,
 // bend_x and bend_y are the control points of the free edge and of the bending curve. They are blended between the closed state
@@ -54,12 +52,11 @@ second_x = (bend_x[0] - (1 - share)^3 * R - 3 * share * (1 - share)^2 * first_x 
 second_x = second_x / (3 * share^2 * (1 - share));
 second_z = (bend_z - 3 * share * (1 - share)^2 * first_z - share^3 * height) / (3 * share^2 * (1 - share));
 
-// Each of the two patches is a smooth surface through points at equal steps of u and v. A point of the Coons patch lies beside
-// the straight line between sinus curve and symmetry curve. The variables `bow` hold the difference.
+// The points of both patches have equal steps of u and v. A point of the Coons patch lies beside the straight line between sinus
+// curve and symmetry curve. The variables `bow` hold the difference.
 n_u = 8; n_v = 8;
-leaf() = {};
+xyz[] = {};
 For upper In {0:1}
-  start = newp;
   For i In {0:n_v}
     // The lower patch begins a little above the root, because its corner at the root lies outside the tube.
     v = upper ? i / n_v : 0.03 + 0.97 * i / n_v;
@@ -77,44 +74,10 @@ For upper In {0:1}
         bow_x += factor * ((upper ? 1 - v : v) * bend_x[k] + (upper ? v : 0) * edge_x[k]);
         bow_y += factor * ((upper ? 1 - v : v) * bend_y[k] + (upper ? v : 0) * edge_y[k]);
       EndFor
-      x = (1 - u) * sym_x + u * sin_x + bow_x;
-      Point(start + i * (n_u + 1) + j) = {x, u * sin_y + bow_y, (1 - u) * sym_z + u * sin_z - height};
+      xyz[] += {(1 - u) * sym_x + u * sin_x + bow_x, u * sin_y + bow_y, (1 - u) * sym_z + u * sin_z - height};
     EndFor
   EndFor
-  lower[] = {}; higher[] = {}; middle[] = {}; outer[] = {}; inside[] = {};
-  For j In {0:n_u}
-    lower[] += start + j;
-    higher[] += start + n_v * (n_u + 1) + j;
-  EndFor
-  For i In {0:n_v}
-    middle[] += start + i * (n_u + 1);
-    outer[] += start + i * (n_u + 1) + n_u;
-  EndFor
-  For i In {1:n_v - 1}
-    For j In {1:n_u - 1}
-      inside[] += start + i * (n_u + 1) + j;
-    EndFor
-  EndFor
-  line = newl;
-  If (upper)
-    Spline(line + 1) = outer[];
-    Spline(line + 2) = higher[];
-    Spline(line + 3) = middle[];
-    shared_0 = shared;
-    Curve Loop(line + 4) = {shared_0, line + 1, -(line + 2), -(line + 3)};
-  Else
-    Spline(line) = lower[];
-    Spline(line + 1) = outer[];
-    Spline(line + 2) = higher[];
-    Spline(line + 3) = middle[];
-    shared = line + 2;
-    Curve Loop(line + 4) = {line, line + 1, -(line + 2), -(line + 3)};
-  EndIf
-  patch = news;
-  Surface(patch) = {line + 4} Using Point { inside[] };
-  leaf() += patch;
 EndFor
 
-z_range() = {below, above};
-plane_boxes() = {0, 0, below, tube * Cos(Pi / 3), tube * Sin(Pi / 3), above, 0, 0, below, tube, 0, above};
+Include "patches.geo";
 Include "fluid.geo";

@@ -131,11 +131,12 @@ def offsets_of(rows):
     import report_text
 
     offsets = sorted({row["offset"] for row in rows})
-    cell = {(row["opening"], row["eps"], row["offset"]): f"{100 * row['deviation']:+.1f} % ({100 * row['drop']:+.0f} %)"
-            for row in rows}  # fmt: skip
-    lines = [[f"{opening:g}", f"{1e3 * eps:g} mm", *(cell.get((opening, eps, offset), "") for offset in offsets)]
-             for opening, eps in sorted({key[:2] for key in cell}, reverse=True)]  # fmt: skip
-    return report_text.table(["opening", "ε", *(f"o = {offset:g}" for offset in offsets)], lines)
+    cell = {(row["valve"], row["opening"], row["eps"], row["offset"]):
+            f"{100 * row['deviation']:+.1f} % ({100 * row['drop']:+.0f} %)" for row in rows}  # fmt: skip
+    order = sorted({key[:3] for key in cell}, key=lambda key: (key[0] != "trileaflet", key[0], -key[1], -key[2]))
+    lines = [[valve, f"{opening:g}", f"{1e3 * eps:g} mm", *(cell.get((valve, opening, eps, offset), "") for offset in offsets)]
+             for valve, opening, eps in order]  # fmt: skip
+    return report_text.table(["valve", "opening", "ε", *(f"o = {offset:g}" for offset in offsets)], lines)
 
 
 def page_values(rows, about, committed, plots):

@@ -201,8 +201,9 @@ class Judged(unittest.TestCase):
         self.assertEqual([row["reference"] for row in again + none], [made[0]["reference"]])
         validate.check_rows(made, "here")
         table = validate.offsets_of([*made, {**made[0], "opening": 1.0, "offset": 0, "deviation": -0.05, "drop": 0.1}])
-        self.assertEqual(table.splitlines(), ["| opening | ε | o = 0 | o = 0.75 |", "|---|---|---|---|",
-                                              "| 1 | 1 mm | -5.0 % (+10 %) |  |", "| 0.5 | 1 mm |  | -12.6 % (+31 %) |"])
+        self.assertEqual(table.splitlines(), ["| valve | opening | ε | o = 0 | o = 0.75 |", "|---|---|---|---|---|",
+                                              "| trileaflet | 1 | 1 mm | -5.0 % (+10 %) |  |",
+                                              "| trileaflet | 0.5 | 1 mm |  | -12.6 % (+31 %) |"])
 
     def test_rows_are_kept(self):
         kept = {key: {"id": key, "commit": "old", "deviation": 1} for key in "ab"}
