@@ -9,23 +9,12 @@ import subprocess
 import sys
 
 import numpy
+from beside import beside, beside_words, profiles
+from cases import COPIES, INLET, MMHG, RADIUS, RHO, ROOT, SOLVER, chosen, foam, line, place, read_runs
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 ALL = ROOT / "bench/validation/all.json"
-sys.path.insert(0, str(ROOT / "examples/openfoam"))
-import foam_files as foam  # noqa: E402
-
-RHO = 1060.0  # kg/m3
-INLET = 0.5  # m/s, of steady_case/0/U
-MMHG = 133.322  # Pa
-GORLIN = 44.3  # cm2, ml/s and mmHg: the constant of Gorlin's formula for the aortic valve
-RADIUS = {"bileaflet": 1.1, "trileaflet": 1.22, "coapting": 1.24}  # radii of the tubes, in centimetres
-COPIES = {"bileaflet": 4, "trileaflet": 6, "coapting": 6}  # number of equal pieces of the valve; one piece is computed
 BAR = 0.1  # bar of the row for the smallest eps
 LINE_BAR = 0.02  # bar of the row for the line through all eps
-OFFSET_BARS = {1.0: 0.015, 0.5: 0.04, 0.25: 0.05}  # for each opening, bar of the rows whose offset is 0.75
-STEADY = 2e-5  # largest share of the drop by which it may change over the last 100 steps of a run that did not converge
-SOLVER = "OpenFOAM 1912, simpleFoam, tetrahedra"
 
 
 def outline(valve, opening, n=200001):
@@ -61,56 +50,6 @@ def _length_inside(x, y, radius):
     return float((numpy.hypot(numpy.diff(x), numpy.diff(y)) * middle).sum())
 
 
-class Unsteady(Exception):
-    """A run whose flow is not steady."""
-
-
-class Run:
-    """The results of one case, with its effective area in cm2."""
-
-    def __init__(self, folder, meshes):
-        self.folder, self.name = folder, folder.name
-        kind, self.valve, opening, *words = self.name.split("-")
-        self.opening = float(opening)
-        self.fitted, self.solid = kind == "fitted", kind == "solid"
-        self.rim = words[2] if kind == "riis" else None
-        self.eps = 0.0 if self.fitted else float(words[0])
-        self.size = float(words[0 if self.fitted else 1])
-        self.far = float(words[1]) if self.fitted and len(words) > 1 else 0.13
-        self.resistance = float(words[3]) if kind == "riis" else None
-        self.offset = float(words[4]) if kind == "riis" and len(words) > 4 else None
-        mesh = self.name
-        if kind == "riis":
-            mesh = f"{'free' if self.offset is None else 'wide'}-{self.valve}-{opening}-{words[0]}-{words[1]}"
-        self.cells = foam.n_cells(meshes / mesh / "constant/polyMesh")
-        log = foam.text(folder / "log.simpleFoam")
-        pressure = foam.table(folder, "inlet")[:, 1]
-        self.steps = len(pressure)
-        self.converged = "SIMPLE solution converged" in log
-        # The total drop differs from the static drop by a constant, and decides the area.
-        total = pressure[-100:] + INLET ** 2 / 2
-        self.change = (total.max() - total.min()) / total[-1]
-        if not self.converged and not self.change <= STEADY:
-            raise Unsteady(f"{folder.name}: simpleFoam did not converge in {self.steps} steps, and the drop still changes by"
-                           f" {self.change:.1e} of it in 100 steps")
-        self.seconds = float(re.findall(r"ExecutionTime = (\S+) s", log)[-1])
-        self.settled = abs(pressure[-1] / pressure[-20] - 1)
-        self.drop = RHO * pressure[-1]  # Pa, static, from the inlet to the outlet
-        self.flow = INLET * numpy.pi * RADIUS[self.valve] ** 2 * 1e2  # ml/s
-        out = foam.table(folder, "outlet")[-1, 1] * 1e6 * COPIES[self.valve]
-        # The mesh has polygons instead of circles, so a coarse mesh has less flow. The area uses the flow of the polygon.
-        if abs(out / self.flow - 1) > 0.03:
-            raise SystemExit(f"{folder}: {out} ml/s leave the tube, and {self.flow} enter it")
-        self.flow = out
-        self.total = self.drop + RHO * INLET ** 2 / 2
-        self.area = self.flow / numpy.sqrt(2 * self.total / RHO) * 1e-2
-        time = max((one.name for one in folder.iterdir() if one.name.isdigit()), key=int)
-        self.jet = numpy.linalg.norm(foam.field(folder / time / "U", self.cells), axis=1).max()
-
-    def gorlin(self):
-        return self.flow / (GORLIN * numpy.sqrt(self.total / MMHG))
-
-
 def order_of(sizes, values):
     """Returns order and limit by Richardson's extrapolation from three grids with a constant ratio of sizes. Returns None and the
     value of the finest grid if the values have no order."""
@@ -122,25 +61,6 @@ def order_of(sizes, values):
         return None, c
     order = numpy.log(share) / numpy.log(ratio)
     return float(order), float(c + (c - b) / (ratio ** order - 1))
-
-
-def chosen(runs):
-    """Returns the runs of riis with R = 1e3 and two edges in eps, from the largest eps to the smallest."""
-    return sorted((run for run in runs if not run.fitted and run.resistance == 1e3 and abs(run.eps / run.size - 2) < 1e-6),
-                  key=lambda run: -run.eps)
-
-
-def place(run, value):
-    """Returns one entry of a row's field `grids` (rows.py)."""
-    name = "walls" if run.fitted else f"ε {10 * run.eps:g} mm"
-    return {"n": f"{name}, h {10 * run.size:g} mm", "h": round(run.size * 1e-2, 7), "eps": round(run.eps * 1e-2, 7),
-            "rim": run.rim, "value": round(float(value), 4)}
-
-
-def line(eps, area):
-    """Fits a straight line to area(eps). Returns its value at 0 and its slope."""
-    slope, at_zero = numpy.polyfit(eps, area, 1)
-    return at_zero, slope
 
 
 def far_from(points, triangles):
@@ -360,15 +280,15 @@ def clinical(runs):
 
 
 def blood(folder, runs):
-    """Prints means in time of the runs with blood's viscosity, which start from the steady flows. Returns their row."""
+    """Prints means in time of the runs with blood's viscosity, which start from the steady flows. Returns their rows."""
     begin = 0.04  # s
-    rows = []
+    found = []
     for case in sorted((folder / "blood").glob("*")):
         if not (case / "complete").exists():
             continue
         steady = next(run for run in runs if run.name == case.name)
         table = foam.table(case, "inlet")
-        if not rows:
+        if not found:
             print(f"\nBlood's viscosity, means over {begin:g} to {table[-1, 0]:g} s, within the planes of symmetry. The last"
                   " column has ten times the viscosity.")
             print("  case                                      steps  drop, Pa  least  largest  area, cm2  steady")
@@ -377,128 +297,47 @@ def blood(folder, runs):
         area = steady.flow / numpy.sqrt(2 * mean / RHO + INLET ** 2) * 1e-2
         print(f"  {case.name:<40} {len(table):>6} {mean:>9.1f} {RHO * drop.min():>6.0f} {RHO * drop.max():>8.0f} {area:>10.3f}"
               f" {steady.area:>10.3f}")
-        rows.append((steady, area))
-    if not rows:
-        return []
-    walls = next((area for run, area in rows if run.fitted), None)
-    others = [(run, area) for run, area in rows if not run.fitted]
-    if walls is None or len(others) < 2:
+        found.append((steady, area))
+    rows = []
+    for valve, opening in dict.fromkeys((run.valve, run.opening) for run, _ in found):
+        mine = [(run, area) for run, area in found if (run.valve, run.opening) == (valve, opening)]
+        walls = next((area for run, area in mine if run.fitted), None)
+        if walls is None:
+            continue
+        rows += blood_line([one for one in mine if one[0].offset is None], walls)
+        rows += [blood_beside(run, area, walls, mine) for run, area in mine if run.offset is not None]
+    return rows
+
+
+BLOOD = {"source": "the same leaflets as walls of no thickness, body-fitted",
+         "solver": SOLVER.replace("simpleFoam", "pimpleFoam"), "order": None, "bar": None}
+
+
+def blood_line(found, walls):
+    """Returns the row for the line through the areas of `found` at two half thicknesses or more, with blood's viscosity."""
+    others = [(run, area) for run, area in found if not run.fitted]
+    if len(others) < 2:
         return []
     at_zero = line([run.eps for run, _ in others], [area for _, area in others])[0]
     print(f"  a straight line gives {at_zero:.3f} cm2 at eps 0, {100 * (at_zero / walls - 1):+.2f} % of the walls")
     return [{
         "id": "bodyfit_blood", "group": "bodyfit",
         "quantity": "bileaflet valve, open, rim round, blood's viscosity: effective area, mean in time, at ε = 0, cm²",
-        "reference": round(float(walls), 4), "source": "the same leaflets as walls of no thickness, body-fitted",
-        "solver": SOLVER.replace("simpleFoam", "pimpleFoam"),
-        "grids": [place(run, area) for run, area in sorted(rows, key=lambda one: -one[0].eps)],
-        "order": None, "extrapolated": round(float(at_zero), 4), "deviation": round(float(at_zero / walls - 1), 4), "bar": None,
+        **BLOOD, "reference": round(float(walls), 4),
+        "grids": [place(run, area) for run, area in sorted(found, key=lambda one: -one[0].eps)],
+        "extrapolated": round(float(at_zero), 4), "deviation": round(float(at_zero / walls - 1), 4),
         "note": "means over 0.06 s in a quarter of the valve; fluctuations across its planes of symmetry are missing"}]
 
 
-def stall(run):
-    """Returns words for a run that ended above the limit of the residuals, else no words."""
-    if run.converged:
-        return ""
-    return f"; stalled above the limit of the residuals, but the drop changes by {run.change:.0e} of it in the last 100 steps"
-
-
-def walls_of(valve, opening, runs, kept):
-    """Returns the area of the walls in cm2, from the finest mesh, and the entries for a row's grids. If the cases are missing,
-    both are from a row of `kept`."""
-    fitted = sorted((run for run in runs if run.fitted and run.far == 0.13), key=lambda run: -run.size)
-    if fitted:
-        return fitted[-1].area, [place(run, run.area) for run in fitted]
-    for row in kept.values():
-        if row["id"].startswith((f"offset_{valve}_{opening:g}_", f"bodyfit_{valve}_{opening:g}_cut_")):
-            return row["reference"], [grid for grid in row["grids"] if grid["eps"] == 0]
-    return None, []
-
-
-def beside(valve, opening, runs, kept):
-    """Prints the table of one valve at one opening whose band lies beside the leaflets, and returns its rows."""
-    mine = [run for run in runs if run.offset is not None]
-    if not mine:
-        return []
-    walls, grids = walls_of(valve, opening, runs, kept)
-    if walls is None:
-        print(f"\nThe {valve} valve, opening {opening:g}: no case with walls, so offsets have no rows")
-        return []
-    print(f"\nThe {valve} valve, opening {opening:g}, the band beside the leaflets, cut rim; walls {walls:.4f} cm2"
-          f" ({', '.join(grid['n'] for grid in grids)})")
-    print("  eps, mm  offset    cells  steps  seconds  total, Pa  area, cm2  off walls  drop off walls")
-    rows = []
-    for run in sorted(mine, key=lambda one: (-one.eps, one.offset)):
-        off, drop = run.area / walls - 1, (walls / run.area) ** 2 - 1
-        print(f"  {10 * run.eps:>7g} {run.offset:>7g} {run.cells:>8,} {run.steps:>6} {run.seconds:>8.0f} {run.total:>10.2f}"
-              f" {run.area:>10.4f} {100 * off:>+8.2f} % {100 * drop:>+13.1f} %{stall(run)}")
-        rows.append({
-            "id": f"offset_{valve}_{opening:g}_{10 * run.eps:g}_{run.offset:g}", "group": "offset",
-            "quantity": f"{valve} valve, opening {opening:g}, rim cut, ε {10 * run.eps:g} mm, o = {run.offset:g}: effective area,"
-                        " cm²",
-            "reference": round(float(walls), 4), "source": "the same leaflets as walls of no thickness, body-fitted",
-            "solver": SOLVER, "grids": [*grids, place(run, run.area)], "order": None, "extrapolated": round(float(run.area), 4),
-            "deviation": round(float(off), 4), "bar": OFFSET_BARS.get(opening) if (valve, run.offset) == ("trileaflet", 0.75) else None,
-            "valve": valve, "opening": opening, "eps": round(run.eps * 1e-2, 7), "offset": run.offset, "drop": round(float(drop), 4),
-            "note": f"total drop {run.total:.1f} Pa, {100 * drop:+.1f} % off walls; {run.steps} steps{stall(run)}"})
-    return rows
-
-
-def profile(run):
-    """Returns places on a diameter 4.5 mm behind the free edges, in mm, and the axial speeds there. Negative places lie on the
-    line through a commissure, positive places on the line through the middle of a cusp."""
-    from matplotlib import tri
-    slices = sorted((run.folder / "postProcessing/slices").iterdir(), key=lambda path: float(path.name))[-1]
-    points, corners, velocity = foam.triangles(slices / "across.vtk")
-    speed = tri.LinearTriInterpolator(tri.Triangulation(points[:, 0], points[:, 1], corners), velocity[:, 2])
-    radius = numpy.linspace(0, RADIUS[run.valve] * 1e-2, 201)
-    places, speeds = [], []
-    for sign, angle in ((-1, numpy.pi / 3 - 1e-3), (1, 1e-3)):  # just inside the planes of symmetry
-        places.append(sign * radius * 1e3)
-        speeds.append(speed(radius * numpy.cos(angle), radius * numpy.sin(angle)).filled(numpy.nan))
-    order = numpy.argsort(numpy.concatenate(places), kind="stable")
-    return numpy.concatenate(places)[order], numpy.concatenate(speeds)[order]
-
-
-def profiles(runs, path):
-    """Draws profiles of the axial speed behind the open and the half-open trileaflet valve, with walls and with the band at two
-    offsets. Draws nothing if a case is missing."""
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    shown = []
-    for opening in (1.0, 0.5):
-        mine = [run for run in runs if (run.valve, run.opening) == ("trileaflet", opening)]
-        fitted = sorted((run for run in mine if run.fitted and run.far == 0.13), key=lambda run: run.size)
-        bands = sorted((run for run in mine if run.eps == 0.1 and run.offset in (0, 0.75)), key=lambda run: run.offset)
-        if not fitted or len(bands) < 2:
-            return
-        shown.append([fitted[0], *bands])
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
-    for axis, some in zip(axes, shown):
-        for run, colour in zip(some, ("k", "#d55e00", "#0072b2")):
-            words = "walls" if run.fitted else f"o = {run.offset:g}"
-            axis.plot(*profile(run), color=colour, linewidth=2.4 if run.fitted else 1.4, alpha=0.6 if run.fitted else 1,
-                      label=f"{words}, {run.area:.2f} cm²")
-        axis.set(xlabel="to a commissure < 0 < to the middle of a cusp, mm", ylabel="axial speed, m/s",
-                 title=f"opening {some[0].opening:g}")
-        axis.grid(True, linewidth=0.3)
-        axis.legend(fontsize=8)
-    figure.savefig(path, dpi=100, metadata={"Software": None})
-    plt.close(figure)
-
-
-def read_runs(folder):
-    """Returns the complete cases of the folder. Says which ones are not steady, and leaves them out."""
-    runs = []
-    for case in sorted((folder / "cases").iterdir()):
-        if not (case / "complete").exists():
-            continue
-        try:
-            runs.append(Run(case, folder / "meshes"))
-        except Unsteady as reason:
-            print(f"left out: {reason}")
-    return runs
+def blood_beside(run, area, walls, found):
+    """Returns the row of a band beside the leaflets, with blood's viscosity."""
+    fitted = [place(one, its_area) for one, its_area in found if one.fitted]
+    return {
+        "id": f"offset_blood_{run.valve}_{run.opening:g}_{10 * run.eps:g}_{run.offset:g}", "group": "offset",
+        "quantity": f"{beside_words(run)}, blood's viscosity: effective area, mean in time, cm²", **BLOOD,
+        "reference": round(float(walls), 4), "grids": [*fitted, place(run, area)], "extrapolated": round(float(area), 4),
+        "deviation": round(float(area / walls - 1), 4),
+        "note": "means over 0.06 s in a sixth of the valve; fluctuations across its planes of symmetry are missing"}
 
 
 def merged(rows, kept, now):

@@ -109,11 +109,13 @@ run_case() {
 
 # run_blood NAME: continues with blood's viscosity from the steady flow of the case. The unsteady run is in blood/NAME.
 run_blood() {
-  local case=$out/blood/$1 mesh=$1 from
+  local case=$out/blood/$1 mesh=$1 from words
   [[ ! -e $case/complete ]] || return 0
-  if [[ $mesh == riis-* ]]; then
-    mesh=free-${mesh#riis-}
-    mesh=${mesh%-*-*}
+  IFS=- read -ra words <<<"$1"
+  if [[ ${words[0]} == riis ]]; then
+    mesh=free
+    [[ ! ${words[7]:-} ]] || mesh=wide
+    mesh+=-${words[1]}-${words[2]}-${words[3]}-${words[4]}
   fi
   from=$(find "$out/cases/$1" -maxdepth 1 -name '[1-9]*')
   rm -rf "$case"
@@ -168,28 +170,34 @@ in_turn() {
 }
 
 # A case with walls has the name fitted-VALVE-SIZE, a case with solid leaflets solid-VALVE-EPS-SIZE. A case of riis has the name
-# riis-VALVE-EPS-SIZE-RIM-RESISTANCE, with -OFFSET at its end in wide meshes. SIZE is the length of the edges in the band. Lengths
+# riis-VALVE-EPS-SIZE-RIM-RESISTANCE, and -OFFSET, -FAR and -BAND may follow. SIZE is the length of the edges in the band. Lengths
 # are in centimetres.
 meshes='' cases='' blood='' valves=()
+# add MESH CASE: adds the line of a mesh and the line of a case, each once. A line begins with the name.
+add() {
+  [[ $'\n'$meshes == *$'\n'"${1%% *} "* ]] || meshes+=$1$'\n'
+  [[ $'\n'$cases == *$'\n'"${2%% *} "* ]] || cases+=$2$'\n'
+}
 # fitted VALVE SIZE [FAR]: adds a case with walls and its mesh. FAR is the length of the edges elsewhere, by default 0.13.
 fitted() {
-  meshes+="fitted-$1-$2${3:+-$3} $1 1 $2 0.06 ${3:-}"$'\n'
-  cases+="fitted-$1-$2${3:+-$3} fitted-$1-$2${3:+-$3} $1"$'\n'
+  local name=fitted-$1-$2${3:+-$3}
+  add "$name $1 1 $2 0.06 ${3:-}" "$name $name $1"
 }
 # solid VALVE EPS SIZE: adds a case with solid leaflets of the thickness 2 EPS, with square edges, and its mesh.
 solid() {
-  meshes+="solid-$1-$2-$3 $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }') 0.13 $2"$'\n'
-  cases+="solid-$1-$2-$3 solid-$1-$2-$3 $1"$'\n'
+  local name=solid-$1-$2-$3
+  add "$name $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }') 0.13 $2" "$name $name $1"
 }
-# obstacle VALVE EPS SIZE RIM [RESISTANCE [OFFSET]]: adds a case of riis and its mesh. Up to the distance EPS + SIZE from the
-# leaflet, edges have the length SIZE. With OFFSET this distance is 1.75 EPS + SIZE, so that one mesh serves offsets from 0 to
-# 0.75.
+# obstacle VALVE EPS SIZE RIM [RESISTANCE [OFFSET [FAR [BAND]]]]: adds a case of riis and its mesh. Up to the distance BAND from the
+# leaflet, edges have the length SIZE. BAND is EPS + SIZE by default, and 1.75 EPS + SIZE with OFFSET, so that one mesh serves
+# offsets from 0 to 0.75. FAR is as above.
 obstacle() {
-  local kind=${6:+wide} name line
-  name=${kind:-free}-$1-$2-$3
-  line="$name $1 0 $3 $(awk -v a="$2" -v b="$3" -v wide="${6:+0.75}" 'BEGIN { print a * (1 + wide) + b }')"
-  [[ $meshes == *"$line"* ]] || meshes+=$line$'\n'
-  cases+="riis-$1-$2-$3-$4-${5:-1e3}${6:+-$6} $name $1 $(awk -v a="$2" 'BEGIN { print a / 100 }') $4 ${5:-1e3} ${6:-0}"$'\n'
+  local more=${7:+-$7}${8:+-$8} name band=${8:-}
+  name=${6:+wide}
+  name=${name:-free}-$1-$2-$3$more
+  [[ $band ]] || band=$(awk -v a="$2" -v b="$3" -v wide="${6:+0.75}" 'BEGIN { print a * (1 + wide) + b }')
+  add "$name $1 0 $3 $band ${7:-}" \
+    "riis-$1-$2-$3-$4-${5:-1e3}${6:+-$6}$more $name $1 $(awk -v a="$2" 'BEGIN { print a / 100 }') $4 ${5:-1e3} ${6:-0}"
 }
 # finished ID: tells whether all.json has the row. Its cases then need not run.
 finished() { grep -qF "\"id\": \"$1\"" "$here/all.json"; }
@@ -222,9 +230,7 @@ bileaflet() {
   done
   obstacle bileaflet-1 0.1 0.05 round 1e2
   obstacle bileaflet-1 0.1 0.05 round 1e4
-  blood='fitted-bileaflet-1-0.05
-    riis-bileaflet-1-0.1-0.05-round-1e3
-    riis-bileaflet-1-0.07-0.035-round-1e3'
+  blood+=$'fitted-bileaflet-1-0.05\nriis-bileaflet-1-0.1-0.05-round-1e3\nriis-bileaflet-1-0.07-0.035-round-1e3\n'
 }
 
 # some_open VALVE: a valve as walls and as obstacle, with three sizes.
@@ -245,6 +251,12 @@ beside_leaflets() {
   for offset in 0.75 0; do for valve in "${three[@]}"; do beside "$valve" 1 "$offset"; done; done
   for offset in 0.75 0; do for valve in "${three[@]}"; do beside "$valve" 0.5 "$offset"; done; done
   for valve in "${three[@]}"; do beside "$valve" 1 0.5; done
+  if [[ $cases == *riis-trileaflet-0.25-0.1-0.05-cut-1e3-0.75* ]]; then # shows how much the mesh changes the smallest area
+    obstacle trileaflet-0.25 0.1 0.05 cut 1e3 0.75 0.08
+    obstacle trileaflet-0.25 0.1 0.05 cut 1e3 0.75 0.13 0.35
+    obstacle trileaflet-0.25 0.1 0.05 cut 1e3 0.75 0.13 0.6
+    obstacle trileaflet-0.25 0.1 0.035 cut 1e3 0.75
+  fi
   for valve in "${two[@]}"; do
     for offset in 0.75 0.5 0; do beside "$valve" 1 "$offset"; done
     for offset in 0.75 0; do beside "$valve" 0.5 "$offset"; done
@@ -254,6 +266,11 @@ beside_leaflets() {
     for size in 0.05 0.03 0.02; do fitted "$valve" "$size"; done
   done
   cases+=$some
+  finished offset_blood_trileaflet_0.5_1_0.75 || {
+    fitted trileaflet-0.5 0.03
+    for offset in 0.75 0; do obstacle trileaflet-0.5 0.1 0.05 cut 1e3 "$offset"; done
+    blood+=$'fitted-trileaflet-0.5-0.03\nriis-trileaflet-0.5-0.1-0.05-cut-1e3-0.75\nriis-trileaflet-0.5-0.1-0.05-cut-1e3-0\n'
+  }
 }
 
 if [[ $quick ]]; then

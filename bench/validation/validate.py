@@ -152,7 +152,8 @@ def page_values(rows, about, committed, plots):
         values[group + "_solvers"] = report_text.wrapped(f"Solvers: {solvers_of(chosen)}.") if chosen else None
         values[group + "_commits"] = " and ".join(dict.fromkeys(row["commit"] for row in chosen if "commit" in row)) or None
         if group == "offset":
-            values["offsets_table"] = offsets_of(chosen) if chosen else None
+            steady = [row for row in chosen if "offset" in row]
+            values["offsets_table"] = offsets_of(steady) if steady else None
     for kind in ("hole", "disc"):
         for rim in ("round", "cut"):
             row = by_id[f"c_{kind}_{rim}"]

@@ -19,7 +19,9 @@ import unittest
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path[:0] = [os.path.join(ROOT, "bench", folder) for folder in ("validation", "report")]
 try:
+    import beside
     import body_fitted
+    import cases
     import exact
     import jets
     import marking
@@ -186,11 +188,11 @@ class Judged(unittest.TestCase):
             case(folder, f"fitted-{valve}-0.03", f"fitted-{valve}-0.03", [1.5] * 400, done)
             case(folder, f"riis-{valve}-0.1-0.05-cut-1e3-0.75", f"wide-{valve}-0.1-0.05", steady, "")
             case(folder, f"riis-{valve}-0.1-0.05-cut-1e3-0", f"wide-{valve}-0.1-0.05", moving, "")
-            runs = body_fitted.read_runs(pathlib.Path(folder))
-            made = body_fitted.beside("trileaflet", 0.5, runs, {})
+            runs = cases.read_runs(pathlib.Path(folder))
+            made = beside.beside("trileaflet", 0.5, runs, {})
             # Without the case, the walls are those of a row that is kept.
-            again = body_fitted.beside("trileaflet", 0.5, runs[1:], {made[0]["id"]: made[0]})
-            none = body_fitted.beside("trileaflet", 0.5, runs[1:], {})
+            again = beside.beside("trileaflet", 0.5, runs[1:], {made[0]["id"]: made[0]})
+            none = beside.beside("trileaflet", 0.5, runs[1:], {})
         self.assertIn(f"left out: riis-{valve}-0.1-0.05-cut-1e3-0: simpleFoam did not converge in 400 steps", told.getvalue())
         self.assertEqual([row["id"] for row in made], ["offset_trileaflet_0.5_1_0.75"])
         # The area is Q / sqrt(2 dp / rho), with the total pressure 1.625 or 2.125 rho.
