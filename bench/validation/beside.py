@@ -109,7 +109,7 @@ def profiles(runs, path):
             words = "walls" if run.fitted else f"o = {run.offset:g}"
             axis.plot(*profile(run), color=colour, linewidth=2.4 if run.fitted else 1.4, alpha=0.6 if run.fitted else 1,
                       label=f"{words}, {run.area:.2f} cm²")
-        axis.set(xlabel="to a commissure < 0 < to the middle of a cusp, mm", ylabel="axial speed, m/s",
+        axis.set(xlabel="from the axis, mm: a commissure is left, a cusp right", ylabel="axial speed, m/s",
                  title=f"opening {some[0].opening:g}")
         axis.grid(True, linewidth=0.3)
         axis.legend(fontsize=8)
