@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the tables, rows and pictures of body_fitted.sh. They compare the effective areas of open leaflets in two forms: as walls
-of no thickness, and as obstacles of riis. body_fitted.py FOLDER [--quick] reads the cases in FOLDER, prints the tables, and leaves
-body_fitted.json and pictures in FOLDER. Rows of all.json without cases are kept. With --quick none are kept."""
+of no thickness, and as obstacles of riis. body_fitted.py FOLDER [--quick] reads the cases in FOLDER, prints the tables, and
+leaves body_fitted.json and pictures in FOLDER. Rows of all.json without cases are kept. With --quick none are kept."""
 import json
 import pathlib
 import re

@@ -50,8 +50,8 @@ logged() {
 # Tests whether OpenFOAM can run a function object in the folder of the mesh. This function replaces the one in openfoam.sh.
 openfoam_function_object() { "${of_with[@]}" postProcess -case "$mesh" -func writeCellCentres -time 0; }
 
-# geometry FOLDER VALVE: prints the path of the valve's .geo file. A valve that has none gets one in the folder, from points of the
-# library. VALVE is the kind, a hyphen, and the opening.
+# geometry FOLDER VALVE: prints the path of the valve's .geo file. A valve that has none gets one in the folder, from points of
+# the library. VALVE is the kind, a hyphen, and the opening.
 geometry() {
   local kind=${2%%-*}
   if [[ -e $here/$kind.geo ]]; then
@@ -188,9 +188,9 @@ solid() {
   local name=solid-$1-$2-$3
   add "$name $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }') 0.13 $2" "$name $name $1"
 }
-# obstacle VALVE EPS SIZE RIM [RESISTANCE [OFFSET [FAR [BAND]]]]: adds a case of riis and its mesh. Up to the distance BAND from the
-# leaflet, edges have the length SIZE. BAND is EPS + SIZE by default, and 1.75 EPS + SIZE with OFFSET, so that one mesh serves
-# offsets from 0 to 0.75. FAR is as above.
+# obstacle VALVE EPS SIZE RIM [RESISTANCE [OFFSET [FAR [BAND]]]]: adds a case of riis and its mesh. Up to the distance BAND from
+# the leaflet, edges have the length SIZE. BAND is EPS + SIZE by default, and 1.75 EPS + SIZE with OFFSET, so that one mesh
+# serves offsets from 0 to 0.75. FAR is as above.
 obstacle() {
   local more=${7:+-$7}${8:+-$8} name band=${8:-}
   name=${6:+wide}

@@ -15,8 +15,8 @@ static void check(riis_status status) {
   exit(1);
 }
 
-// Returns whether a triangle of the right cusp's lower patch has the vertex. Both patches share the vertices of the bending curve,
-// whose v is 1 there.
+// Returns for each vertex whether it belongs to the right cusp's lower patch. Both patches share the vertices of the bending
+// curve, whose v is 1 there.
 static char *vertices_below(const riis_triangles *all) {
   char *below = calloc((size_t)all->n_vertices, 1);
   if (!below) exit(1);
