@@ -217,6 +217,26 @@ class Judged(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "do not fit between 0 and 6"):
             staggered.graded(0.5, (-1, 2), (0, 6))
 
+    def test_points(self):
+        # docs/theory/trileaflet.md: x of the free edge is linear in y if the valve is closed, and quadratic if it is open.
+        program = os.path.join(os.path.dirname(PROGRAM), "validation_points")
+        text = subprocess.run([program, "trileaflet", "0.5"], capture_output=True, text=True, check=True).stdout
+        numbers = [float(word) for word in text.split("{")[1].split("}")[0].split(",")]
+        self.assertEqual(len(numbers), 2 * 9 * 9 * 3)
+        for place in range(2 * 9 * 9 - 9, 2 * 9 * 9):
+            x, y, z = numbers[3 * place : 3 * place + 3]
+            share = y / (1.05 * 1.25 * math.sin(math.pi / 3))
+            self.assertAlmostEqual(x, 0.5 * 0.625 * share + 0.5 * (1 - 0.3125 * share**2), delta=2e-4)
+            self.assertAlmostEqual(z, 0, delta=1e-12)
+        self.assertGreater(share, 0.95)
+        # The last row of the lower patch is the first row of the upper patch.
+        for found, right in zip(numbers[3 * 72 : 3 * 81], numbers[3 * 81 : 3 * 90]):
+            self.assertAlmostEqual(found, right, delta=1e-12)
+        for words, message in ((["tricuspid", "1"], "'tricuspid' is not a kind of valve"), (["coapting"], "usage")):
+            run = subprocess.run([program, *words], capture_output=True, text=True, check=False)
+            self.assertIn(message, run.stderr)
+            self.assertNotEqual(run.returncode, 0)
+
     def test_program_refuses(self):
         with self.assertRaisesRegex(SystemExit, "half_thickness"):
             marking.Library(PROGRAM).K(marking.disc(1.0), -2.0, "round", [[0, 0, 0]])
