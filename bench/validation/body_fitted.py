@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the tables, rows and pictures of body_fitted.sh. They compare the effective areas of open leaflets in two forms: as walls
-of no thickness, and as obstacles of riis. body_fitted.py FOLDER reads the cases in FOLDER, prints the tables, and leaves
-body_fitted.json and pictures in FOLDER."""
+of no thickness, and as obstacles of riis. body_fitted.py FOLDER [--quick] reads the cases in FOLDER, prints the tables, and
+leaves body_fitted.json and pictures in FOLDER. Rows of all.json without cases are kept. With --quick none are kept."""
 import json
 import pathlib
 import re
@@ -9,20 +9,12 @@ import subprocess
 import sys
 
 import numpy
+from beside import beside, beside_words, profiles
+from cases import COPIES, INLET, MMHG, RADIUS, RHO, ROOT, SOLVER, chosen, foam, line, place, read_runs
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "examples/openfoam"))
-import foam_files as foam  # noqa: E402
-
-RHO = 1060.0  # kg/m3
-INLET = 0.5  # m/s, of steady_case/0/U
-MMHG = 133.322  # Pa
-GORLIN = 44.3  # cm2, ml/s and mmHg: the constant of Gorlin's formula for the aortic valve
-RADIUS = {"bileaflet": 1.1, "trileaflet": 1.22}  # radii of the tubes, in centimetres
-COPIES = {"bileaflet": 4, "trileaflet": 6}  # number of equal pieces of the valve; one piece is computed
+ALL = ROOT / "bench/validation/all.json"
 BAR = 0.1  # bar of the row for the smallest eps
 LINE_BAR = 0.02  # bar of the row for the line through all eps
-SOLVER = "OpenFOAM 1912, simpleFoam, tetrahedra"
 
 
 def outline(valve, opening, n=200001):
@@ -40,10 +32,11 @@ def outline(valve, opening, n=200001):
         x, y_arc = edge + q * radius * numpy.cos(angle), radius * numpy.sin(angle)
         covered = numpy.trapz(arc - edge, y)
         length = top + _length_inside(x, y_arc, radius)
-    else:  # docs/theory/trileaflet.md: the free edge is a parabola, and the cusp covers only the part outside this parabola
-        y_end = 1.1 * 1.25 * numpy.sin(numpy.pi / 3)
-        y = numpy.linspace(0, y_end, n)
-        x = 1.0 + (1.1 * 1.25 * numpy.cos(numpy.pi / 3) - 1.0) * (y / y_end) ** 2
+    else:  # docs/theory/trileaflet.md: x of the free edge is linear (closed) or quadratic (open) in y, and the cusp covers only
+        # the part outside the edge
+        u, expanded = numpy.linspace(0, 1, n), 1 + 0.1 * opening
+        y = expanded * 1.25 * numpy.sin(numpy.pi / 3) * u
+        x = (1 - opening) * 0.625 * u + opening * (1.0 + (1.1 * 0.625 - 1.0) * u ** 2)
         inside = x ** 2 + y ** 2 < radius ** 2
         angle, distance = numpy.arctan2(y, x), numpy.hypot(x, y)
         covered = numpy.trapz(numpy.where(inside, radius ** 2 - distance ** 2, 0) / 2, angle)
@@ -57,44 +50,6 @@ def _length_inside(x, y, radius):
     return float((numpy.hypot(numpy.diff(x), numpy.diff(y)) * middle).sum())
 
 
-class Run:
-    """The results of one case, with its effective area in cm2."""
-
-    def __init__(self, folder, meshes):
-        self.folder, self.name = folder, folder.name
-        kind, self.valve, opening, *words = self.name.split("-")
-        self.opening = float(opening)
-        self.fitted, self.solid = kind == "fitted", kind == "solid"
-        self.rim = words[2] if kind == "riis" else None
-        self.eps = 0.0 if self.fitted else float(words[0])
-        self.size = float(words[0 if self.fitted else 1])
-        self.far = float(words[1]) if self.fitted and len(words) > 1 else 0.13
-        self.resistance = float(words[3]) if kind == "riis" else None
-        mesh = self.name if kind != "riis" else f"free-{self.valve}-{opening}-{words[0]}-{words[1]}"
-        self.cells = foam.n_cells(meshes / mesh / "constant/polyMesh")
-        log = foam.text(folder / "log.simpleFoam")
-        pressure = foam.table(folder, "inlet")[:, 1]
-        self.steps = len(pressure)
-        if "SIMPLE solution converged" not in log:
-            raise SystemExit(f"{folder}: simpleFoam did not converge in {self.steps} steps")
-        self.seconds = float(re.findall(r"ExecutionTime = (\S+) s", log)[-1])
-        self.settled = abs(pressure[-1] / pressure[-20] - 1)
-        self.drop = RHO * pressure[-1]  # Pa, static, from the inlet to the outlet
-        self.flow = INLET * numpy.pi * RADIUS[self.valve] ** 2 * 1e2  # ml/s
-        out = foam.table(folder, "outlet")[-1, 1] * 1e6 * COPIES[self.valve]
-        # The mesh has polygons instead of circles, so a coarse mesh has less flow. The area uses the flow of the polygon.
-        if abs(out / self.flow - 1) > 0.03:
-            raise SystemExit(f"{folder}: {out} ml/s leave the tube, and {self.flow} enter it")
-        self.flow = out
-        self.total = self.drop + RHO * INLET ** 2 / 2
-        self.area = self.flow / numpy.sqrt(2 * self.total / RHO) * 1e-2
-        time = max((one.name for one in folder.iterdir() if one.name.isdigit()), key=int)
-        self.jet = numpy.linalg.norm(foam.field(folder / time / "U", self.cells), axis=1).max()
-
-    def gorlin(self):
-        return self.flow / (GORLIN * numpy.sqrt(self.total / MMHG))
-
-
 def order_of(sizes, values):
     """Returns order and limit by Richardson's extrapolation from three grids with a constant ratio of sizes. Returns None and the
     value of the finest grid if the values have no order."""
@@ -106,25 +61,6 @@ def order_of(sizes, values):
         return None, c
     order = numpy.log(share) / numpy.log(ratio)
     return float(order), float(c + (c - b) / (ratio ** order - 1))
-
-
-def chosen(runs):
-    """Returns the runs of riis with R = 1e3 and two edges in eps, from the largest eps to the smallest."""
-    return sorted((run for run in runs if not run.fitted and run.resistance == 1e3 and abs(run.eps / run.size - 2) < 1e-6),
-                  key=lambda run: -run.eps)
-
-
-def place(run, value):
-    """Returns one entry of a row's field `grids` (rows.py)."""
-    name = "walls" if run.fitted else f"ε {10 * run.eps:g} mm"
-    return {"n": f"{name}, h {10 * run.size:g} mm", "h": round(run.size * 1e-2, 7), "eps": round(run.eps * 1e-2, 7),
-            "rim": run.rim, "value": round(float(value), 4)}
-
-
-def line(eps, area):
-    """Fits a straight line to area(eps). Returns its value at 0 and its slope."""
-    slope, at_zero = numpy.polyfit(eps, area, 1)
-    return at_zero, slope
 
 
 def far_from(points, triangles):
@@ -344,15 +280,15 @@ def clinical(runs):
 
 
 def blood(folder, runs):
-    """Prints means in time of the runs with blood's viscosity, which start from the steady flows. Returns their row."""
+    """Prints means in time of the runs with blood's viscosity, which start from the steady flows. Returns their rows."""
     begin = 0.04  # s
-    rows = []
+    found = []
     for case in sorted((folder / "blood").glob("*")):
         if not (case / "complete").exists():
             continue
         steady = next(run for run in runs if run.name == case.name)
         table = foam.table(case, "inlet")
-        if not rows:
+        if not found:
             print(f"\nBlood's viscosity, means over {begin:g} to {table[-1, 0]:g} s, within the planes of symmetry. The last"
                   " column has ten times the viscosity.")
             print("  case                                      steps  drop, Pa  least  largest  area, cm2  steady")
@@ -361,45 +297,86 @@ def blood(folder, runs):
         area = steady.flow / numpy.sqrt(2 * mean / RHO + INLET ** 2) * 1e-2
         print(f"  {case.name:<40} {len(table):>6} {mean:>9.1f} {RHO * drop.min():>6.0f} {RHO * drop.max():>8.0f} {area:>10.3f}"
               f" {steady.area:>10.3f}")
-        rows.append((steady, area))
-    if not rows:
-        return []
-    walls = next((area for run, area in rows if run.fitted), None)
-    others = [(run, area) for run, area in rows if not run.fitted]
-    if walls is None or len(others) < 2:
+        found.append((steady, area))
+    rows = []
+    for valve, opening in dict.fromkeys((run.valve, run.opening) for run, _ in found):
+        mine = [(run, area) for run, area in found if (run.valve, run.opening) == (valve, opening)]
+        walls = next((area for run, area in mine if run.fitted), None)
+        if walls is None:
+            continue
+        rows += blood_line([one for one in mine if one[0].offset is None], walls)
+        rows += [blood_beside(run, area, walls, mine) for run, area in mine if run.offset is not None]
+    return rows
+
+
+BLOOD = {"source": "the same leaflets as walls of no thickness, body-fitted",
+         "solver": SOLVER.replace("simpleFoam", "pimpleFoam"), "order": None, "bar": None}
+
+
+def blood_line(found, walls):
+    """Returns the row for the line through the areas of `found` at two half thicknesses or more, with blood's viscosity."""
+    others = [(run, area) for run, area in found if not run.fitted]
+    if len(others) < 2:
         return []
     at_zero = line([run.eps for run, _ in others], [area for _, area in others])[0]
     print(f"  a straight line gives {at_zero:.3f} cm2 at eps 0, {100 * (at_zero / walls - 1):+.2f} % of the walls")
     return [{
         "id": "bodyfit_blood", "group": "bodyfit",
         "quantity": "bileaflet valve, open, rim round, blood's viscosity: effective area, mean in time, at ε = 0, cm²",
-        "reference": round(float(walls), 4), "source": "the same leaflets as walls of no thickness, body-fitted",
-        "solver": SOLVER.replace("simpleFoam", "pimpleFoam"),
-        "grids": [place(run, area) for run, area in sorted(rows, key=lambda one: -one[0].eps)],
-        "order": None, "extrapolated": round(float(at_zero), 4), "deviation": round(float(at_zero / walls - 1), 4), "bar": None,
+        **BLOOD, "reference": round(float(walls), 4),
+        "grids": [place(run, area) for run, area in sorted(found, key=lambda one: -one[0].eps)],
+        "extrapolated": round(float(at_zero), 4), "deviation": round(float(at_zero / walls - 1), 4),
         "note": "means over 0.06 s in a quarter of the valve; fluctuations across its planes of symmetry are missing"}]
 
 
-def main(folder):
+def blood_beside(run, area, walls, found):
+    """Returns the row of a band beside the leaflets, with blood's viscosity."""
+    fitted = [place(one, its_area) for one, its_area in found if one.fitted]
+    return {
+        "id": f"offset_blood_{run.valve}_{run.opening:g}_{10 * run.eps:g}_{run.offset:g}", "group": "offset",
+        "quantity": f"{beside_words(run)}, blood's viscosity: effective area, mean in time, cm²", **BLOOD,
+        "reference": round(float(walls), 4), "grids": [*fitted, place(run, area)], "extrapolated": round(float(area), 4),
+        "deviation": round(float(area / walls - 1), 4),
+        "note": "means over 0.06 s in a sixth of the valve; fluctuations across its planes of symmetry are missing"}
+
+
+def merged(rows, kept, now):
+    """Returns the rows, each with the commit on which it was measured, in the order of `kept` and then of `rows`."""
+    new = {row["id"]: {**row, "commit": now} for row in rows}
+    return [new.pop(key, row) for key, row in kept.items()] + list(new.values())
+
+
+def main(folder, quick):
     folder = pathlib.Path(folder)
-    runs = [Run(case, folder / "meshes") for case in sorted((folder / "cases").iterdir()) if (case / "complete").exists()]
-    if not runs:
+    runs, kept, about = read_runs(folder), {}, {"commit": commit(), "machine": machine()}
+    if not quick:
+        old = json.loads(ALL.read_text(encoding="utf-8"))
+        kept = {row["id"]: {**row, "commit": row.get("commit", old["commit"])} for row in old["rows"]}
+        about = {name: old[name] for name in about}
+    if not runs and not kept:
         raise SystemExit(f"{folder} has no complete case")
     all_solids = [run for run in runs if run.solid]
     runs = [run for run in runs if not run.solid]
-    print(f"The largest change of the drop over the last 20 steps is {max(run.settled for run in runs):.1e} of it."
-          f" {len(runs)} cases took {sum(run.seconds for run in runs) / 60:.1f} minutes of processor time.")
+    if runs:
+        print(f"The largest change of the drop over the last 20 steps is {max(run.settled for run in runs):.1e} of it."
+              f" {len(runs)} cases took {sum(run.seconds for run in runs) / 60:.1f} minutes of processor time.")
     same_leaflets(folder)
-    rows = []
+    rows, plain = [], []
     for valve, opening in sorted({(run.valve, run.opening) for run in runs}, key=lambda pair: (pair[0], -pair[1])):
-        solids = {run.eps: run.area for run in all_solids if (run.valve, run.opening) == (valve, opening)}
-        rows += compare(valve, opening, runs, solids, folder)
-    rows += blood(folder, runs) + clinical(runs)
-    text = {"commit": commit(), "machine": machine(), "command": "bench/validation/body_fitted.sh FOLDER", "rows": rows}
+        mine = [run for run in runs if (run.valve, run.opening) == (valve, opening)]
+        if any(run.offset is None and not run.fitted for run in mine) and any(run.fitted for run in mine):
+            solids = {run.eps: run.area for run in all_solids if (run.valve, run.opening) == (valve, opening)}
+            some = [run for run in mine if run.offset is None]
+            rows += compare(valve, opening, some, solids, folder)
+            plain += some
+        rows += beside(valve, opening, mine, kept)
+    rows += blood(folder, runs) + (clinical(plain) if plain else [])
+    profiles(runs, folder / "profiles.png")
+    text = {**about, "command": "bench/validation/body_fitted.sh FOLDER", "rows": merged(rows, kept, commit())}
     (folder / "body_fitted.json").write_text(json.dumps(text, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        raise SystemExit("usage: body_fitted.py FOLDER")
-    main(sys.argv[1])
+    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--quick"]):
+        raise SystemExit("usage: body_fitted.py FOLDER [--quick]")
+    main(sys.argv[1], len(sys.argv) == 3)

@@ -6,8 +6,9 @@
 # viscosity enters with a uniform velocity of 0.5 m/s. The effective area is Q / sqrt(2 dp /
 # rho). Here dp is the total pressure at the inlet minus the pressure at the outlet. The jet
 # still exists at the outlet, so it has not regained pressure. FOLDER gets the table
-# body_fitted.txt, the rows body_fitted.json, pictures, and the cases. A complete case in
-# FOLDER is not run again.
+# body_fitted.txt, the rows body_fitted.json, pictures, and the cases. Only cases whose rows
+# all.json lacks are run, and a complete case in FOLDER is not run again. To measure a row
+# again, remove it from all.json. If a case fails, the others still run, and the status is 1.
 set -euo pipefail
 here=$(dirname -- "$(readlink -f -- "$0")")
 [[ ${1:-} && ${1:-} != -* && (${2:-} == '' || ${2:-} == --quick) && $# -le 2 ]] || {
@@ -36,6 +37,7 @@ openfoam_build >"$out/build.log" 2>&1 || {
   exit 1
 }
 openfoam_environment
+gcc -O2 -I "$of_work/riis/include" -o "$of_work/points" "$here/points.c" -L "$of_work/riis/lib" -lriis -lm
 
 # logged LOG COMMAND...: runs the command with its output in the file. If the command fails, shows the file's end.
 logged() {
@@ -48,16 +50,30 @@ logged() {
 # Tests whether OpenFOAM can run a function object in the folder of the mesh. This function replaces the one in openfoam.sh.
 openfoam_function_object() { "${of_with[@]}" postProcess -case "$mesh" -func writeCellCentres -time 0; }
 
-# make_mesh NAME VALVE FITTED SIZE BAND [FAR [SOLID]]: makes a mesh with gmsh, in meshes/NAME. VALVE is the name of the .geo file,
-# a hyphen, and the opening. The other arguments are options of the .geo file. Lengths are in centimetres.
+# geometry FOLDER VALVE: prints the path of the valve's .geo file. A valve that has none gets one in the folder, from points of
+# the library. VALVE is the kind, a hyphen, and the opening.
+geometry() {
+  local kind=${2%%-*}
+  if [[ -e $here/$kind.geo ]]; then
+    echo "$here/$kind.geo"
+    return
+  fi
+  LD_LIBRARY_PATH=$of_work/riis/lib "$of_work/points" "$kind" "${2#*-}" >"$1/$kind.geo" &&
+    cat "$here/cusps.geo" >>"$1/$kind.geo" && cp "$here"/{patches,fluid}.geo "$1" && echo "$1/$kind.geo"
+}
+
+# make_mesh NAME VALVE FITTED SIZE BAND [FAR [SOLID]]: makes a mesh with gmsh, in meshes/NAME. The arguments after VALVE are
+# options of the .geo file. Lengths are in centimetres.
 make_mesh() {
+  local geo
   mesh=$out/meshes/$1
   [[ ! -e $mesh/complete ]] || return 0
   rm -rf "$mesh"
   cp -r "$here/steady_case" "$mesh"
+  geo=$(geometry "$mesh" "$2") || return
   logged "$mesh/log.gmsh" gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber opening "${2#*-}" \
     -setnumber fitted "$3" -setnumber size "$4" -setnumber band "$5" -setnumber far "${6:-0.13}" -setnumber solid "${7:-0}" \
-    -format msh22 -o "$mesh/mesh.msh" "$here/${2%%-*}.geo" &&
+    -format msh22 -o "$mesh/mesh.msh" "$geo" &&
     logged "$mesh/log.gmshToFoam" gmshToFoam -case "$mesh" "$mesh/mesh.msh" || return
   sed -i '/^ *wall$/,/}/s/patch;/wall;/; /^ *planes$/,/}/s/patch;/symmetry;/; /physicalType/d' "$mesh/constant/polyMesh/boundary"
   if (($3)); then
@@ -68,14 +84,14 @@ make_mesh() {
     rm "$mesh/mesh.msh" && touch "$mesh/complete"
 }
 
-# set_valve CASE VALVE EPS RIM RESISTANCE: writes the valve and its numbers into the case's fvOptions.
+# set_valve CASE VALVE EPS RIM RESISTANCE OFFSET: writes the valve and its numbers into the case's fvOptions.
 set_valve() {
-  sed -i "s/halfThickness .*/halfThickness $3;/; s/rim .*/rim $4;/; s/resistance .*/resistance $5;/; s/kind .*/kind ${2%%-*}; }/
-    s/opening 1;/opening ${2#*-};/" "$1/system/fvOptions"
+  sed -i "s/halfThickness .*/halfThickness $3;/; s/rim .*/rim $4;/; s/resistance .*/resistance $5;/; s/offset .*/offset $6;/
+    s/kind .*/kind ${2%%-*}; }/; s/opening 1;/opening ${2#*-};/" "$1/system/fvOptions"
 }
 
-# run_case NAME MESH VALVE [EPS RIM RESISTANCE]: runs simpleFoam. EPS is in metres. If walls replace riis in a mesh, it has no
-# EPS, RIM and RESISTANCE.
+# run_case NAME MESH VALVE [EPS RIM RESISTANCE OFFSET]: runs simpleFoam. EPS is in metres. If walls replace riis in a mesh, it
+# has no EPS, RIM, RESISTANCE and OFFSET.
 run_case() {
   local case=$out/cases/$1
   [[ ! -e $case/complete ]] || return 0
@@ -87,17 +103,19 @@ run_case() {
   else
     rm "$case/system/fvOptions"
   fi
-  logged "$case/log.simpleFoam" timeout 3600 "${of_with[@]}" simpleFoam -case "$case" && touch "$case/complete" &&
+  logged "$case/log.simpleFoam" timeout 14400 "${of_with[@]}" simpleFoam -case "$case" && touch "$case/complete" &&
     rm -rf "$case/constant/polyMesh" && say "$1"
 }
 
 # run_blood NAME: continues with blood's viscosity from the steady flow of the case. The unsteady run is in blood/NAME.
 run_blood() {
-  local case=$out/blood/$1 mesh=$1 from
+  local case=$out/blood/$1 mesh=$1 from words
   [[ ! -e $case/complete ]] || return 0
-  if [[ $mesh == riis-* ]]; then
-    mesh=free-${mesh#riis-}
-    mesh=${mesh%-*-*}
+  IFS=- read -ra words <<<"$1"
+  if [[ ${words[0]} == riis ]]; then
+    mesh=free
+    [[ ! ${words[7]:-} ]] || mesh=wide
+    mesh+=-${words[1]}-${words[2]}-${words[3]}-${words[4]}
   fi
   from=$(find "$out/cases/$1" -maxdepth 1 -name '[1-9]*')
   rm -rf "$case"
@@ -120,17 +138,17 @@ run_blood() {
 # same_leaflets VALVE: writes the leaflets of the fitted mesh and the leaflets of the library into the folder leaflets-VALVE. The
 # half thickness of 0.1 mm makes the library's triangles exact to 0.005 mm.
 same_leaflets() {
-  local case=$out/leaflets-$1 first
+  local case=$out/leaflets-$1 first geo
   [[ ! -e $case/complete ]] || return 0
-  first=$(find "$out/meshes" -maxdepth 1 -name "free-$1-*" | sort | tail -n 1)
+  first=$(find "$out/meshes" -maxdepth 1 \( -name "free-$1-*" -o -name "wide-$1-*" \) | sort | tail -n 1)
   rm -rf "$case"
-  cp -r "$first" "$case" && set_valve "$case" "$1" 1e-4 round 1e3 &&
+  cp -r "$first" "$case" && set_valve "$case" "$1" 1e-4 round 1e3 0 &&
     sed -i 's/velocity no;/velocity no; writeLeaflets yes;/' "$case/system/fvOptions" &&
     sed -i 's/endTime .*/endTime 1;/; s/writeInterval .*/writeInterval 1;/' "$case/system/controlDict" &&
     logged "$case/log.simpleFoam" "${of_with[@]}" simpleFoam -case "$case" &&
-    mv "$case/postProcessing/valve/1/leaflets.vtk" "$case" || return
+    mv "$case/postProcessing/valve/1/leaflets.vtk" "$case" && geo=$(geometry "$case" "$1") || return
   logged "$case/log.gmsh" gmsh -2 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber opening "${1#*-}" -setnumber fitted 1 \
-    -setnumber size 0.05 -setnumber band 0.1 -format msh22 -o "$case/fitted.msh" "$here/${1%%-*}.geo" &&
+    -setnumber size 0.05 -setnumber band 0.1 -format msh22 -o "$case/fitted.msh" "$geo" &&
     rm -rf "$case"/[0-9]* "$case/constant" "$case/postProcessing" && touch "$case/complete"
 }
 
@@ -152,29 +170,111 @@ in_turn() {
 }
 
 # A case with walls has the name fitted-VALVE-SIZE, a case with solid leaflets solid-VALVE-EPS-SIZE. A case of riis has the name
-# riis-VALVE-EPS-SIZE-RIM-RESISTANCE. SIZE is the length of the edges in the band. Lengths are in centimetres.
-meshes='' cases='' blood=''
+# riis-VALVE-EPS-SIZE-RIM-RESISTANCE, and -OFFSET, -FAR and -BAND may follow. SIZE is the length of the edges in the band. Lengths
+# are in centimetres.
+meshes='' cases='' blood='' valves=()
+# add MESH CASE: adds the line of a mesh and the line of a case, each once. A line begins with the name.
+add() {
+  [[ $'\n'$meshes == *$'\n'"${1%% *} "* ]] || meshes+=$1$'\n'
+  [[ $'\n'$cases == *$'\n'"${2%% *} "* ]] || cases+=$2$'\n'
+}
 # fitted VALVE SIZE [FAR]: adds a case with walls and its mesh. FAR is the length of the edges elsewhere, by default 0.13.
 fitted() {
-  meshes+="fitted-$1-$2${3:+-$3} $1 1 $2 0.06 ${3:-}"$'\n'
-  cases+="fitted-$1-$2${3:+-$3} fitted-$1-$2${3:+-$3} $1"$'\n'
+  local name=fitted-$1-$2${3:+-$3}
+  add "$name $1 1 $2 0.06 ${3:-}" "$name $name $1"
 }
 # solid VALVE EPS SIZE: adds a case with solid leaflets of the thickness 2 EPS, with square edges, and its mesh.
 solid() {
-  meshes+="solid-$1-$2-$3 $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }') 0.13 $2"$'\n'
-  cases+="solid-$1-$2-$3 solid-$1-$2-$3 $1"$'\n'
+  local name=solid-$1-$2-$3
+  add "$name $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }') 0.13 $2" "$name $name $1"
 }
-# obstacle VALVE EPS SIZE RIM [RESISTANCE]: adds a case of riis and its mesh. Up to the distance EPS + SIZE from the
-# leaflet, edges have the length SIZE.
+# obstacle VALVE EPS SIZE RIM [RESISTANCE [OFFSET [FAR [BAND]]]]: adds a case of riis and its mesh. Up to the distance BAND from
+# the leaflet, edges have the length SIZE. BAND is EPS + SIZE by default, and 1.75 EPS + SIZE with OFFSET, so that one mesh
+# serves offsets from 0 to 0.75. FAR is as above.
 obstacle() {
-  local name=free-$1-$2-$3 line
-  line="$name $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }')"
-  [[ $meshes == *"$line"* ]] || meshes+=$line$'\n'
-  cases+="riis-$1-$2-$3-$4-${5:-1e3} $name $1 $(awk -v a="$2" 'BEGIN { print a / 100 }') $4 ${5:-1e3}"$'\n'
+  local more=${7:+-$7}${8:+-$8} name band=${8:-}
+  name=${6:+wide}
+  name=${name:-free}-$1-$2-$3$more
+  [[ $band ]] || band=$(awk -v a="$2" -v b="$3" -v wide="${6:+0.75}" 'BEGIN { print a * (1 + wide) + b }')
+  add "$name $1 0 $3 $band ${7:-}" \
+    "riis-$1-$2-$3-$4-${5:-1e3}${6:+-$6}$more $name $1 $(awk -v a="$2" 'BEGIN { print a / 100 }') $4 ${5:-1e3} ${6:-0}"
+}
+# finished ID: tells whether all.json has the row. Its cases then need not run.
+finished() { grep -qF "\"id\": \"$1\"" "$here/all.json"; }
+# beside VALVE EPS OFFSET: adds the case of the valve with this offset if all.json lacks its row. EPS is in millimetres.
+beside() {
+  local eps
+  ! finished "offset_${1/-/_}_$2_$3" || return 0
+  eps=$(awk -v a="$2" 'BEGIN { print a / 10 }')
+  obstacle "$1" "$eps" "$(awk -v a="$eps" 'BEGIN { print a / 2 }')" cut 1e3 "$3"
+  [[ " ${valves[*]} " == *" $1 "* ]] || valves+=("$1")
 }
 
-valves=(bileaflet-1)
+# The open bileaflet valve.
+bileaflet() {
+  local size rim
+  valves+=(bileaflet-1)
+  for size in 0.1 0.07 0.05 0.035 0.025; do fitted bileaflet-1 "$size"; done
+  fitted bileaflet-1 0.035 0.09
+  solid bileaflet-1 0.1 0.05
+  solid bileaflet-1 0.07 0.035
+  solid bileaflet-1 0.05 0.025
+  for rim in round cut; do
+    obstacle bileaflet-1 0.1 0.05 "$rim"
+    obstacle bileaflet-1 0.07 0.035 "$rim"
+    obstacle bileaflet-1 0.05 0.025 "$rim"
+    # Further cases have a smaller half thickness, other numbers of edges across the band, or other resistances.
+    obstacle bileaflet-1 0.035 0.0175 "$rim"
+    obstacle bileaflet-1 0.1 0.1 "$rim"
+    obstacle bileaflet-1 0.1 0.025 "$rim"
+  done
+  obstacle bileaflet-1 0.1 0.05 round 1e2
+  obstacle bileaflet-1 0.1 0.05 round 1e4
+  blood+=$'fitted-bileaflet-1-0.05\nriis-bileaflet-1-0.1-0.05-round-1e3\nriis-bileaflet-1-0.07-0.035-round-1e3\n'
+}
+
+# some_open VALVE: a valve as walls and as obstacle, with three sizes.
+some_open() {
+  local size rim
+  valves+=("$1")
+  for size in 0.05 0.035 0.025; do fitted "$1" "$size"; done
+  for rim in round cut; do
+    obstacle "$1" 0.1 0.05 "$rim"
+    obstacle "$1" 0.07 0.035 "$rim"
+    obstacle "$1" 0.05 0.025 "$rim"
+  done
+}
+
+# Adds the valves whose band lies beside the leaflets, with walls first. The cases of the bars are next.
+beside_leaflets() {
+  local offset valve size three=(trileaflet-1 trileaflet-0.5 trileaflet-0.25) two=(coapting-1 coapting-0.5) some
+  for offset in 0.75 0; do for valve in "${three[@]}"; do beside "$valve" 1 "$offset"; done; done
+  for offset in 0.75 0; do for valve in "${three[@]}"; do beside "$valve" 0.5 "$offset"; done; done
+  for valve in "${three[@]}"; do beside "$valve" 1 0.5; done
+  if [[ $cases == *riis-trileaflet-0.25-0.1-0.05-cut-1e3-0.75* ]]; then # shows how much the mesh changes the smallest area
+    obstacle trileaflet-0.25 0.1 0.05 cut 1e3 0.75 0.08
+    obstacle trileaflet-0.25 0.1 0.05 cut 1e3 0.75 0.13 0.35
+    obstacle trileaflet-0.25 0.1 0.05 cut 1e3 0.75 0.13 0.6
+    obstacle trileaflet-0.25 0.1 0.035 cut 1e3 0.75
+  fi
+  for valve in "${two[@]}"; do
+    for offset in 0.75 0.5 0; do beside "$valve" 1 "$offset"; done
+    for offset in 0.75 0; do beside "$valve" 0.5 "$offset"; done
+  done
+  some=$cases cases=''
+  for valve in "${valves[@]}"; do
+    for size in 0.05 0.03 0.02; do fitted "$valve" "$size"; done
+  done
+  cases+=$some
+  finished offset_blood_trileaflet_0.5_1_0.75 || {
+    fitted trileaflet-0.5 0.03
+    for offset in 0.75 0; do obstacle trileaflet-0.5 0.1 0.05 cut 1e3 "$offset"; done
+    blood+=$'fitted-trileaflet-0.5-0.03\nriis-trileaflet-0.5-0.1-0.05-cut-1e3-0.75\nriis-trileaflet-0.5-0.1-0.05-cut-1e3-0\n'
+  }
+}
+
 if [[ $quick ]]; then
+  valves+=(bileaflet-1)
   fitted bileaflet-1 0.1
   fitted bileaflet-1 0.05
   solid bileaflet-1 0.1 0.05
@@ -184,46 +284,21 @@ if [[ $quick ]]; then
     obstacle bileaflet-1 0.07 0.035 "$rim"
   done
 else
-  for size in 0.1 0.07 0.05 0.035 0.025; do fitted bileaflet-1 "$size"; done
-  fitted bileaflet-1 0.035 0.09
-  solid bileaflet-1 0.1 0.05
-  solid bileaflet-1 0.07 0.035
-  solid bileaflet-1 0.05 0.025
-  valves+=(bileaflet-0.75 bileaflet-0.5)
-  for valve in "${valves[@]}"; do
-    [[ $valve == bileaflet-1 ]] || for size in 0.05 0.035 0.025; do fitted "$valve" "$size"; done
-    for rim in round cut; do
-      obstacle "$valve" 0.1 0.05 "$rim"
-      obstacle "$valve" 0.07 0.035 "$rim"
-      obstacle "$valve" 0.05 0.025 "$rim"
-    done
-  done
-  # Further cases have a smaller half thickness, other numbers of edges across the band, or other resistances.
-  for rim in round cut; do
-    obstacle bileaflet-1 0.035 0.0175 "$rim"
-    obstacle bileaflet-1 0.1 0.1 "$rim"
-    obstacle bileaflet-1 0.1 0.025 "$rim"
-  done
-  obstacle bileaflet-1 0.1 0.05 round 1e2
-  obstacle bileaflet-1 0.1 0.05 round 1e4
-  blood='fitted-bileaflet-1-0.05
-    riis-bileaflet-1-0.1-0.05-round-1e3
-    riis-bileaflet-1-0.07-0.035-round-1e3'
-  valves+=(trileaflet-1)
-  for size in 0.05 0.035 0.025; do fitted trileaflet-1 "$size"; done
-  for rim in round cut; do
-    obstacle trileaflet-1 0.1 0.05 "$rim"
-    obstacle trileaflet-1 0.07 0.035 "$rim"
-    obstacle trileaflet-1 0.05 0.025 "$rim"
+  beside_leaflets
+  finished bodyfit_bileaflet_1_cut_line || bileaflet
+  for valve in bileaflet-0.75 bileaflet-0.5 trileaflet-1; do
+    finished "bodyfit_${valve/-/_}_cut_line" || some_open "$valve"
   done
 fi
 
-in_turn make_mesh "$meshes"
+status=0
+in_turn make_mesh "$meshes" || status=1
 mesh=$out/meshes/$(head -n 1 <<<"$meshes" | cut -d ' ' -f 1)
-openfoam_digests
-in_turn run_case "$cases"
-in_turn run_blood "$blood"
-in_turn same_leaflets "$(printf '%s\n' "${valves[@]}")"
+[[ ! $meshes ]] || openfoam_digests
+in_turn run_case "$cases" || status=1
+in_turn run_blood "$blood" || status=1
+in_turn same_leaflets "$(printf '%s\n' "${valves[@]}")" || status=1
 python=python3
 [[ ! -x /usr/bin/python3 ]] || python=/usr/bin/python3
-"$python" -B "$here/body_fitted.py" "$out" | tee "$out/body_fitted.txt"
+"$python" -B "$here/body_fitted.py" "$out" ${quick:+--quick} | tee "$out/body_fitted.txt"
+((status == 0))

@@ -23,7 +23,7 @@ PLOTS = {
     "stokes": "Effective radius over the half thickness, and c over the cells in it",
     "jets": "Contraction over h, and the jet behind both rims",
 }  # fmt: skip
-GROUPS = ("stokes", "closed", "jets", "bodyfit", "clinical")
+GROUPS = ("stokes", "closed", "jets", "bodyfit", "offset", "clinical")
 FIELDS = ("id", "group", "quantity", "reference", "source", "solver", "grids", "order", "extrapolated", "deviation", "bar",
           "note")  # fmt: skip
 
@@ -125,6 +125,20 @@ def table_of(rows):
     return report_text.table(heads, [[cell.replace("|", "\\|") for cell in line] for line in lines])
 
 
+def offsets_of(rows):
+    """Returns the short table of the rows of bands beside the leaflets: deviations of area and drop for each opening, half
+    thickness and offset."""
+    import report_text
+
+    offsets = sorted({row["offset"] for row in rows})
+    cell = {(row["valve"], row["opening"], row["eps"], row["offset"]):
+            f"{100 * row['deviation']:+.1f} % ({100 * row['drop']:+.0f} %)" for row in rows}  # fmt: skip
+    order = sorted({key[:3] for key in cell}, key=lambda key: (key[0] != "trileaflet", key[0], -key[1], -key[2]))
+    lines = [[valve, f"{opening:g}", f"{1e3 * eps:g} mm", *(cell.get((valve, opening, eps, offset), "") for offset in offsets)]
+             for valve, opening, eps in order]  # fmt: skip
+    return report_text.table(["valve", "opening", "ε", *(f"o = {offset:g}" for offset in offsets)], lines)
+
+
 def page_values(rows, about, committed, plots):
     """Returns the values of the places in docs/validation.md."""
     import report_text
@@ -136,6 +150,10 @@ def page_values(rows, about, committed, plots):
         chosen = [row for row in rows if row["group"] == group]
         values[group + "_table"] = table_of(chosen) if chosen else None
         values[group + "_solvers"] = report_text.wrapped(f"Solvers: {solvers_of(chosen)}.") if chosen else None
+        values[group + "_commits"] = " and ".join(dict.fromkeys(row["commit"] for row in chosen if "commit" in row)) or None
+        if group == "offset":
+            steady = [row for row in chosen if "offset" in row]
+            values["offsets_table"] = offsets_of(steady) if steady else None
     for kind in ("hole", "disc"):
         for rim in ("round", "cut"):
             row = by_id[f"c_{kind}_{rim}"]

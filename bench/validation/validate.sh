@@ -20,7 +20,8 @@ validate_compile() {
 #   minutes. It fails if a row misses its bar, and is skipped if the distribution lacks libhypre-dev. --short takes coarse grids,
 #   in less than five minutes, and leaves everything in out/validate_short. --page computes nothing, and writes the page again
 #   from out/validate/rows.json. --all first computes open leaflets in OpenFOAM, as walls in body-fitted meshes and as obstacles
-#   of riis, in hours, and renews bench/validation/all.json.
+#   of riis, in hours, and adds their rows to bench/validation/all.json. It keeps rows that are there and cases that are complete,
+#   so it goes on after a stop.
 run_validate() {
   local out=out/validate words=(--page docs/validation.md) python status=0
   case $* in
@@ -49,8 +50,10 @@ run_validate() {
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
   if [[ ${1:-} == --all ]]; then
     install_missing "${openfoam_packages[@]}"
-    step "compute leaflets in body-fitted meshes and in those of riis" bench/validation/body_fitted.sh "$out/body_fitted"
-    cp "$out/body_fitted/body_fitted.json" bench/validation/all.json
+    (step "compute leaflets in body-fitted meshes and in those of riis" bench/validation/body_fitted.sh "$out/body_fitted") ||
+      status=$?
+    [[ ! -e $out/body_fitted/body_fitted.json ]] || cp "$out/body_fitted/body_fitted.json" bench/validation/all.json
+    [[ ! -e $out/body_fitted/profiles.png ]] || cp "$out/body_fitted/profiles.png" docs/validation-offset.png
   fi
   step "compile the library" flow_compile
   step "compile the programs of the validation" validate_compile

@@ -4,9 +4,13 @@ of marks.c.
 
 The order of a series, the reading of committed rows and the page are tried on made-up rows."""
 
+import contextlib
 import copy
+import io
 import json
+import math
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
@@ -15,6 +19,9 @@ import unittest
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path[:0] = [os.path.join(ROOT, "bench", folder) for folder in ("validation", "report")]
 try:
+    import beside
+    import body_fitted
+    import cases
     import exact
     import jets
     import marking
@@ -161,9 +168,74 @@ class Judged(unittest.TestCase):
                 with open(os.path.join(folder, "validation.md"), encoding="utf-8") as file:
                     self.assertEqual("**missed**" in file.read(), bool(status))
 
+    def test_offsets(self):
+        # A case of each kind, from files as simpleFoam leaves them.
+        def case(folder, name, mesh, pressures, words):
+            at = pathlib.Path(folder)
+            owner, log = at / "meshes" / mesh / "constant/polyMesh/owner", at / "cases" / name / "log.simpleFoam"
+            for path, text in ((owner, 'note "nCells:1";'), (log, words + "\nExecutionTime = 2 s"),
+                               (log.parent / "complete", ""), (log.parent / "400/U", "internalField uniform (0 0 1);")):
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text)
+            for patch, values in (("inlet", pressures), ("outlet", [0.5e-4 * math.pi * 1.22**2 / 6] * len(pressures))):
+                table = log.parent / "postProcessing" / patch / "0/surfaceFieldValue.dat"
+                table.parent.mkdir(parents=True)
+                table.write_text("".join(f"{at + 1} {value}\n" for at, value in enumerate(values)))
+
+        done, valve = "SIMPLE solution converged in 400 iterations", "trileaflet-0.5"
+        steady, moving = [2.0] * 350 + [2.00001] * 50, [2.0] * 350 + [2.1] * 50
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()) as told:
+            case(folder, f"fitted-{valve}-0.03", f"fitted-{valve}-0.03", [1.5] * 400, done)
+            case(folder, f"riis-{valve}-0.1-0.05-cut-1e3-0.75", f"wide-{valve}-0.1-0.05", steady, "")
+            case(folder, f"riis-{valve}-0.1-0.05-cut-1e3-0", f"wide-{valve}-0.1-0.05", moving, "")
+            runs = cases.read_runs(pathlib.Path(folder))
+            made = beside.beside("trileaflet", 0.5, runs, {})
+            # Without the case, the walls are those of a row that is kept.
+            again = beside.beside("trileaflet", 0.5, runs[1:], {made[0]["id"]: made[0]})
+            none = beside.beside("trileaflet", 0.5, runs[1:], {})
+        self.assertIn(f"left out: riis-{valve}-0.1-0.05-cut-1e3-0: simpleFoam did not converge in 400 steps", told.getvalue())
+        self.assertEqual([row["id"] for row in made], ["offset_trileaflet_0.5_1_0.75"])
+        # The area is Q / sqrt(2 dp / rho), with the total pressure 1.625 or 2.125 rho.
+        self.assertAlmostEqual(made[0]["deviation"], math.sqrt(1.625 / 2.12501) - 1, delta=1e-4)
+        self.assertAlmostEqual(made[0]["drop"], 2.12501 / 1.625 - 1, delta=1e-4)
+        self.assertEqual(made[0]["bar"], 0.04)
+        self.assertIn("stalled above the limit of the residuals", made[0]["note"])
+        self.assertEqual([row["reference"] for row in again + none], [made[0]["reference"]])
+        validate.check_rows(made, "here")
+        table = validate.offsets_of([*made, {**made[0], "opening": 1.0, "offset": 0, "deviation": -0.05, "drop": 0.1}])
+        self.assertEqual(table.splitlines(), ["| valve | opening | ε | o = 0 | o = 0.75 |", "|---|---|---|---|---|",
+                                              "| trileaflet | 1 | 1 mm | -5.0 % (+10 %) |  |",
+                                              "| trileaflet | 0.5 | 1 mm |  | -12.6 % (+31 %) |"])
+
+    def test_rows_are_kept(self):
+        kept = {key: {"id": key, "commit": "old", "deviation": 1} for key in "ab"}
+        found = body_fitted.merged([{"id": "b", "deviation": 2}, {"id": "c", "deviation": 3}], kept, "new")
+        self.assertEqual([(row["id"], row["commit"], row["deviation"]) for row in found],
+                         [("a", "old", 1), ("b", "new", 2), ("c", "new", 3)])
+
     def test_grid_that_does_not_fit(self):
         with self.assertRaisesRegex(ValueError, "do not fit between 0 and 6"):
             staggered.graded(0.5, (-1, 2), (0, 6))
+
+    def test_points(self):
+        # docs/theory/trileaflet.md: x of the free edge is linear in y if the valve is closed, and quadratic if it is open.
+        program = os.path.join(os.path.dirname(PROGRAM), "validation_points")
+        text = subprocess.run([program, "trileaflet", "0.5"], capture_output=True, text=True, check=True).stdout
+        numbers = [float(word) for word in text.split("{")[1].split("}")[0].split(",")]
+        self.assertEqual(len(numbers), 2 * 9 * 9 * 3)
+        for place in range(2 * 9 * 9 - 9, 2 * 9 * 9):
+            x, y, z = numbers[3 * place : 3 * place + 3]
+            share = y / (1.05 * 1.25 * math.sin(math.pi / 3))
+            self.assertAlmostEqual(x, 0.5 * 0.625 * share + 0.5 * (1 - 0.3125 * share**2), delta=2e-4)
+            self.assertAlmostEqual(z, 0, delta=1e-12)
+        self.assertGreater(share, 0.95)
+        # The last row of the lower patch is the first row of the upper patch.
+        for found, right in zip(numbers[3 * 72 : 3 * 81], numbers[3 * 81 : 3 * 90]):
+            self.assertAlmostEqual(found, right, delta=1e-12)
+        for words, message in ((["tricuspid", "1"], "'tricuspid' is not a kind of valve"), (["coapting"], "usage")):
+            run = subprocess.run([program, *words], capture_output=True, text=True, check=False)
+            self.assertIn(message, run.stderr)
+            self.assertNotEqual(run.returncode, 0)
 
     def test_program_refuses(self):
         with self.assertRaisesRegex(SystemExit, "half_thickness"):
