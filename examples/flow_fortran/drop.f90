@@ -59,8 +59,8 @@ program drop_of_valve
   seconds = clocks() - begin
   print '(2a)', 'kind,opening,flow_ml_s,cells,h_mm,eps_mm,offset,area_cm2,effective_cm2,rim_reach,wall_cm2,drop_mmHg,', &
     'lasting_mmHg,jet_m_s,apart_percent,windows,steps,seconds'
-  print '(a, 14(",", g0), 2(",", i0), ",", f0.1)', trim(kind), opening, flow_rate, cells, 1e3_dp * fluid%h, 1e3_dp * eps, offset, &
-    1e4_dp * orifice%area, 1e4_dp * orifice%effective_area, orifice%rim_reach, 1e4_dp * size(fluid%outlet) * fluid%h**2, &
+  print '(a, 14(",", g0), 2(",", i0), ",", f0.1)', trim(kind), opening, flow_rate, cells, 1e3_dp * fluid%h, 1e3_dp * eps, &
+    offset, 1e4_dp * orifice%area, 1e4_dp * orifice%effective_area, orifice%rim_reach, 1e4_dp * size(fluid%outlet) * fluid%h**2, &
     drop / mmHg, lasting() / mmHg, jet, 100 * abs(drop - before) / drop, n_windows, step_number, seconds(2)
   call valve%finish()
   call fluid%equation%finish()

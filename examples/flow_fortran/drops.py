@@ -104,7 +104,8 @@ def draw(drops, path):
     import matplotlib.pyplot as plt
 
     kinds = [kind for kind in KINDS if any(drop.kind == kind for drop in drops)]
-    figure, axes = plt.subplots(1, len(kinds), figsize=(4 * len(kinds) + 1, 4), sharey=True, squeeze=False, constrained_layout=True)
+    figure, axes = plt.subplots(1, len(kinds), figsize=(4 * len(kinds) + 1, 4), sharey=True, squeeze=False,
+                                constrained_layout=True)
     cells = min(drop.cells for drop in drops)
     for one, kind in zip(axes[0], kinds):
         mine = sorted((drop for drop in drops if (drop.kind, drop.flow_ml_s, drop.cells) == (kind, 250, cells)),

@@ -110,13 +110,14 @@ static void count_leaks(const closed_valve *valve, int n_grids, int32_t rim, int
     }
     const int is_opened = !leaks[0] && (leaks[1] || leaks[2]);
     if (is_opened && rim == RIIS_RIM_ROUND)
-      fail_msg("%s, skirt %g, radius %g, edges of %g half thicknesses: leaks with the offset 0.5: %d, 0.75: %d", valve->kind,
-               valve->skirt, valve->radius, shares[trial % 3], leaks[1], leaks[2]);
+      fail_msg("%s, skirt %g, radius %g, edges of %g half thicknesses: leaks with the offset 0.5: %d, 0.75: %d",
+               valve->kind, valve->skirt, valve->radius, shares[trial % 3], leaks[1], leaks[2]);
     n_opened += is_opened;
     free_owned_after(n_before);
   }
-  printf("%-10s skirt %.1f, radius %.2f, rim %d: of %d grids leak %d, %d, %d with the offsets 0, 0.5, 0.75; opened %d\n", valve->kind,
-         valve->skirt, valve->radius, rim, n_grids, n_leaking[0], n_leaking[1], n_leaking[2], n_opened);
+  printf(
+      "%-10s skirt %.1f, radius %.2f, rim %d: of %d grids leak %d, %d, %d with the offsets 0, 0.5, 0.75; opened %d\n",
+      valve->kind, valve->skirt, valve->radius, rim, n_grids, n_leaking[0], n_leaking[1], n_leaking[2], n_opened);
 }
 
 TEST(valves_with_a_skirt_do_not_leak) {
