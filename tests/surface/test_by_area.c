@@ -71,11 +71,11 @@ static riis_resistance resistance(double half_thickness, int32_t rim) {
 
 /* An area at a random opening leads to an opening with that area, which is no larger. */
 TEST(openings_have_their_areas) {
-  const int n_trials = is_long_test() ? 8 * 4 * n_kinds : 2 * n_kinds;
+  const int n_trials = is_long_test() ? 8 * 4 * n_kinds : n_kinds;
   double worst[2] = {0, 0};
   int64_t most_surfaces = 0;
   for (int trial = 0; trial < n_trials; trial += trial_step()) {
-    const int kind = trial % n_kinds, is_fixed = trial / n_kinds % 2;
+    const int kind = trial % n_kinds, is_fixed = (kind + trial / n_kinds) % 2;
     const double scale = exp(between(log(0.01), log(10)));
     const riis_surface_options options =
         oblique(scale, is_fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
@@ -236,7 +236,7 @@ TEST(a_cycle_is_recovered) {
   riis_area_search search = area_search();
   search.surface = &options;
   search.n_samples = 9;
-  for (int kind = 2; kind < 4; kind += trial_step()) {
+  for (int kind = 2; kind < (is_long_test() ? 4 : 3); ++kind) {
     riis_valve *valve = new_valve(kinds[kind]);
     double time[n], opening[n], area[n], found[n], rate;
     for (int i = 0; i < n; ++i) {
@@ -306,6 +306,7 @@ TEST(turns_are_told) {
   CHECK_OK(riis_valve_set_open_state(valve, blades_at(1)));
   const double turn = 0.5 / 1.1, area = 2.2;
   riis_area_search search = area_search();
+  search.n_samples = 17;
   const solution least = solve(valve, "opening", area, &search);
   CHECK_NEAR(area_of_blades(least.value), area, 5e-3);
   CHECK_NEAR(least.value, (area / 1.8 - 1.1) / 0.5, 5e-3);
