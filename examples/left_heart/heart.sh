@@ -5,7 +5,7 @@
 
 heart_here=examples/left_heart
 heart_stiff='open_radius_ratio 0.3; commissure_expansion 0; skirt_length 0.5;' # of the stenotic aortic valve
-heart_least_opening=0.08                                     # of the regurgitant mitral valve
+heart_least_opening=0.05                                     # of the regurgitant mitral valve
 # shellcheck source=examples/left_heart/coupled/coupled.sh
 . "$heart_here/coupled/coupled.sh"
 
