@@ -101,7 +101,7 @@ def msh_leaflet(path):
 
 def same_leaflets(folder):
     """Prints the distance between the fitted leaflets and the leaflets of the library."""
-    for case in sorted(folder.glob("leaflets-*")):
+    for case in sorted(path.parent for path in folder.glob("leaflets-*/complete")):
         points, corners, _ = foam.triangles(case / "leaflets.vtk")
         fitted = msh_leaflet(case / "fitted.msh")
         vertices = numpy.unique(fitted.reshape(-1, 3), axis=0)

@@ -142,7 +142,7 @@ same_leaflets() {
   [[ ! -e $case/complete ]] || return 0
   first=$(find "$out/meshes" -maxdepth 1 \( -name "free-$1-*" -o -name "wide-$1-*" \) | sort | tail -n 1)
   rm -rf "$case"
-  cp -r "$first" "$case" && set_valve "$case" "$1" 1e-4 round 1e3 0 &&
+  cp -r "$first" "$case" && rm "$case/complete" && set_valve "$case" "$1" 1e-4 round 1e3 0 &&
     sed -i 's/velocity no;/velocity no; writeLeaflets yes;/' "$case/system/fvOptions" &&
     sed -i 's/endTime .*/endTime 1;/; s/writeInterval .*/writeInterval 1;/' "$case/system/controlDict" &&
     logged "$case/log.simpleFoam" "${of_with[@]}" simpleFoam -case "$case" &&
