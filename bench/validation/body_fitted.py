@@ -341,8 +341,12 @@ def blood_beside(run, area, walls, found):
 
 
 def merged(rows, kept, now):
-    """Returns the rows, each with the commit on which it was measured, in the order of `kept` and then of `rows`."""
+    """Returns the rows, each with the commit on which it was measured, in the order of `kept` and then of `rows`. A row that is
+    equal to the kept one keeps its commit."""
     new = {row["id"]: {**row, "commit": now} for row in rows}
+    for key, row in kept.items():
+        if {**new.get(key, {}), "commit": row["commit"]} == row:
+            del new[key]
     return [new.pop(key, row) for key, row in kept.items()] + list(new.values())
 
 

@@ -190,7 +190,7 @@ solid() {
 }
 # obstacle VALVE EPS SIZE RIM [RESISTANCE [OFFSET [FAR [BAND]]]]: adds a case of riis and its mesh. Up to the distance BAND from
 # the leaflet, edges have the length SIZE. BAND is EPS + SIZE by default, and 1.75 EPS + SIZE with OFFSET, so that one mesh
-# serves offsets from 0 to 0.75. FAR is as above.
+# serves offsets from 0 to 0.85. FAR is as above.
 obstacle() {
   local more=${7:+-$7}${8:+-$8} name band=${8:-}
   name=${6:+wide}
@@ -258,7 +258,7 @@ beside_leaflets() {
     obstacle trileaflet-0.25 0.1 0.035 cut 1e3 0.75
   fi
   for valve in "${two[@]}"; do
-    for offset in 0.75 0.5 0; do beside "$valve" 1 "$offset"; done
+    for offset in 0.85 0.75 0.5 0; do beside "$valve" 1 "$offset"; done
     for offset in 0.75 0; do beside "$valve" 0.5 "$offset"; done
   done
   some=$cases cases=''

@@ -4,7 +4,7 @@
 A row is one JSON object with the fields below. bench/validation/all.json also has rows, from solvers that take hours. They
 are under "rows". "commit", "machine" and "command" say where they come from. validate.py merges them into the page.
   id            unique word, which the page's prose may use
-  group         stokes, closed, jets, bodyfit or clinical: the page's section
+  group         stokes, closed, jets, bodyfit, offset or clinical: the page's section
   quantity      text
   reference     number, or null for a row that only shows a trend
   source        text: where the reference comes from
@@ -14,7 +14,9 @@ are under "rows". "commit", "machine" and "command" say where they come from. va
   extrapolated  number: the limit by this order, or the value of the finest grid if order is null
   deviation     number: extrapolated / reference - 1, or null if reference is null
   bar           number: the largest deviation that passes, or null if every deviation passes
-  note          text, may be empty"""
+  note          text, may be empty
+Rows of all.json also have "commit", the commit on which the row was measured. Steady rows of the group offset also have "valve",
+"opening", "eps" in metres, "offset", and "drop", the total drop over that of walls minus 1."""
 
 import math
 import subprocess

@@ -79,7 +79,7 @@ class Resumed(unittest.TestCase):
         wanted = set(re.findall(r"finished (offset_blood\S+)", script))
         for valve, openings in (("trileaflet", ("1", "0.5", "0.25")), ("coapting", ("1", "0.5"))):
             wanted |= {f"offset_{valve}_{opening}_{eps}_{offset}" for opening in openings for eps in ("1", "0.5")
-                       for offset in ("0", "0.5", "0.75")}
+                       for offset in ("0", "0.5", "0.75", "0.85")}
         have = {row["id"] for row in found["rows"]}
         found["rows"] = [row for row in found["rows"] if row["id"] not in missing]
         found["rows"] += [{**base, "id": key} for key in sorted(wanted - have - missing)]

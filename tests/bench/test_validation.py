@@ -209,7 +209,8 @@ class Judged(unittest.TestCase):
 
     def test_rows_are_kept(self):
         kept = {key: {"id": key, "commit": "old", "deviation": 1} for key in "ab"}
-        found = body_fitted.merged([{"id": "b", "deviation": 2}, {"id": "c", "deviation": 3}], kept, "new")
+        again = [{"id": "a", "deviation": 1}, {"id": "b", "deviation": 2}, {"id": "c", "deviation": 3}]
+        found = body_fitted.merged(again, kept, "new")
         self.assertEqual([(row["id"], row["commit"], row["deviation"]) for row in found],
                          [("a", "old", 1), ("b", "new", 2), ("c", "new", 3)])
 

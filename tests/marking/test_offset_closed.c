@@ -124,7 +124,7 @@ TEST(valves_with_a_skirt_do_not_leak) {
   static const closed_valve valves[] = {{"trileaflet", 0.4, 0.1, 1.3, -1.7, 0.5},
                                         {"coapting", 0.4, 0.1, 1.3, -0.5, 2.2},
                                         {"mitral", 0.7, 0.14, 1.9, -1, 3}};
-  const int n_grids = fewer_if_sanitized(trials_of(15));
+  const int n_grids = trials_of(15);
   for (int i = 0; i < 3; ++i)
     for (int32_t rim = RIIS_RIM_ROUND; rim <= RIIS_RIM_CUT; ++rim) {
       int n_leaking[3];
@@ -137,7 +137,7 @@ TEST(valves_with_a_skirt_do_not_leak) {
  * without an offset. A cut rim does not: its end moves along the normals, and so away from the wall. */
 TEST(round_rims_without_a_skirt_leak_only_where_they_leak_without_an_offset) {
   closed_valve valves[] = {{"trileaflet", 0, 0.1, 0, -1.7, 0.5}, {"coapting", 0, 0.1, 0, -0.5, 2.2}};
-  const int n_grids = fewer_if_sanitized(trials_of(15));
+  const int n_grids = trials_of(15);
   for (int i = 0; i < 2; ++i)
     for (int32_t rim = RIIS_RIM_ROUND; rim <= RIIS_RIM_CUT; ++rim) {
       int n_leaking[3];

@@ -140,7 +140,7 @@ static void check_surface(const riis_surface *surface, const riis_surface_option
 }
 
 TEST(nodes_are_left_out_beside_any_sheet) {
-  const int n = fewer_if_sanitized(trials_of(24));
+  const int n = trials_of(24);
   for (int trial = 0; trial < n; ++trial)
     for (int what = 0; what < n_sheets; ++what) {
       const int n_before = n_owned();
@@ -153,7 +153,7 @@ TEST(nodes_are_left_out_beside_any_sheet) {
 }
 
 TEST(nodes_are_left_out_beside_any_valve) {
-  const int n = fewer_if_sanitized(trials_of(9));
+  const int n = trials_of(9);
   for (int trial = 0; trial < n; ++trial)
     for (int kind = 0; kind < n_valve_kinds; ++kind) {
       const int n_before = n_owned();
