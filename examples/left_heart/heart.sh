@@ -5,7 +5,7 @@
 
 heart_here=examples/left_heart
 heart_stiff='open_radius_ratio 0.3; commissure_expansion 0; skirt_length 0.5;' # of the stenotic aortic valve
-heart_least_opening=0.05                                     # of the regurgitant mitral valve
+heart_least_opening=0.02                                     # of the regurgitant mitral valve
 # shellcheck source=examples/left_heart/coupled/coupled.sh
 . "$heart_here/coupled/coupled.sh"
 
@@ -14,9 +14,9 @@ heart_least_opening=0.05                                     # of the regurgitan
 #   drives. It measures leaks, and checks the balance of blood, the pressures, 1 and 2 ranks and a restart. It leaves tables,
 #   pictures and a movie in out/heart. --all adds a heart with a stenotic aortic valve, and one with a regurgitant mitral valve.
 #   --short has one beat in a coarse mesh. --offset 0 has bands around the leaflets with round rims, in place of bands that step
-#   aside by 0.75 half thicknesses, with cut rims. With --coupled, the pressures of the flow open the valves, and the wall moves by
-#   its elastance. --walls compares the open aortic valve with the same leaflets as walls. --resume continues a run that was cut
-#   off. It is left out like openfoam.
+#   aside by 0.75 half thicknesses, with cut rims. With --coupled, the pressures of the flow open the valves, and the wall moves
+#   by its elastance. --walls compares the open aortic valve with the same leaflets as walls. --resume continues a run that was
+#   cut off. It is left out like openfoam.
 run_heart() {
   local python name of_keep=
   heart_offset=0.75
