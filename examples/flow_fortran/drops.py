@@ -111,7 +111,7 @@ def draw(drops, path):
         mine = sorted((drop for drop in drops if (drop.kind, drop.flow_ml_s, drop.cells) == (kind, 250, cells)),
                       key=lambda drop: drop.opening)  # fmt: skip
         for offset, colour in ((0, "#d55e00"), (0.5, "#009e73"), (0.75, "#0072b2")):
-            for eps, style in zip(sorted({drop.eps_mm for drop in mine}), ("o-", "s--")):
+            for eps, style in zip(sorted({drop.eps_mm for drop in drops}), ("o-", "s--")):
                 line = [drop for drop in mine if (drop.offset, drop.eps_mm) == (offset, eps)]
                 if line:
                     one.plot([drop.opening for drop in line], [drop.drop_mmHg for drop in line], style, color=colour,
