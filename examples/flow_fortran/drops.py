@@ -94,7 +94,7 @@ class Drop:
 
 
 def draw(drops, path):
-    """Draws the drop over the opening for each kind, at one flow and in one grid, beside both formulas."""
+    """Draws the drop over the opening for each kind, at one flow and in the finest grid, beside both formulas."""
     try:
         import matplotlib
     except ImportError:
@@ -106,12 +106,12 @@ def draw(drops, path):
     kinds = [kind for kind in KINDS if any(drop.kind == kind for drop in drops)]
     figure, axes = plt.subplots(1, len(kinds), figsize=(4 * len(kinds) + 1, 4), sharey=True, squeeze=False,
                                 constrained_layout=True)
-    cells = min(drop.cells for drop in drops)
+    cells = max(drop.cells for drop in drops)
     for one, kind in zip(axes[0], kinds):
         mine = sorted((drop for drop in drops if (drop.kind, drop.flow_ml_s, drop.cells) == (kind, 250, cells)),
                       key=lambda drop: drop.opening)  # fmt: skip
         for offset, colour in ((0, "#d55e00"), (0.5, "#009e73"), (0.75, "#0072b2")):
-            for eps, style in zip(sorted({drop.eps_mm for drop in mine}), ("o-", "s--")):
+            for eps, style in zip(sorted({drop.eps_mm for drop in drops}), ("o-", "s--")):
                 line = [drop for drop in mine if (drop.offset, drop.eps_mm) == (offset, eps)]
                 if line:
                     one.plot([drop.opening for drop in line], [drop.drop_mmHg for drop in line], style, color=colour,

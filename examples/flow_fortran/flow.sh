@@ -61,7 +61,7 @@ flow_story() {
 #   Prints the effect of resistance, half thickness and size of cells on the drop and the leak.
 # ./run flow --drops [--short]
 #   Computes the steady drops of the aortic, coapting and trileaflet valves at some openings, flows, half thicknesses and offsets,
-#   in half an hour of a processor. It leaves a table with two formulas beside the drops, and a plot, in out/drops. Finished runs
+#   in ten minutes of a processor. It leaves a table with two formulas beside the drops, and a plot, in out/drops. Finished runs
 #   in that folder are kept, so a second call goes on after a stop. --short makes six runs in a coarse grid, in out/drops_short.
 run_flow() {
   local out=out/flow python words=() save=(600 620) short=() offset='' what=beat
