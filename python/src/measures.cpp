@@ -234,7 +234,9 @@ options  options of riis.Surface, of which scale, rotation and translation place
       module, "Surface", "leak", &leak, nb::arg("drop").none(), nb::kw_only(), nb::arg("R").none(),
       nb::arg("half_thickness").none() = nb::none(),
       nb::sig("def leak(self, drop: float, *, R: float, half_thickness: float | None = None) -> float"),
-      R"(Returns the ideal leak of a closed surface: the volume flow drop * (eps / R) * area. The area is that of the band's middle.
+      R"(Returns the ideal leak of a closed surface: the volume flow drop * (eps / R) * area.
+
+The area is that of the middle of the band.
 
 drop            upstream minus downstream pressure
 R               mass / (length time), such as kg/(m s), above 0
