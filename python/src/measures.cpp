@@ -230,11 +230,12 @@ wall  a surface in the same frame, such as one from arrays)");
 wall     a surface in the frame of the placed valve
 longest  the longest length to accept, mesh units
 options  options of riis.Surface, of which scale, rotation and translation place the valve)");
-  add_method(
-      module, "Surface", "leak", &leak, nb::arg("drop").none(), nb::kw_only(), nb::arg("R").none(),
-      nb::arg("half_thickness").none() = nb::none(),
-      nb::sig("def leak(self, drop: float, *, R: float, half_thickness: float | None = None) -> float"),
-      R"(Returns the ideal leak of a closed surface: the volume flow drop * (eps / R) * area. The area is that of the band's middle.
+  add_method(module, "Surface", "leak", &leak, nb::arg("drop").none(), nb::kw_only(), nb::arg("R").none(),
+             nb::arg("half_thickness").none() = nb::none(),
+             nb::sig("def leak(self, drop: float, *, R: float, half_thickness: float | None = None) -> float"),
+             R"(Returns the ideal leak of a closed surface: the volume flow drop * (eps / R) * area.
+
+The area is that of the middle of the band.
 
 drop            upstream minus downstream pressure
 R               mass / (length time), such as kg/(m s), above 0

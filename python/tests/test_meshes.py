@@ -169,6 +169,37 @@ def test_what_a_valve_means_for_the_flow():
         assert riis.find_passage(riis.Surface(valve, half_thickness=0.1), mesh, below, above).state == state
 
 
+@pytest.mark.parametrize("offset", [0.75, -0.6])
+def test_edges_that_leak_with_an_offset(offset):
+    """Random edges of 2 (1 - |o|) half thicknesses do not leak, and beside a sharp corner and a mitral valve no edges of
+    2 sqrt(1 - o^2). Of edges of almost 2 half thicknesses only some beside a rim do: riis size-field shortens the edges there."""
+    random, half, n, n_leaks = numpy.random.default_rng(59), 0.16, 50_000, 0
+    options = {"half_thickness": half, "offset": offset}
+    surfaces = [riis.Surface(riis.Valve(kind, opening=0.5), **options) for kind in ("trileaflet", "mitral")]
+    spike = numpy.array([[-1.0, 0.0, 0.0], [1.0, -0.3, 0.0], [1.0, 0.3, 0.0]])
+    surfaces.append(riis.Surface.from_arrays(spike, numpy.array([[0, 1, 2]]), **options))
+    pairs = numpy.arange(2 * n) ^ 1  # nodes 2 k and 2 k + 1 are the ends of an edge
+    for surface in surfaces:
+        weights = random.dirichlet(numpy.ones(3), n)[:, :, None]
+        triangles = surface.triangles.vertex_id[random.integers(surface.info.n_triangles, size=n)]
+        crossed = (weights * surface.vertices[triangles]).sum(axis=1)
+        along, part = random.normal(size=(n, 3)), random.uniform(size=(n, 1))
+        along /= numpy.linalg.norm(along, axis=1, keepdims=True)
+        sharp = 1.0 - abs(offset) if surface is surfaces[0] else (1.0 - offset**2) ** 0.5
+        for length in (0.999 * 2.0 * sharp * half, 1.999 * half):
+            ends = numpy.stack([crossed - part * length * along, crossed + (1.0 - part) * length * along], axis=1)
+            mesh = riis.Mesh(ends.reshape(-1, 3))
+            mesh.set_adjacency(offsets=numpy.arange(2 * n + 1), columns=pairs)
+            marks = riis.mark(surface, mesh, fields="rim", distance_limit=3.0 * half)
+            leaks = riis.find_leaks(surface, mesh, marks)
+            assert leaks.n_edges == 0 or length > 1.9 * half
+            n_leaks += leaks.n_edges
+            is_beside_rim = numpy.zeros(2 * n, bool)
+            is_beside_rim[marks.within_limit.ids[marks.within_limit.rim == 1]] = True
+            assert is_beside_rim[leaks.node_id].any(axis=1).all()
+    assert n_leaks > 3
+
+
 def test_find_by_area():
     valve = riis.Valve("bileaflet")
     openings = numpy.array([0.0, 0.3, 0.8, 1.0])
@@ -196,8 +227,8 @@ def test_find_by_area():
 def test_areas_over_time_become_a_cycle():
     """The areas of a beat come back within 1e-6 with the fixed triangulation, and the openings with them. The effective areas
     with an offset are larger than without."""
-    time = numpy.linspace(0.0, 0.3, 7)
-    law = riis.OpeningTable(time, numpy.array([0.0, 0.35, 0.8, 0.9, 0.7, 0.2, 0.0]))
+    time = numpy.linspace(0.0, 0.3, 4)
+    law = riis.OpeningTable(time, numpy.array([0.0, 0.35, 0.8, 0.0]))
     valve = riis.Valve("coapting")
 
     def measured(openings, **options):
@@ -210,16 +241,16 @@ def test_areas_over_time_become_a_cycle():
         return areas
 
     areas = numpy.array([one.area for one in measured(law.opening)])
-    found = riis.find_by_area(valve, areas, triangulation="fixed", n_samples=9)
+    found = riis.find_by_area(valve, areas, triangulation="fixed", n_samples=5)
     assert numpy.allclose(found.reached, areas, rtol=1e-6, atol=0.0)
     back = numpy.array([one.area for one in measured(found.values)])
     assert numpy.allclose(back, areas, rtol=1e-6, atol=1e-9 * areas.max())
     cycle = riis.OpeningTable(time, found.values)
-    assert abs(cycle(0.05) - 0.35) < 1e-3 and cycle.rate(0.02) > 0.0 > cycle.rate(0.27)
+    assert abs(cycle(0.1) - 0.35) < 1e-3 and cycle.rate(0.02) > 0.0 > cycle.rate(0.27)
     plain, aside = (measured([0.5], half_thickness=0.1, offset=offset)[0] for offset in (0.0, 0.75))
     assert plain.area == aside.area and plain.effective_area < aside.effective_area < aside.area
     again = riis.find_by_area(valve, numpy.array([aside.effective_area]), effective=True, rim="cut", triangulation="fixed",
-                              half_thickness=0.1, offset=0.75, n_samples=9)
+                              half_thickness=0.1, offset=0.75, from_=0.4, to=0.6, n_samples=3)
     assert abs(again.values[0] - 0.5) < 1e-4
 
 

@@ -344,11 +344,11 @@ NumPy and SciPy, or the Python that RIIS_PYTHON names. Without them only the dro
 A mesh whose edges are at most two half thicknesses long does not leak, with --offset O at most 2 sqrt(1 - O^2) half
 thicknesses (riis help leaks). riis size-field writes edge lengths that are small near the valve only: --band-edge half
 thicknesses in the band of every state of the valve, and larger outside it. With --offset O the lengths beside rims are
-shorter by the factor sqrt(1 - O^2). The states are openings from 0 to 1, in number --count, or the times of --times or of a case. The file is a grid, which
-gmsh's field "Structured" reads with TextFormat = 1. The lines for the .geo file go to stdout. gmsh makes some edges longer
-than the field says, so --band-edge should stay below 1. The default algorithm of gmsh in space, Delaunay, keeps closer to
-the field than HXT does. The number of nodes grows with the cube of 1 / --band-edge. A case needs no mesh here. Check the
-mesh by riis check leaks, or by riis mark at several openings.
+shorter by the factor sqrt(1 - O^2). The states are openings from 0 to 1, in number --count, or the times of --times or of a
+case. The file is a grid, which gmsh's field "Structured" reads with TextFormat = 1. The lines for the .geo file go to
+stdout. gmsh makes some edges longer than the field says, so --band-edge should stay below 1. The default algorithm of gmsh
+in space, Delaunay, keeps closer to the field than HXT does. The number of nodes grows with the cube of 1 / --band-edge. A
+case needs no mesh here. Check the mesh by riis check leaks, or by riis mark at several openings.
 )"},
     {"searches", "how nodes are found",
      R"(
