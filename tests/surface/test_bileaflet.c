@@ -62,7 +62,7 @@ TEST(half_discs_have_their_distances) {
     }
     free_owned_after(owned_before);
   }
-  for (int t = 0; t < 3; ++t) assert_true(largest[t] > 0.1); /* the bound must not be far too large */
+  for (int t = 0; t < 3; ++t) CHECK_MET(largest[t] > 0.1); /* the bound must not be far too large */
 }
 
 /* Leaflets that are half ellipses, with slits between them, at any opening. */

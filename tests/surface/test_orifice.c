@@ -251,7 +251,7 @@ TEST(perimeters_are_derivatives_of_areas) {
 
 /* A placement multiplies the areas of the orifice by the square of the scale. */
 TEST(placements_keep_orifices) {
-  for (int trial = 0; trial < n_trials() + 2; ++trial) {
+  for (int trial = 0; trial < trials(n_kinds + 2, 2 * n_kinds + 2); ++trial) {
     const riis_valve *valve = valve_at(trial % n_kinds, trial < n_kinds ? 1 : between(0.2, 1));
     riis_surface_options options = surface_options();
     options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
