@@ -2,7 +2,6 @@
  *
  * Tests the area and the edge of the uncovered part of an outline, against closed forms and against counts of points. */
 #include "plane_cover_shim.h"
-#include "sanitized.h"
 #include "test_support.h"
 
 static const double pi = 3.14159265358979323846;

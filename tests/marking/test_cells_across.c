@@ -9,7 +9,6 @@
 #include "searches.h"
 
 #include "random_meshes.h"
-#include "sanitized.h"
 
 #include "flood_fill.h"
 

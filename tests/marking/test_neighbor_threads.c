@@ -10,7 +10,6 @@
 #include "searches.h"
 
 #include "neighbor_checks.h"
-#include "sanitized.h"
 
 /* --- Threads --------------------------------------------------------------------------------------------------------- */
 

@@ -10,7 +10,6 @@
 
 #include "band_oracle.h"
 #include "random_meshes.h"
-#include "sanitized.h"
 
 #include "flood_fill.h"
 

@@ -11,7 +11,6 @@
 
 #include "band_oracle.h"
 #include "random_meshes.h"
-#include "sanitized.h"
 
 static const char *const valve_kinds[] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
 enum { n_valve_kinds = 5, n_sheets = 5, most_across = 12, n_nodes = 16000 };

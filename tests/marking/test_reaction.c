@@ -7,7 +7,6 @@
 #include "test_support.h"
 
 #include "handles.h"
-#include "sanitized.h"
 #include "searches.h"
 #include "shapes.h"
 

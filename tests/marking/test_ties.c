@@ -9,7 +9,6 @@
 
 #include "handles.h"
 #include "oracle.h"
-#include "sanitized.h"
 #include "searches.h"
 #include "tie_oracle.h"
 

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "handles.h"
-#include "sanitized.h"
 #include "searches.h"
 #include "tbb_region.h"
 

@@ -7,7 +7,6 @@
 
 #include "farthest_outline.h"
 #include "handles.h"
-#include "sanitized.h"
 
 static random_source rng;
 

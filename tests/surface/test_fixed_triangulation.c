@@ -8,7 +8,6 @@
 
 #include "handles.h"
 
-#include "sanitized.h"
 #include "shapes.h"
 
 static random_source rng;

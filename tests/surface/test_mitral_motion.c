@@ -8,7 +8,6 @@
 #include "handles.h"
 #include "mitral_oracle.h"
 #include "oracle.h"
-#include "sanitized.h"
 #include "searches.h"
 #include "tie_oracle.h"
 

@@ -8,7 +8,6 @@
 
 #include "handles.h"
 #include "moving_surfaces.h"
-#include "sanitized.h"
 #include "searches.h"
 
 #include "random_meshes.h"

@@ -6,7 +6,6 @@
 #include "test_support.h"
 
 #include "handles.h"
-#include "sanitized.h"
 
 #include "shapes.h"
 

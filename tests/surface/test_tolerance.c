@@ -7,7 +7,6 @@
 
 #include "handles.h"
 #include "mitral_oracle.h"
-#include "sanitized.h"
 
 static patch_set set;
 

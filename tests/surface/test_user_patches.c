@@ -6,7 +6,6 @@
 
 #include "handles.h"
 
-#include "sanitized.h"
 #include "shapes.h"
 
 TEST(square_has_its_area_and_normal) {

@@ -10,7 +10,6 @@
 #include "searches.h"
 
 #include "random_meshes.h"
-#include "sanitized.h"
 #include "shapes.h"
 #include "velocity_bound.h"
 
