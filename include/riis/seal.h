@@ -28,8 +28,8 @@ RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and 
  * The decision is exact for coordinates in double precision; coordinates below 1e-90 count as 0. An edge may be given in one
  * row or in both, and appears once in the list. Edges to ghosts are ignored. Edges that are at most two half thicknesses long
  * do not leak (docs/meshes.md). With an offset o, edges of at most 2 (1 - |o|) half thicknesses do not leak. Longer edges may
- * leak. The shortest of them are 2 sqrt(1 - o^2) half thicknesses long, at sharp corners of a rim. With an offset, an edge does
- * not leak if both ends are off rims and on the same side. Such an edge only cuts off a fold.
+ * leak beside rims, but seldom if they are at most 2 sqrt(1 - o^2) half thicknesses long. With an offset, an edge does not leak
+ * if both ends are off rims and on the same side. Such an edge only cuts off a fold.
  * A marking of the same triangles with the half thickness of riis_leak_list closes all of these edges, except by
  * RIIS_SEARCH_PAPER. But riis_surface_update with that half thickness moves a valve's triangles by up to
  * tolerance * half_thickness. Search again after it.

@@ -267,10 +267,10 @@ They have the unit of --unit.
      R"(
 The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats give the number
 of leaking edges, and the half thickness that closes them. Edges of at most two half thicknesses do not leak. With --offset O
-this length is 2 sqrt(1 - O^2) half thicknesses, because of sharp corners of a rim. Leaks are unknown in a mesh without volume
-cells, if no node is marked, and at cells whose edges are not known. Leaking edges do not show gaps between leaflets, nor ways
-round the valve. riis check leaks MESH --between FROM TO finds these. FROM and TO
-are points of the mesh on either side of the valve, each as X,Y,Z.
+edges of at most 2 (1 - |O|) half thicknesses do not leak, and those of at most 2 sqrt(1 - O^2) seldom leak, beside rims. Leaks
+are unknown in a mesh without volume cells, if no node is marked, and at cells whose edges are not known. Leaking edges do not
+show gaps between leaflets, nor ways round the valve. riis check leaks MESH --between FROM TO finds these. FROM and TO are
+points of the mesh on either side of the valve, each as X,Y,Z.
 The program says whether unmarked nodes join the points. It also gives the place of the widest passage, and the half
 thickness that closes it. The distance of the points from the valve must be larger than the width of the passage. A case has
 the points as "check_leaks": [x,y,z, x,y,z]. The check uses all its valves together, each at its least opening. For each
@@ -341,8 +341,8 @@ NumPy and SciPy, or the Python that RIIS_PYTHON names. Without them only the dro
 )"},
     {"meshing", "the edge lengths of riis size-field",
      R"(
-A mesh whose edges are at most two half thicknesses long does not leak, with --offset O at most 2 sqrt(1 - O^2) half
-thicknesses (riis help leaks). riis size-field writes edge lengths that are small near the valve only: --band-edge half
+A mesh whose edges are at most two half thicknesses long does not leak. With --offset O it seldom leaks if edges beside rims are
+at most 2 sqrt(1 - O^2) half thicknesses long (riis help leaks). riis size-field writes edge lengths that are small near the valve only: --band-edge half
 thicknesses in the band of every state of the valve, and larger outside it. With --offset O the lengths beside rims are
 shorter by the factor sqrt(1 - O^2). The states are openings from 0 to 1, in number --count, or the times of --times or of a
 case. The file is a grid, which gmsh's field "Structured" reads with TextFormat = 1. The lines for the .geo file go to

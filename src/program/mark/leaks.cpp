@@ -116,7 +116,8 @@ void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const s
       (is_one ? "1 edge of length " + length + " crosses it between two unmarked nodes"
               : grouped(leaks.n_edges) + " edges cross it between two unmarked nodes, the longest (" + length + ")") +
       " at " + place_text(options, leaks.longest_middle, leaks.longest_length);
-  // At a sharp corner of a rim, shorter edges leak from a band with an offset.
+  // From a band with an offset, shorter edges leak at sharp corners of a rim, and still shorter ones where a rim turns sharply
+  // (docs/theory/marks.md, "Offset").
   const double offset = options.surface_options.offset, safe = 2 * std::sqrt((1 - offset) * (1 + offset));
   std::string advice = "; ";
   if (report.closing_half_thickness > 0)
@@ -125,7 +126,8 @@ void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const s
               (is_one ? "it; " : "them; ");
   warn({{Cause::leaks, text,
          advice + "edges of at most " + (offset == 0 ? "two" : shown(safe)) + " half thicknesses (" +
-             (offset == 0 ? shortest(2 * half_thickness) : shown(safe * half_thickness)) + ") do not leak"}});
+             (offset == 0 ? shortest(2 * half_thickness) : shown(safe * half_thickness)) +
+             (offset == 0 ? ") do not leak" : ") seldom leak")}});
 }
 
 }  // namespace
