@@ -285,9 +285,9 @@ prints the flow through an ideal closed valve. A leak does not change the exit s
 riis check crossings checks a valve's triangles at 101 openings from 0 to 1. It ends with status 4 at the first opening at
 which two triangles go through each other. A line on stderr gives that opening, the number of pairs, the length of their
 intersections, and the depth and place of the deepest pair. The depth is the distance by which one triangle must move so that
-both only touch. A depth up to 1e-6 half thicknesses counts as touching. A valve that does not open, a surface from a file and a valve
-with --opening are checked as they are. With --case each valve of a case is checked. The command needs no MESH. riis mark
-checks only openings 0, 0.5 and 1, and only a valve whose shape is set by --set, --params, --params-open or a file. Then
+both only touch. A depth up to 1e-6 half thicknesses counts as touching. A valve that does not open, a surface from a file and
+a valve with --opening are checked as they are. With --case each valve of a case is checked. The command needs no MESH. riis
+mark checks only openings 0, 0.5 and 1, and only a valve whose shape is set by --set, --params, --params-open or a file. Then
 contacts of leaflets do not count, nor those of a housing with its hinges.
 )"},
     {"states", "what the table of riis states has",
@@ -341,14 +341,14 @@ NumPy and SciPy, or the Python that RIIS_PYTHON names. Without them only the dro
 )"},
     {"meshing", "the edge lengths of riis size-field",
      R"(
-A mesh whose edges are at most two half thicknesses long does not leak. With --offset O it seldom leaks if edges beside rims are
-at most 2 sqrt(1 - O^2) half thicknesses long (riis help leaks). riis size-field writes edge lengths that are small near the valve only: --band-edge half
-thicknesses in the band of every state of the valve, and larger outside it. With --offset O the lengths beside rims are
-shorter by the factor sqrt(1 - O^2). The states are openings from 0 to 1, in number --count, or the times of --times or of a
-case. The file is a grid, which gmsh's field "Structured" reads with TextFormat = 1. The lines for the .geo file go to
-stdout. gmsh makes some edges longer than the field says, so --band-edge should stay below 1. The default algorithm of gmsh
-in space, Delaunay, keeps closer to the field than HXT does. The number of nodes grows with the cube of 1 / --band-edge. A
-case needs no mesh here. Check the mesh by riis check leaks, or by riis mark at several openings.
+A mesh whose edges are at most two half thicknesses long does not leak. With --offset O it seldom leaks if edges beside rims
+are at most 2 sqrt(1 - O^2) half thicknesses long (riis help leaks). riis size-field writes edge lengths that are small near
+the valve only: --band-edge half thicknesses in the band of every state of the valve, and larger outside it. With --offset O
+the lengths beside rims are shorter by the factor sqrt(1 - O^2). The states are openings from 0 to 1, in number --count, or
+the times of --times or of a case. The file is a grid, which gmsh's field "Structured" reads with TextFormat = 1. The lines
+for the .geo file go to stdout. gmsh makes some edges longer than the field says, so --band-edge should stay below 1. The
+default algorithm of gmsh in space, Delaunay, keeps closer to the field than HXT does. The number of nodes grows with the cube
+of 1 / --band-edge. A case needs no mesh here. Check the mesh by riis check leaks, or by riis mark at several openings.
 )"},
     {"searches", "how nodes are found",
      R"(
