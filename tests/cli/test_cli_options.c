@@ -74,7 +74,8 @@ TEST(test_topics) {
   free(list);
   assert_int_equal(n, 23);
   RUN_FINE("help", "status");
-  const char *statuses[] = {"0  fine", "1  bad data", "2  wrong usage", "3  no node is marked", "4  riis check crossings"};
+  const char *statuses[] = {"0  fine", "1  bad data", "2  wrong usage", "3  no node is marked",
+                            "4  riis check crossings"};
   for (size_t i = 0; i < sizeof statuses / sizeof statuses[0]; ++i) expect_printed(statuses[i]);
   RUN_FINE("help", "searches");
   expect_printed("auto is exhaustive");
