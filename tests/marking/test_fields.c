@@ -458,7 +458,7 @@ TEST(no_other_patch_touches_the_rim) {
       }
       free_owned_after(owned_before);
     }
-    assert_true(n > 500);
+    CHECK_MET(n > 500);
   }
 }
 
