@@ -140,7 +140,7 @@ def offsets_of(rows):
 
 
 def page_values(rows, about, committed, plots):
-    """Returns the values of the places in docs/validation.md."""
+    """Returns the values that fill the marked places (`<!--=name-->`) of docs/validation.md."""
     import report_text
 
     by_id = {row["id"]: row for row in rows}

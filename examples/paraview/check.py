@@ -270,7 +270,7 @@ def check_state(marked, expected):
 
 
 def check_time():
-    """The steps of both motions have the marks of riis at the law's opening, and ParaView's animation runs through them."""
+    """At each step of both motions the marks equal those of riis at the opening of that time. ParaView's animation shows them."""
     xyz, cells = box(25, 4.0, numpy.zeros(3))
     mesh = pv.XMLUnstructuredGridReader(FileName=[write(grid_of(xyz, [(HEXAHEDRON, cell) for cell in cells]), "time.vtu")])
     cycle = os.path.join(FOLDER, "cycle.csv")

@@ -140,7 +140,7 @@ attachment_of_patient() {
 }
 
 # marks_of_patient BAND_EDGE FROM TO: makes the mesh of the patient in this folder, with these edges in the band, and marks it at
-# all openings. Uses $here, $riis and $valve of random_patient.
+# all openings. Uses $riis and $valve of random_patient.
 marks_of_patient() {
   local opening
   echo "$1" >band_edge.txt

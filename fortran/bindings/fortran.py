@@ -122,7 +122,7 @@ class Bindings:
         return line
 
     def kept(self, constants, file):
-        """Returns the constants that the file has. The table omits the others."""
+        """Returns the constants that the table does not list under "omit from FILE"."""
         entry = self.entry("omit from " + file)
         kept = []
         for constant in constants:

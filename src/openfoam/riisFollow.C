@@ -149,7 +149,7 @@ riisFollow::riisFollow(const fvMesh &mesh, const dictionary &dict) : mesh_(mesh)
   fit(atRest_);  // refuses points that do not fix a rotation
 }
 
-// Returns the points of all ranks in their order, on the first rank only.
+// Returns all ranks' points on the first rank, sorted by order_ if it is set. Other ranks get an empty field.
 pointField riisFollow::gathered(const pointField &points) const {
   List<pointField> parts(Pstream::nProcs());
   parts[Pstream::myProcNo()] = pointField(points, local_);

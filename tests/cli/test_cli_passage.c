@@ -194,7 +194,7 @@ TEST(test_pieces) {
               "0,0,8.5");
 }
 
-/* Reads the numbers of the line that begins with the words: area, effective area, half thicknesses and perimeter. */
+/* Reads area, effective area, half thicknesses and perimeter from the line "orifice WORDS", and compares them. */
 static void expect_orifice(const char *words, const riis_orifice *expected) {
   char line[80];
   snprintf(line, sizeof line, "\norifice   %s", words);

@@ -17,8 +17,8 @@ double area_of(const double *a, const double *b, const double *c) {
   return 0.5 * std::hypot(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]);
 }
 
-// Points that fill a triangle with the corners (0, 0), (1, 0) and (0, 1) evenly, one after the other (Roberts's sequence). Equal
-// places in all parts of a triangle would lie in rows, and a wall along a row would cut off too much or too little.
+// Points that fill a triangle with the corners (0, 0), (1, 0) and (0, 1) evenly, one after the other (Roberts's sequence). With
+// one fixed place in each part of a triangle, points would form rows. A wall along a row would then cut off too many or too few.
 class Places {
  public:
   struct Place {

@@ -64,7 +64,7 @@ class UnbrokenWrite {
 
   // The signals that end the process.
   static constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
-  // Returns whether a signal waits. Work in several parts then stops after the present part.
+  // Returns whether a signal waits. If so, callers that work in several parts stop after the present part.
   static bool has_signal();
 
  private:

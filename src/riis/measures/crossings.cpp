@@ -68,7 +68,7 @@ bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e
 
 // Returns the length of the shortest translation of one triangle after which the two only touch. Returns 0 if this length is at
 // most `limit`. Triangles that only touch, or that lie in one plane, have depth 0. The error is at most 2^-24 of the longest
-// edge plus 2^-48 of the largest coordinate (docs/theory/crossings.md).
+// edge plus 2^-48 of the largest coordinate.
 double penetration_depth(const Triangle &a, const Triangle &b, double limit) {
   // Most pairs of triangles are dismissed here, because one triangle does not cut the plane of the other. Points are relative to
   // a corner of the other triangle, so the height of its plane is exactly 0.
