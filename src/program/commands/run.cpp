@@ -17,14 +17,15 @@ namespace {
 // Returns advice on the band, which no parameter of a valve sets.
 std::string advice_on_band(const std::string &kind) {
   if (kind == "bileaflet") return "band: leave --offset at 0, because the flow passes on both sides of the leaflets\n";
-  const std::string advice =
+  std::string advice =
       "band: with a cut rim and a skirt, --offset 0.75 gives the flow the full width of an open valve. The half\n"
       "thickness must be at least twice the gap of the closed valve. Take 0.5 if it is at least the gap but less\n"
       "than twice the gap, and 0 for a wider gap (README.md)\n";
-  if (kind != "coapting") return advice;
-  return advice +
-         "A half-open coapting valve still has 5 % less area than walls at a half thickness of 1 mm "
-         "(docs/validation.md)\n";
+  if (kind == "coapting")
+    advice +=
+        "A half-open coapting valve still has 5 % less area than walls at a half thickness of 1 mm "
+        "(docs/validation.md)\n";
+  return advice;
 }
 
 void print_params(const ParamsOptions &options) {
