@@ -2,7 +2,7 @@
 """The tables, rows and picture of bands that lie beside the leaflets (docs/theory/marks.md, "Offset"), from the cases of
 body_fitted.sh."""
 import numpy
-from cases import RADIUS, SOLVER, foam, place
+from cases import RADIUS, SOLVER, WALLS, foam, place
 
 # Bars of the rows of the trileaflet valve whose offset is 0.75, for each opening and half thickness in millimetres. A quarter
 # open, with 1 mm, the aim is 5 %, which most meshes miss.
@@ -56,7 +56,7 @@ def beside(valve, opening, runs, kept):
         rows.append({
             "id": f"offset_{valve}_{opening:g}_{eps:g}_{run.offset:g}", "group": "offset",
             "quantity": f"{beside_words(run)}: effective area, cm²",
-            "reference": round(float(walls), 4), "source": "the same leaflets as walls of no thickness, body-fitted",
+            "reference": round(float(walls), 4), "source": WALLS,
             "solver": SOLVER, "grids": [*grids, place(run, run.area)], "order": None, "extrapolated": round(float(run.area), 4),
             "deviation": round(float(off), 4),
             "bar": BARS.get((opening, eps)) if (valve, run.offset) == ("trileaflet", 0.75) else None,

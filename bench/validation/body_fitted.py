@@ -10,7 +10,7 @@ import sys
 
 import numpy
 from beside import beside, beside_words, profiles
-from cases import COPIES, INLET, MMHG, RADIUS, RHO, ROOT, SOLVER, chosen, foam, line, place, read_runs
+from cases import COPIES, INLET, MMHG, RADIUS, RHO, ROOT, SOLVER, WALLS, chosen, foam, line, place, read_runs
 
 ALL = ROOT / "bench/validation/all.json"
 BAR = 0.1  # bar of the row for the smallest eps
@@ -219,7 +219,7 @@ def compare(valve, opening, runs, solids, folder):
             slit = f". The slit between the leaflets is {4.4 * (1 - numpy.cos(angles[1]) / numpy.cos(angles[0])):.2f} mm wide"
         what = f"{valve} valve, opening {opening:g}, rim {rim}"
         common = {"group": "bodyfit", "reference": round(float(body), 4),
-                  "source": "the same leaflets as walls of no thickness, body-fitted", "solver": SOLVER,
+                  "source": WALLS, "solver": SOLVER,
                   "grids": [place(one, one.area) for one in three], "order": round(float(in_eps), 2),
                   "extrapolated": round(float(at_zero), 4)}
         rows.append({"id": f"bodyfit_{valve}_{opening:g}_{rim}_finest",
@@ -309,7 +309,7 @@ def blood(folder, runs):
     return rows
 
 
-BLOOD = {"source": "the same leaflets as walls of no thickness, body-fitted",
+BLOOD = {"source": WALLS,
          "solver": SOLVER.replace("simpleFoam", "pimpleFoam"), "order": None, "bar": None}
 
 

@@ -16,8 +16,8 @@ program drop_of_valve
   type(leaflets) :: valve
   type(riis_orifice) :: orifice
   real(dp), allocatable :: pressure(:)            ! [Pa] mean of each layer of cells and of a window of time
-  real(dp) :: speed, dt, span, window, jet, lowest, drop, before, begin(2), seconds(2)
-  integer :: k, n_windows, status
+  real(dp) :: speed, window, jet, drop, before, begin(2), seconds(2)
+  integer :: n_windows, status
   logical :: has_settled
   ! The options. Lengths are in m, and the flow rate is in ml/s.
   integer :: cells = 36, most_windows = 8
@@ -35,7 +35,6 @@ program drop_of_valve
   valve%R = resistance
   valve%eps = eps
   valve%offset = offset
-  if (.not. cut_rim) valve%rim = RIIS_RIM_ROUND
   if (cut_rim) valve%rim = RIIS_RIM_CUT
   call fit_root(valve%valve, trim(kind), valve%place(3))
   fluid%tolerance = 1e-4_dp
@@ -71,6 +70,8 @@ contains
   ! of a layer of cells, which is in the jet.
   subroutine advance(window)
     real(dp), intent(in) :: window
+    real(dp) :: dt, span
+    integer :: k
     pressure = 0
     jet = 0
     span = 0
@@ -85,8 +86,7 @@ contains
     end do
     pressure = pressure / span
     jet = jet / span
-    lowest = minval(pressure)
-    drop = pressure(1) + fluid%rho / 2 * speed**2 - lowest
+    drop = lasting() - minval(pressure)
   end subroutine advance
 
   ! Returns the drop from rest before the valve to the outlet, where the pressure is 0. It lacks the pressure that the jet has

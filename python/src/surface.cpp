@@ -390,8 +390,7 @@ direction_id  0 for the first add_direction after the last update, 1 for the sec
                    "(n_vertices, 3): each vertex's velocity. None if the last update gave no velocities.")
       .def_prop_ro("attachment", attribute(&attachment), nb::sig("def attachment(self) -> riis._records.Attachment"),
                    "A copy of the edges at which tissue or a stent holds a valve's leaflets. Refused for arrays "
-                   "without attached "
-                   "and without a skirt.")
+                   "without attached and without a skirt.")
       .def_prop_ro("triangles", attribute(&triangles), nb::sig("def triangles(self) -> riis._records.Triangles"),
                    "The triangles: vertex_id (n, 3), triangle_id, leaflet_id and patch_id (n,).")
       .def(

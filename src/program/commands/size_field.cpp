@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/array_view.hpp"
+#include "common/sets.hpp"
 #include "program/base/progress.hpp"
 #include "program/base/text.hpp"
 #include "program/input/case.hpp"
@@ -110,18 +111,13 @@ struct Zone {
 // Adds a narrow strip of triangles along the rim of a surface, which consists of the edges of only one triangle. Vertices with
 // equal coordinates count as one.
 void add_rim(const riis_triangles &triangles, JoinedTriangles &rim) {
-  std::map<std::array<double, 3>, std::int64_t> first;
+  const std::vector<std::int64_t> places = equal_places(triangles.n_vertices, triangles.xyz);
   std::map<std::array<std::int64_t, 2>, std::vector<std::array<std::int64_t, 3>>> of_edge;  // its triangles, by corners
   for (std::int64_t triangle = 0; triangle < triangles.n_triangles; ++triangle) {
-    std::array<std::int64_t, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int64_t vertex = triangles.vertex_id[3 * triangle + static_cast<std::int64_t>(k)];
-      const double *at = triangles.xyz + 3 * vertex;
-      corners[k] = first.try_emplace({at[0], at[1], at[2]}, vertex).first->second;
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int64_t a = corners[k], b = corners[(k + 1) % 3];
-      if (a != b) of_edge[{std::min(a, b), std::max(a, b)}].push_back({a, b, corners[(k + 2) % 3]});
+    const std::int64_t *const corner = triangles.vertex_id + 3 * triangle;
+    for (int k = 0; k < 3; ++k) {
+      const std::int64_t a = corner[k], b = corner[(k + 1) % 3], p = view(places)[a], q = view(places)[b];
+      if (p != q) of_edge[{std::min(p, q), std::max(p, q)}].push_back({a, b, corner[(k + 2) % 3]});
     }
   }
   std::vector<double> xyz;

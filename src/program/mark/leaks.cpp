@@ -124,10 +124,10 @@ void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const s
     advice += "--half-thickness " + shortest(report.closing_half_thickness) +
               (report.closing_skirt > 0 ? " or --skirt " + shortest(report.closing_skirt) : "") + " closes " +
               (is_one ? "it; " : "them; ");
-  warn({{Cause::leaks, text,
-         advice + "edges of at most " + (offset == 0 ? "two" : shown(safe)) + " half thicknesses (" +
-             (offset == 0 ? shortest(2 * half_thickness) : shown(safe * half_thickness)) +
-             (offset == 0 ? ") do not leak" : ") seldom leak")}});
+  advice += "edges of at most ";
+  advice += offset == 0 ? "two half thicknesses (" + shortest(2 * half_thickness) + ") do not leak"
+                        : shown(safe) + " half thicknesses (" + shown(safe * half_thickness) + ") seldom leak";
+  warn({{Cause::leaks, text, advice}});
 }
 
 }  // namespace

@@ -121,13 +121,11 @@ class TriangleFields {
       VertexNumbers mixed[pairs_at_once];
       mix_at_ties(first, n, mixed);
       for (std::int64_t tie = first; tie < first + n; ++tie) {
-        const bool is_first = next_node(tie) == tie;
-        if (is_first)
+        if (next_node(tie) == tie) {
           i = std::lower_bound(list_.node_id.begin() + i, list_.node_id.end(), ties_[tie].point) -
               list_.node_id.begin();
-        // The search also finds ties of nodes that a band with an offset does not list.
-        if (i == list_.size() || view(list_.node_id)[i] != ties_[tie].point) continue;
-        if (is_first) mean = {view(list_.leaflet_id)[i], vector_at(made_.velocity.data() + 3 * i)};
+          mean = {view(list_.leaflet_id)[i], vector_at(made_.velocity.data() + 3 * i)};
+        }
         mean.add(view(set_.leaflet_id)[ties_[tie].triangle.triangle], vector_at(mixed[tie - first].number));
         if (next_node(tie + 1) == tie + 1) put_vector(made_.velocity.data(), i, mean.mean());
       }
@@ -458,10 +456,7 @@ void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields
   std::int64_t from = 0;
   for (std::int64_t to = 0; to < some.size(); ++to, ++from) {
     while (view(all.node_id)[from] != view(some.node_id)[to]) ++from;
-    for_each_array(fields, [&](auto member, std::int64_t per_node) {
-      const auto *source = (fields_of_all.*member).data() + per_node * from;
-      std::copy_n(source, per_node, (made.*member).data() + per_node * to);
-    });
+    copy_fields(fields, fields_of_all, {from, from + 1}, made, to);
   }
 }
 
