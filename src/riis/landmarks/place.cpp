@@ -326,7 +326,7 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
   const double grown = size_now / value_of(valve, of_kind.size_name);
   // Lengths that follow from others by a rule of the valve grow with those lengths.
   for (const ParameterSpec &spec : specs) {
-    if (!grows(spec) || (spec.rule.value && !valve.is_set(spec.name))) continue;
+    if (!grows(spec) || (spec.rule.text && !valve.is_set(spec.name))) continue;
     double values[3] = {0, 0, 0};
     valve.get(spec.name, spec.n_values, values);
     for (double &value : values) value *= grown;

@@ -18,6 +18,12 @@ namespace {
 // Shortens a name for a message, because it may have any length.
 std::string_view shown(std::string_view name) { return name.substr(0, 80); }
 
+// Returns the part of a name behind the leaflet's name.
+std::string_view without_leaflet(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string_view::npos ? name : name.substr(dot + 1);
+}
+
 // Returns the parameter that the user may have meant, or "" if none is near. The result has a leaflet's name if the given name
 // has one.
 std::string_view nearest_parameter(const ValveKind &kind, std::string_view name) {
@@ -31,21 +37,21 @@ std::string_view nearest_parameter(const ValveKind &kind, std::string_view name)
   return nearest.nearest();
 }
 
+// Returns whether the name is that of a bump's parameter. Kinds with bumps have these parameters at the end of their lists.
+bool is_of_bump(std::string_view name) { return name.substr(0, 5) == "bump_"; }
+
 [[noreturn]] void fail_unknown(const ValveKind &kind, std::string_view name) {
   for (const AbsentName &absent : kind.absent)
-    if (name == absent.name)
+    if (without_leaflet(name) == absent.name)
       fail(RIIS_INVALID_PARAMETER, "'", name, "' is not a parameter of the ", kind.name, " valve: ", absent.reason);
+  if (is_of_bump(name) && !is_of_bump(kind.parameters.back().name))
+    fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a parameter of the ", kind.name,
+         " valve: only bicuspid, coapting, quadricuspid, mitral_coapting and tricuspid valves have bumps");
   const std::string_view nearest = nearest_parameter(kind, name);
   const bool is_near = !nearest.empty();
   fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a parameter of the ", kind.name, " valve; ",
        is_near ? "did you mean '" : "", shown(nearest), is_near ? "'? " : "",
        "riis_valve_get_parameter and riis params list them");
-}
-
-// Returns the part of a name behind the leaflet's name.
-std::string_view without_leaflet(std::string_view name) {
-  const std::size_t dot = name.rfind('.');
-  return dot == std::string_view::npos ? name : name.substr(dot + 1);
 }
 
 bool is_of_a_leaflet(const ParameterSpec &spec) { return spec.name.find('.') != std::string::npos; }
@@ -68,6 +74,24 @@ Naming naming(const ParameterSpec &spec, std::string_view name) {
   };
   const Naming by_own = names(base, 1);
   return by_own.names_it || !spec.other.name ? by_own : names(spec.other.name, spec.other.factor);
+}
+
+// A parameter that a name means, by its position.
+struct Meant {
+  std::size_t position;
+  Naming naming;
+};
+
+// Returns all parameters that a name means: the one that it names alone or, without such a one, each leaflet's.
+Vector<Meant> all_meant(const ValveKind &kind, std::string_view name) {
+  Vector<Meant> meant;
+  for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
+    const Naming named = naming(kind.parameters[i], name);
+    if (named.is_whole) return {{i, named}};
+    if (named.names_it) meant.push_back({i, named});
+  }
+  if (meant.empty()) fail_unknown(kind, name);
+  return meant;
 }
 
 void check_n_values(const ParameterSpec &spec, std::string_view name, std::int64_t n_values) {
@@ -98,14 +122,26 @@ void check_derived(const ValveKind &kind, const ValveState &state) {
 
 }  // namespace
 
+namespace {
+
+struct NamedKind {
+  const char *name;
+  const ValveKind &(*kind)();
+};
+constexpr NamedKind kinds[] = {
+    {"aortic", aortic_valve_kind}, {"bileaflet", bileaflet_valve_kind},   {"coapting", coapting_valve_kind},
+    {"mitral", mitral_valve_kind}, {"trileaflet", trileaflet_valve_kind},
+};
+
+}  // namespace
+
 const ValveKind &find_valve_kind(std::string_view name) {
-  if (name == "aortic") return aortic_valve_kind();
-  if (name == "bileaflet") return bileaflet_valve_kind();
-  if (name == "coapting") return coapting_valve_kind();
-  if (name == "mitral") return mitral_valve_kind();
-  if (name == "trileaflet") return trileaflet_valve_kind();
-  fail(RIIS_INVALID_PARAMETER, "'", shown(name),
-       "' is not a kind of valve; there are: aortic, bileaflet, coapting, mitral, trileaflet");
+  std::string names;
+  for (const NamedKind &known : kinds) {
+    if (name == known.name) return known.kind();
+    names += (names.empty() ? "" : ", ") + std::string(known.name);
+  }
+  fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a kind of valve; there are: ", names.c_str());
 }
 
 Valve::Valve(const ValveKind &kind, PatchSet patches) : kind_(&kind), state_{{}, std::move(patches), {}} {
@@ -126,21 +162,16 @@ std::uint64_t Valve::next_revision() {
 
 void Valve::set(std::string_view name, std::int64_t n_values, const double *new_values) {
   revision_ = next_revision();
-  const auto &specs = kind_->parameters;
-  bool names_any = false;
-  for (const ParameterSpec &spec : specs) {
-    const Naming named = naming(spec, name);
-    if (!named.names_it) continue;
-    names_any = true;
+  const Vector<Meant> meant = all_meant(*kind_, name);
+  for (const auto &[position, named] : meant) {
+    const ParameterSpec &spec = kind_->parameters[position];
     check_n_values(spec, name, n_values);
     for (int k = 0; k < spec.n_values; ++k) check_range(spec, name, named.factor, new_values[k]);
   }
-  if (!names_any) fail_unknown(*kind_, name);
-  for (std::size_t i = 0; i < specs.size(); ++i) {
-    const Naming named = naming(specs[i], name);
-    if (!named.names_it) continue;
-    for (int k = 0; k < specs[i].n_values; ++k) view(state_.values[i])[k] = new_values[k] / named.factor;
-    state_.is_set[i] = 1;
+  for (const auto &[position, named] : meant) {
+    for (int k = 0; k < kind_->parameters[position].n_values; ++k)
+      view(state_.values[position])[k] = new_values[k] / named.factor;
+    state_.is_set[position] = 1;
   }
   if (name == "skirt_length") skirt_lengths_.clear();
   derive();
@@ -148,15 +179,10 @@ void Valve::set(std::string_view name, std::int64_t n_values, const double *new_
 
 void Valve::unset(std::string_view name) {
   revision_ = next_revision();
-  const auto &specs = kind_->parameters;
-  bool names_any = false;
-  for (std::size_t i = 0; i < specs.size(); ++i) {
-    if (!naming(specs[i], name).names_it) continue;
-    names_any = true;
-    state_.values[i] = specs[i].default_values;
-    state_.is_set[i] = 0;
+  for (const Meant &meant : all_meant(*kind_, name)) {
+    state_.values[meant.position] = kind_->parameters[meant.position].default_values;
+    state_.is_set[meant.position] = 0;
   }
-  if (!names_any) fail_unknown(*kind_, name);
   if (name == "skirt_length") skirt_lengths_.clear();
   derive();
 }
@@ -164,7 +190,7 @@ void Valve::unset(std::string_view name) {
 void Valve::derive() {
   for (std::size_t i = 0; i < kind_->parameters.size(); ++i) {
     const ParameterRule &rule = kind_->parameters[i].rule;
-    if (rule.value && !state_.is_set[i]) state_.values[i] = rule.value(state_.values);
+    if (rule.text && !state_.is_set[i]) state_.values[i] = rule.value_from(state_.values);
   }
 }
 

@@ -25,8 +25,13 @@ inline Vec3 vector_of(const std::array<double, 3> &values) { return {values[0], 
 // Computes the value of a parameter that was not set from other parameters' values. Those parameters come earlier in the list, so
 // their values are known already.
 struct ParameterRule {
-  const char *text;  // such as "0.5 leaflet_height"
-  std::array<double, 3> (*value)(const ParameterValues &values);
+  const char *text = nullptr;  // such as "0.5 leaflet_height", or null without a rule
+  std::array<double, 3> (*value)(const ParameterValues &values) = nullptr;
+  std::size_t same_as = 0;  // without the function, the value is that of the parameter at this position
+
+  std::array<double, 3> value_from(const ParameterValues &values) const {
+    return value ? value(values) : values[same_as];
+  }
 };
 
 // A second name for a parameter, under which the value is a multiple of the parameter's. The factor is a power of 2, so no value
@@ -43,11 +48,12 @@ struct ParameterSpec {
   int n_values;  // 1 or 3
   std::array<double, 3> default_values;
   double minimum, maximum;
-  ParameterRule rule = {nullptr, nullptr};  // for default values, the rule gives the default to the last bit
-  OtherName other = {nullptr, 0};           // the other name without the leaflet's name
+  ParameterRule rule = {};         // for default values, the rule gives the default to the last bit
+  OtherName other = {nullptr, 0};  // the other name without the leaflet's name
 };
 
-// A name that a user may expect, and why the kind has no parameter of this name.
+// A name that a user may expect, and why the kind has no parameter of this name. A name without a leaflet stands for the name
+// with any leaflet too.
 struct AbsentName {
   const char *name, *reason;
 };
@@ -107,7 +113,7 @@ class Valve {
   const ValveKind &kind() const { return *kind_; }
   const ParameterValues &values() const { return state_.values; }
 
-  // A name without a leaflet sets the parameter of that name for every leaflet that has one.
+  // If the valve itself has no parameter of a name without a leaflet, the name sets the parameter of every leaflet that has one.
   void set(std::string_view name, std::int64_t n_values, const double *new_values);
   void get(std::string_view name, std::int64_t n_values, double *out) const;
   // Returns the least and the largest value of the one parameter of that name.

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bumps: disease at one place of a free edge (docs/theory/bumps.md). They change how far the place opens, and nothing else.
+// In: the parameters of the bumps. Out: the states of any place between the valve's closed and open state.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "base/recycled.hpp"
+#include "valve/valve.hpp"
+
+namespace riis {
+
+inline constexpr std::size_t n_bumps = 6;
+
+enum class BumpLift : bool { no, yes };
+
+// Appends the parameters of all bumps, and returns the position of the first. Only bumps with BumpLift::yes have "lift".
+std::size_t add_bump_specs(Vector<ParameterSpec> &specs, std::size_t n_leaflets, BumpLift lift);
+
+// Where a place of a free edge is when the valve is closed and when it is open. Both are shares of the way of a healthy place: 0
+// at its closed position, 1 at its open position. The closed position itself is lifted towards +z by `lift`.
+struct LocalOpening {
+  double closed = 0, open = 1, lift = 0;
+};
+
+class Bumps {
+ public:
+  // `first` is the position of the first parameter. Fails with RIIS_INVALID_PARAMETER if a number of a leaflet or of a commissure
+  // is not whole, and if a bump has both.
+  Bumps(const ParameterValues &values, std::size_t first, std::size_t n_leaflets, BumpLift lift);
+
+  // Returns whether some bump has a place.
+  bool any() const;
+  // u is the share of the leaflet's free edge, counter-clockwise seen from +z. Leaflet k runs from commissure k - 1, u = 0, to
+  // commissure k, u = 1. On a commissure only bumps of commissures act, and they act equally on both neighbours.
+  LocalOpening at(std::size_t leaflet, double u) const;
+
+ private:
+  struct Bump {
+    double leaflet, commissure, u, width, closed, open, lift;
+
+    double weight(std::size_t of_leaflet, std::size_t n_leaflets, double at_u) const;
+  };
+  std::array<Bump, n_bumps> bumps_{};
+  std::size_t n_leaflets_;
+};
+
+}  // namespace riis
