@@ -210,7 +210,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
       const std::size_t i = position_of(cusp, parameter);
       return riis::blend(riis::vector_of(closed.values[i]), riis::vector_of(open.values[i]), opening);
     };
-    add_cusps(set, blend(closed_half, open_half, opening), rate(closed_half, open_half),
+    add_cusps(set, {{blend(closed_half, open_half, opening)}, {rate(closed_half, open_half)}},
               {{rotation_xyz(vector_of(rotation)), vector_of(translation), static_cast<std::int32_t>(cusp)}});
   }
   return set;

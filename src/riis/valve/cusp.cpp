@@ -2,6 +2,7 @@
 #include "valve/cusp.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -45,6 +46,70 @@ template <class Make>
 HalfCusp of_each(const Make &make) {
   return {make(&HalfCusp::leaflet),     make(&HalfCusp::bending),        make(&HalfCusp::sinus_below),
           make(&HalfCusp::sinus_above), make(&HalfCusp::symmetry_below), make(&HalfCusp::symmetry_above)};
+}
+
+Side add(PatchSet &set, const Bezier &curve, const Bezier &rate) {
+  set.rates.push_back({rate});
+  return set.add(curve);
+}
+
+// The sides at which both halves of a cusp meet.
+struct SymmetrySides {
+  Side root, below, above;
+};
+
+SymmetrySides add_middle(PatchSet &set, const MovingHalf &half) {
+  const HalfCusp &part = half.parts.front(), &rate = half.rates.front();
+  return {add(set, Bezier::point(part.symmetry_below.first()), Bezier::point(rate.symmetry_below.first())),
+          add(set, part.symmetry_below, rate.symmetry_below), add(set, part.symmetry_above, rate.symmetry_above)};
+}
+
+// Adds the patches of all parts. The first part begins at `middle`. The last part ends at `commissure`, or at a side of its own.
+// `images` makes the images of a patch: 0 lower or 1 upper of the part with this number.
+template <class Images>
+void add_parts(PatchSet &set, const MovingHalf &half, const SymmetrySides &middle,
+               const std::optional<Side> &commissure, const Images &images) {
+  Side inner_below = middle.below, inner_above = middle.above;
+  for (std::size_t i = 0; i < half.parts.size(); ++i) {
+    const auto add_one = [&](Bezier HalfCusp::*curve) { return add(set, half.parts[i].*curve, half.rates[i].*curve); };
+    const Side bending = add_one(&HalfCusp::bending), leaflet = add_one(&HalfCusp::leaflet);
+    const bool is_last = i + 1 == half.parts.size();
+    const Side below = add_one(&HalfCusp::sinus_below);
+    const Side above = is_last && commissure ? *commissure : add_one(&HalfCusp::sinus_above);
+    const AttachedSide attached = is_last ? AttachedSide::u1 : AttachedSide::none;
+    const auto number = static_cast<std::int32_t>(i);
+    // u runs from the symmetry plane to the sinus, and v runs upwards. So S_u x S_v points to the sinus face, downstream.
+    set.patches.push_back({middle.root, bending, inner_below, below, images(0, number), 0, attached});
+    set.patches.push_back({bending, leaflet, inner_above, above, images(1, number), 0, attached});
+    inner_below = below, inner_above = above;
+  }
+}
+
+// Returns the half after the operations of an image.
+MovingHalf turned(const MovingHalf &half, const PatchImage &image) {
+  const auto turn = [&](Bezier curve) {
+    for (int i = 0; i <= curve.degree; ++i) view(curve.control)[i] = place(image, view(curve.control)[i]);
+    return curve;
+  };
+  const auto turn_all = [&](const Vector<HalfCusp> &parts) {
+    Vector<HalfCusp> made;
+    for (const HalfCusp &part : parts)
+      made.push_back(of_each([&](Bezier HalfCusp::*curve) { return turn(part.*curve); }));
+    return made;
+  };
+  return {turn_all(half.parts), turn_all(half.rates)};
+}
+
+// Gives a half the middle of the other half. Its own middle differs from this by rounding only.
+void begin_at(HalfCusp &half, const HalfCusp &other) {
+  half.leaflet.control[0] = other.leaflet.first();
+  half.bending.control[0] = other.bending.first();
+}
+
+// Ends the curves at the commissure in this point, from which they differ by rounding only.
+void end_at(HalfCusp &half, Vec3 commissure) {
+  for (Bezier HalfCusp::*curve : {&HalfCusp::leaflet, &HalfCusp::bending, &HalfCusp::sinus_below})
+    view((half.*curve).control)[(half.*curve).degree] = commissure;
 }
 
 }  // namespace
@@ -127,44 +192,63 @@ void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state
   check(half.sinus_above, "sinus", of_sinus);
 }
 
-void add_cusps(PatchSet &set, const HalfCusp &half, const HalfCusp &rate, const Vector<CuspPlace> &places) {
-  const auto add = [&](const Bezier &curve, const Bezier &its_rate) {
-    set.rates.push_back({its_rate});
-    return set.add(curve);
-  };
-  const auto add_one = [&](Bezier HalfCusp::*curve) { return add(half.*curve, rate.*curve); };
-  const Side root = add(Bezier::point(half.symmetry_below.first()), Bezier::point(rate.symmetry_below.first()));
-  const Side symmetry_below = add_one(&HalfCusp::symmetry_below), symmetry_above = add_one(&HalfCusp::symmetry_above);
-  const Side bending = add_one(&HalfCusp::bending), leaflet = add_one(&HalfCusp::leaflet);
-  const Side sinus_below = add_one(&HalfCusp::sinus_below), sinus_above = add_one(&HalfCusp::sinus_above);
-  const auto images = [&](std::int32_t part) {
+void add_cusps(PatchSet &set, const MovingHalf &half, const Vector<CuspPlace> &places) {
+  const SymmetrySides middle = add_middle(set, half);
+  add_parts(set, half, middle, std::nullopt, [&](std::int32_t part, std::int32_t first_id) {
     Vector<PatchImage> made;
     for (const auto &[turn, shift, leaflet_id] : places) {
-      made.push_back({Mirror::none, turn, shift, leaflet_id, 4 * leaflet_id + part});
-      made.push_back({Mirror::in_y, turn, shift, leaflet_id, 4 * leaflet_id + part + 2});
+      const std::int32_t id = 4 * (first_id * static_cast<std::int32_t>(places.size()) + leaflet_id) + part;
+      made.push_back({Mirror::none, turn, shift, leaflet_id, id});
+      made.push_back({Mirror::in_y, turn, shift, leaflet_id, id + 2});
     }
     return made;
-  };
-  // u runs from the symmetry plane to the sinus, and v runs upwards. So S_u x S_v points to the sinus face, downstream.
-  set.patches.push_back({root, bending, symmetry_below, sinus_below, images(0), 0, AttachedSide::u1});
-  set.patches.push_back({bending, leaflet, symmetry_above, sinus_above, images(1), 0, AttachedSide::u1});
+  });
 }
 
-Vector<CuspPlace> equal_places(Vec3 shift) {
-  // The cusps follow each other round the axis in this order.
-  constexpr double turns[3] = {0, 120, -120};
+Vector<CuspPlace> equal_places(std::size_t n_cusps, Vec3 shift) {
   Vector<CuspPlace> places;
-  for (std::int32_t cusp = 0; cusp < 3; ++cusp)
+  for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
+    const double turn = 360.0 / static_cast<double>(n_cusps) * static_cast<double>(cusp);
     // The sum with 0 turns -0 into 0, so the cusps have the same bits where they meet on the axis.
-    places.push_back({rotation_xyz({0, 0, view(turns)[cusp]}), shift + Vec3{0, 0, 0}, cusp});
+    places.push_back(
+        {rotation_xyz({0, 0, turn > 180 ? turn - 360 : turn}), shift + Vec3{0, 0, 0}, static_cast<std::int32_t>(cusp)});
+  }
   return places;
 }
 
 void sew_equal_cusps(PatchSet &set, std::size_t patch, SeamPlace place) {
-  constexpr std::size_t right = 0, left = 1, non_coronary = 2;
-  for (const auto &[cusp, before] :
-       {std::pair(right, non_coronary), std::pair(left, right), std::pair(non_coronary, left)})
-    set.seams.push_back({patch, 2 * cusp + 1, 2 * before, place});
+  const std::size_t n_cusps = set.patches[patch].images.size() / 2;
+  for (std::size_t cusp = 0; cusp < n_cusps; ++cusp)
+    set.seams.push_back({patch, 2 * cusp + 1, 2 * ((cusp + n_cusps - 1) % n_cusps), place});
+}
+
+void add_unequal_cusps(PatchSet &set, const Vector<UnequalCusp> &cusps, Vec3 shift) {
+  const std::size_t n_cusps = cusps.size();
+  Vector<std::array<MovingHalf, 2>> placed;
+  for (const UnequalCusp &cusp : cusps) {
+    const Rotation turn = rotation_xyz({0, 0, cusp.turn_degrees});
+    placed.push_back({turned(cusp.halves[0], {Mirror::none, turn, {0, 0, 0}, 0, 0}),
+                      turned(cusp.halves[1], {Mirror::in_y, turn, {0, 0, 0}, 0, 0})});
+  }
+  // Each turn rounds differently, so one of two curves takes its end from the other.
+  Vector<Side> commissures;
+  for (std::size_t k = 0; k < n_cusps; ++k) {
+    const auto &[here, there] = placed[k];
+    begin_at(placed[k][1].parts.front(), here.parts.front());
+    end_at(placed[(k + 1) % n_cusps][1].parts.back(), here.parts.back().leaflet.last());
+    commissures.push_back(add(set, here.parts.back().sinus_above, here.rates.back().sinus_above));
+  }
+  for (std::size_t k = 0; k < n_cusps; ++k) {
+    const SymmetrySides middle = add_middle(set, placed[k][0]);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Side commissure = commissures[side == 0 ? k : (k + n_cusps - 1) % n_cusps];
+      add_parts(set, view(placed[k])[side], middle, commissure, [&](std::int32_t part, std::int32_t first_id) {
+        const auto leaflet_id = static_cast<std::int32_t>(k), n = static_cast<std::int32_t>(n_cusps);
+        const std::int32_t id = 4 * (first_id * n + leaflet_id) + part + (side == 0 ? 0 : 2);
+        return Vector<PatchImage>{{Mirror::none, no_rotation, shift, leaflet_id, id, side == 1}};
+      });
+    }
+  }
 }
 
 }  // namespace riis

@@ -56,15 +56,31 @@ struct CuspPlace {
   Vec3 shift;
   std::int32_t leaflet_id;
 };
-// Adds the lower and the upper patch of half a cusp. At each place, both patches get images for both halves of the cusp, with
-// y >= 0 first. The upper patch becomes the last of the set. Its side v1 is the free edge, which ends at the commissure, u = 1.
-void add_cusps(PatchSet &set, const HalfCusp &half, const HalfCusp &rate, const Vector<CuspPlace> &places);
+
+// Half a cusp in parts that lie side by side from the symmetry plane to the commissure, with the rates of their curves. The sinus
+// curves of a part are the symmetry curves of the next one.
+struct MovingHalf {
+  Vector<HalfCusp> parts, rates;
+};
+
+// Adds the lower and the upper patch of each part. At each place, all patches get images for both halves of the cusp, with
+// y >= 0 first. The upper patch of the last part becomes the last of the set. Its side v1 is the free edge, which ends at the
+// commissure, u = 1. Patches of a second part have ids behind those of all places.
+void add_cusps(PatchSet &set, const MovingHalf &half, const Vector<CuspPlace> &places);
 inline std::size_t top_patch(const PatchSet &set) { return set.patches.size() - 1; }
 
-// Returns the places of three equal cusps: right, left and non-coronary, turned by 0, 120 and -120 degrees and then shifted.
-Vector<CuspPlace> equal_places(Vec3 shift);
-// Sews the images of a patch of three equal cusps together. The half y < 0 of each cusp meets the half y >= 0 of the cusp before
-// it.
+// Returns the places of equal cusps. They follow each other round the axis, the first on the x axis, and are then shifted.
+Vector<CuspPlace> equal_places(std::size_t n_cusps, Vec3 shift);
+// Sews the images of a patch of equal cusps together. The half y < 0 of each cusp meets the half y >= 0 of the cusp before it.
 void sew_equal_cusps(PatchSet &set, std::size_t patch, SeamPlace place);
+
+// A cusp that is not equal to its neighbours, or whose halves y >= 0 and y < 0 differ. Both halves are given as for y >= 0.
+struct UnequalCusp {
+  double turn_degrees;
+  std::array<MovingHalf, 2> halves;
+};
+// Adds the patches of cusps that follow each other round the axis, with ids as of equal cusps. The halves of a cusp have their
+// middle in common, and neighbours their commissure, to the last bit.
+void add_unequal_cusps(PatchSet &set, const Vector<UnequalCusp> &cusps, Vec3 shift);
 
 }  // namespace riis

@@ -108,7 +108,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   const HalfCusp closed_half = half_cusp(closed_shape(closed.values)), open_half = half_cusp(open_shape(open.values));
   const Vec3 shift = riis::blend(vector_of(closed.values[translation]), vector_of(open.values[translation]), opening);
   PatchSet set;
-  add_cusps(set, blend(closed_half, open_half, opening), rate(closed_half, open_half), equal_places(shift));
+  add_cusps(set, {{blend(closed_half, open_half, opening)}, {rate(closed_half, open_half)}}, equal_places(3, shift));
   // At opening 0 sews the cusps together along their free edges, otherwise only at the commissures.
   sew_equal_cusps(set, top_patch(set), opening == 0 ? SeamPlace::side_v1 : SeamPlace::corner);
   return set;

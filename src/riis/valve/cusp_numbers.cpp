@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "valve/cusp_numbers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/array_view.hpp"
+#include "geometry/placement.hpp"
+#include "valve/valve.hpp"
+
+namespace riis {
+namespace {
+
+// The open free edge: how far the inner control point by the commissure hangs, as a share of the middle.
+constexpr double open_sag = 1.0 / 3;
+// An edge that would be too short for open_radius_ratio opens until this share of its length is used, without sag.
+constexpr double used_of_edge = 0.97;
+// The open edge leaves the commissure round, as an arc of a circle does, if it reaches this share of the arc's height.
+constexpr double round_from = 0.7;
+
+std::array<double, 4> blend(const std::array<double, 4> &from, const std::array<double, 4> &to, double share) {
+  std::array<double, 4> made{};
+  for (std::size_t i = 0; i < made.size(); ++i) view(made)[i] = riis::blend(view(from)[i], view(to)[i], share);
+  return made;
+}
+
+// Blends the numbers of two halves. Early in the motion, the leaflet becomes upright at the root and flatter beside the
+// commissure. Otherwise it would fold beside the attachment.
+HalfNumbers blend(const HalfNumbers &a, const HalfNumbers &b, double opening) {
+  const double early = opening * (2 - opening);
+  const auto mixed = [&](double from, double to) { return riis::blend(from, to, opening); };
+  return {mixed(a.root_radius, b.root_radius),
+          riis::blend(a.commissure, b.commissure, opening),
+          mixed(a.attachment_width, b.attachment_width),
+          mixed(a.attachment_drop, b.attachment_drop),
+          blend(a.edge_x, b.edge_x, opening),
+          blend(a.edge_y, b.edge_y, opening),
+          blend(a.sag, b.sag, early),
+          mixed(a.edge_top, b.edge_top),
+          mixed(a.edge_length, b.edge_length),
+          mixed(a.band, b.band),
+          mixed(a.band_lean, b.band_lean),
+          riis::blend(a.belly_x, b.belly_x, early),
+          mixed(a.belly_rise, b.belly_rise),
+          mixed(a.band_start, b.band_start)};
+}
+
+// The start tangent of an attachment of one cubic, in radii, whose middle lies on the cylinder.
+double tangent_on_cylinder(double sine, double cosine) {
+  const double middle = (1 + cosine) / 2;
+  return 8.0 / 3 * (std::sqrt(1 - middle * middle) - sine / 2);
+}
+
+HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
+  const double R = sizes.root_radius, Rc = sizes.commissure_radius, h = side.commissure_height;
+  const double h_e = sizes.effective_height, z_k = h_e - sizes.coaptation_height;
+  const Vec3 C{sizes.sector.cosine * Rc, sizes.sector.sine * Rc, h};
+  // The edge lies in a vertical plane through the commissure. In the middle, its distance from the plane between the two cusps
+  // is half the gap.
+  const double sine_of_plane = sizes.meeting == 0 ? sizes.sector.sine : C.y / std::hypot(C.x - sizes.meeting, C.y);
+  const double x_in = sizes.meeting + 0.5 * sizes.gap / sine_of_plane;
+  // The tangent becomes shorter if its end would otherwise lie above half the height of the coaptation line, or beyond the zone.
+  const auto [sine, cosine] = sine_cosine_degrees(sizes.bottom_angle);
+  double tangent = std::min(sizes.belly * R, sine > 0 ? 0.5 * z_k / sine : sizes.belly * R);
+  if (sizes.meeting != 0) tangent = std::min(tangent, 0.9 * (R - x_in));
+  const auto x = [&](double share) { return (1 - share) * x_in + share * sizes.sector.cosine * Rc; };
+  HalfNumbers half{R,
+                   C,
+                   sizes.sector.attachment_factor * sizes.attachment_width * R,
+                   sizes.attachment_drop * h,
+                   {x_in, x(1.0 / 3), x(2.0 / 3), C.x},
+                   {0, C.y / 3, C.y * 2 / 3, C.y},
+                   {1, 1, 1 - sizes.edge_rise, 0},
+                   h,
+                   0,
+                   sizes.coaptation_height / h_e,
+                   0,
+                   R - tangent * cosine,
+                   tangent * sine / z_k,
+                   0.5};
+  half.edge_length = EdgeLength(half).at(h - h_e).length;
+  return half;
+}
+
+// Returns the closed numbers with the open free edge. The edge is round, like an arc of a circle seen along the axis. An edge
+// that is too short for an arc leaves the commissure the straighter, the less it opens.
+HalfNumbers with_open_edge(const CuspSizes &sizes, const HalfNumbers &closed, double ratio) {
+  const HalfSector &sector = sizes.sector;
+  HalfNumbers half = closed;
+  half.commissure = {(1 + sizes.commissure_expansion) * closed.commissure.x,
+                     (1 + sizes.commissure_expansion) * closed.commissure.y, closed.commissure.z};
+  const double x_in = ratio * sizes.commissure_radius, reach = sector.arc_reach * sizes.commissure_radius;
+  const double rise = (ratio - sector.cosine) / (1 - sector.cosine);
+  const double roundness = sizes.keeps_ratio ? 1 : std::clamp(rise / round_from, 0.0, 1.0);
+  const double to_x = roundness * sector.sine, to_y = -(roundness * sector.cosine + (1 - roundness));
+  half.edge_x = {x_in, x_in, half.commissure.x + to_x * reach, half.commissure.x};
+  half.edge_y = {0, reach, half.commissure.y + to_y * reach, half.commissure.y};
+  half.sag = {1, 1, open_sag, 0};
+  return half;
+}
+
+CuspNumbers with_open_edges(const CuspSizes &sizes, const CuspNumbers &closed, double ratio) {
+  CuspNumbers made;
+  for (const HalfNumbers &half : closed) made.push_back(with_open_edge(sizes, half, ratio));
+  return made;
+}
+
+double total_length(const CuspNumbers &cusp) {
+  double sum = 0;
+  for (const HalfNumbers &half : cusp) sum += half.edge_length;
+  return sum;
+}
+
+// Returns the largest ratio up to open_radius_ratio for which the edge is long enough.
+double reached_ratio(const CuspSizes &sizes, const CuspNumbers &closed) {
+  const double wanted = sizes.open_radius_ratio, most = used_of_edge * (1 + sizes.edge_stretch) * total_length(closed);
+  const auto fits = [&](double ratio) { return least_edge_length(with_open_edges(sizes, closed, ratio)) <= most; };
+  if (sizes.keeps_ratio || fits(wanted)) return wanted;
+  double low = closed.front().edge_x[0] / sizes.commissure_radius, high = wanted;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (fits(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+HalfSector half_sector(double sector_degrees) {
+  // The rounded root gives equal cusps of a valve of three the bits that they have always had.
+  if (sector_degrees == 120) return {std::sqrt(0.75), 0.5, 4.0 / 3.0 * (2 - std::sqrt(3.0)), 1};
+  const auto [sine, cosine] = sine_cosine_degrees(sector_degrees / 2);
+  const auto [quarter_sine, quarter_cosine] = sine_cosine_degrees(sector_degrees / 8);
+  return {sine, cosine, 4.0 / 3.0 * quarter_sine / quarter_cosine,
+          tangent_on_cylinder(sine, cosine) / tangent_on_cylinder(std::sqrt(0.75), 0.5)};
+}
+
+CuspNumbers blend(const CuspNumbers &a, const CuspNumbers &b, double opening) {
+  CuspNumbers made;
+  for (std::size_t i = 0; i < a.size(); ++i) made.push_back(blend(a[i], b[i], opening));
+  return made;
+}
+
+EdgeLength::EdgeLength(const HalfNumbers &half) {
+  const auto slope = [](const std::array<double, 4> &q, double t) {
+    const double s = 1 - t;
+    return 3 * (s * s * (q[1] - q[0]) + 2 * s * t * (q[2] - q[1]) + t * t * (q[3] - q[2]));
+  };
+  for (std::size_t i = 0; i < n_nodes; ++i) {
+    const Abscissa &node = gauss_4[i % gauss_4.size()];
+    const double panel = static_cast<double>(i / gauss_4.size()), t = (panel + node.at) / n_panels;
+    const double x = slope(half.edge_x, t), y = slope(half.edge_y, t), z = slope(half.sag, t);
+    view(nodes_)[i] = {node.weight / n_panels, x * x + y * y, z * z};
+  }
+  chord_ = std::hypot(half.edge_x[3] - half.edge_x[0], half.edge_y[3] - half.edge_y[0]);
+}
+
+EdgeLength::Value EdgeLength::at(double depth) const {
+  Value value{0, 0};
+  for (const Node &node : nodes_) {
+    const double speed = std::sqrt(node.across + depth * depth * node.down);
+    value.length += node.weight * speed;
+    if (speed > 0) value.slope += node.weight * depth * node.down / speed;
+  }
+  return value;
+}
+
+// The length grows with the depth, and it is convex. Newton's method starts at too large a depth. It therefore comes down to the
+// solution and never passes it. A half is at least as long as the line between its ends. So the start is deep enough if one half
+// alone has the whole length there.
+double edge_depth(const CuspNumbers &cusp) {
+  Vector<EdgeLength> halves(cusp.begin(), cusp.end());
+  const double wanted = total_length(cusp), first_top = cusp.front().edge_top;
+  double depth = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < cusp.size(); ++i) {
+    const double chord = halves[i].chord();
+    const double alone = std::sqrt(std::max(0.0, wanted * wanted - chord * chord));
+    depth = std::min(depth, alone - (cusp[i].edge_top - first_top));
+  }
+  for (int i = 0; i < 200; ++i) {
+    EdgeLength::Value sum{0, 0};
+    for (std::size_t k = 0; k < cusp.size(); ++k) {
+      const auto [length, slope] = halves[k].at(depth + (cusp[k].edge_top - first_top));
+      sum.length += length, sum.slope += slope;
+    }
+    if (!(sum.slope > 0)) break;
+    const double next = depth - (sum.length - wanted) / sum.slope;
+    if (!(next < depth)) break;
+    depth = next;
+  }
+  return depth;
+}
+
+double least_edge_length(const CuspNumbers &cusp) {
+  double lower_end = cusp.front().edge_top, sum = 0;
+  for (const HalfNumbers &half : cusp) lower_end = std::min(lower_end, half.edge_top);
+  for (const HalfNumbers &half : cusp) sum += EdgeLength(half).at(half.edge_top - lower_end).length;
+  return sum;
+}
+
+Bezier symmetry_curve(const HalfNumbers &half, Vec3 end, Vec3 up) {
+  return Bezier::cubic({half.root_radius, 0, 0}, {half.belly_x, 0, half.belly_rise * end.z},
+                       end - (half.band_start * end.z / up.z) * up, end);
+}
+
+CuspNumbers closed_cusp(const CuspSizes &sizes) {
+  CuspNumbers made;
+  for (const CuspSizes::Side &side : sizes.sides) made.push_back(closed_half(sizes, side));
+  return made;
+}
+
+// The symmetry curve is straight, and the coaptation zone has the same share of its length as in the closed state.
+CuspNumbers open_cusp(const CuspSizes &sizes) {
+  const CuspNumbers closed = closed_cusp(sizes);
+  const double ratio = reached_ratio(sizes, closed);
+  const double R = sizes.root_radius, h_e = sizes.effective_height, h_co = sizes.coaptation_height;
+  const double x_in = ratio * sizes.commissure_radius;
+  const Vec3 middle{closed.front().edge_x[0], 0, h_e - h_co};
+  const double below = arc_length(symmetry_curve(closed.front(), middle, {0, 0, 1}));
+  const double below_share = below / (below + h_co);
+  CuspNumbers made = with_open_edges(sizes, closed, ratio);
+  for (HalfNumbers &half : made) {
+    half.edge_length = (1 + sizes.edge_stretch) * half.edge_length;
+    half.band = 1 - below_share;
+    half.band_lean = (1 - below_share) * (R - x_in);
+    half.belly_x = R + (x_in - R) * below_share / 3;
+    half.belly_rise = half.band_start = 1.0 / 3;
+  }
+  return made;
+}
+
+}  // namespace riis

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// The numbers that change as a coapting cusp opens, and the length of its free edge (docs/theory/coapting.md).
+// In: the sizes of a cusp. Out: its numbers in the closed and in the open state and between them, and the depth of its edge.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "base/recycled.hpp"
+#include "geometry/bezier.hpp"
+#include "valve/bumps.hpp"
+
+namespace riis {
+
+// The Gauss-Legendre rule with 4 points on [0, 1].
+struct Abscissa {
+  double at, weight;
+};
+inline constexpr std::array<Abscissa, 4> gauss_4{{{0.06943184420297371239, 0.17392742256872692869},
+                                                  {0.33000947820757186760, 0.32607257743127307131},
+                                                  {0.66999052179242813240, 0.32607257743127307131},
+                                                  {0.93056815579702628761, 0.17392742256872692869}}};
+
+// Half of a cusp's sector: the angle theta from its symmetry plane to a commissure.
+struct HalfSector {
+  double sine, cosine;
+  double
+      arc_reach;  // the distance of the inner control points from the ends of a cubic that approximates an arc of theta, in radii
+  double attachment_factor;  // factor of the attachment's start tangent, which keeps its middle on the cylinder
+};
+HalfSector half_sector(double sector_degrees);
+
+// The sizes of a cusp. Lengths are the parameters of these names.
+struct CuspSizes {
+  HalfSector sector;
+  double root_radius, commissure_radius, effective_height, coaptation_height, gap, bottom_angle, belly, edge_rise;
+  double attachment_width, attachment_drop, open_radius_ratio, commissure_expansion, edge_stretch;
+  double meeting;  // x of the point in which the planes between closed neighbours meet
+  // True for one of three equal cusps. They open to open_radius_ratio, however round and long their edge is. The edges of other
+  // cusps open as far as their length allows.
+  bool keeps_ratio;
+  struct Side {
+    double commissure_height, fusion;
+    std::array<LocalOpening, 4> local;  // at the control points of the free edge, from the middle
+  };
+  Vector<Side> sides;  // y >= 0 and y < 0, or one side for both
+};
+
+// The part of half a cusp that is fused to the neighbour and stays as in the closed valve: edge and coaptation line, from the free
+// edge's end Q and from the point below it to the commissure.
+struct FusedPart {
+  Bezier edge, line;
+  Vec3 commissure;  // of the closed valve
+  double share;     // of the free part, in the length of the closed edge
+};
+
+// The numbers of half a cusp, y >= 0. They are blended, and the curves follow from them. Shares have the range 0 to 1. Control
+// points are counted from the symmetry plane, or from the root.
+struct HalfNumbers {
+  double root_radius;
+  Vec3 commissure;
+  double attachment_width, attachment_drop;  // the lengths of the attachment's end tangents
+  std::array<double, 4> edge_x, edge_y;      // the free edge, seen along the axis
+  std::array<double, 4> sag;                 // how far control points of the free edge hang, as shares of the sag
+  double edge_top;                           // height of the free edge's end
+  double edge_length;
+  double band;        // height of the coaptation zone, as a share of the height of the free edge's middle
+  double band_lean;   // in the middle, how much farther from the axis the coaptation line is than the free edge
+  double belly_x;     // x of the first inner control point of the symmetry curve
+  double belly_rise;  // height of that point, as a share of the height of the coaptation line's middle
+  double band_start;  // height from the second inner control point to the coaptation line, as the same share
+  std::optional<FusedPart> fused = {};
+};
+
+// The halves of a cusp in the order of its sides. All halves have one middle.
+using CuspNumbers = Vector<HalfNumbers>;
+
+// Blends the numbers of two states.
+CuspNumbers blend(const CuspNumbers &a, const CuspNumbers &b, double opening);
+
+// The length of half a free edge as a function of how far its middle hangs below its end. A fixed quadrature rule computes it, so
+// that it is a smooth function of the cusp.
+class EdgeLength {
+ public:
+  explicit EdgeLength(const HalfNumbers &half);
+
+  struct Value {
+    double length, slope;  // the slope is the derivative by the depth
+  };
+  Value at(double depth) const;
+  double chord() const { return chord_; }
+
+ private:
+  struct Node {
+    double weight, across, down;
+  };
+  static constexpr std::size_t n_panels = 16, n_nodes = n_panels * gauss_4.size();
+  std::array<Node, n_nodes> nodes_;
+  double chord_;
+};
+
+// Returns how far the middle of the free edge hangs below the end of the first half, so that all halves together have their
+// length. They must be at least as long as at depth 0.
+double edge_depth(const CuspNumbers &cusp);
+// Returns the length of the free edge if its middle is no lower than the lower one of its ends.
+double least_edge_length(const CuspNumbers &cusp);
+
+// Returns the lower part of the symmetry curve. It ends at `end`. Its direction there is `up`, the vector from `end` to the
+// free edge.
+Bezier symmetry_curve(const HalfNumbers &half, Vec3 end, Vec3 up);
+
+CuspNumbers closed_cusp(const CuspSizes &sizes);
+CuspNumbers open_cusp(const CuspSizes &sizes);
+
+}  // namespace riis
