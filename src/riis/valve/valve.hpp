@@ -95,11 +95,13 @@ struct ValveKind {
 // Adds the parameter "skirt_length" to a kind.
 ValveKind with_skirt(ValveKind kind, SkirtAxis axis);
 
-// The kinds of valves that are defined by parameters. Each is in a file of its name.
+// The kinds of valves that are defined by parameters. Each is in a file of its name, but for those of atrioventricular.cpp.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bileaflet_valve_kind();
 const ValveKind &coapting_valve_kind();
 const ValveKind &mitral_valve_kind();
+const ValveKind &mitral_coapting_valve_kind();
+const ValveKind &tricuspid_valve_kind();
 const ValveKind &trileaflet_valve_kind();
 
 // Returns the kind with that name. If there is none, fails with RIIS_INVALID_PARAMETER and names the existing kinds.
