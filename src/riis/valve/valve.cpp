@@ -129,8 +129,14 @@ struct NamedKind {
   const ValveKind &(*kind)();
 };
 constexpr NamedKind kinds[] = {
-    {"aortic", aortic_valve_kind},         {"bicuspid", bicuspid_valve_kind}, {"bileaflet", bileaflet_valve_kind},
-    {"coapting", coapting_valve_kind},     {"mitral", mitral_valve_kind},     {"quadricuspid", quadricuspid_valve_kind},
+    {"aortic", aortic_valve_kind},
+    {"bicuspid", bicuspid_valve_kind},
+    {"bileaflet", bileaflet_valve_kind},
+    {"coapting", coapting_valve_kind},
+    {"mitral", mitral_valve_kind},
+    {"mitral_coapting", mitral_coapting_valve_kind},
+    {"quadricuspid", quadricuspid_valve_kind},
+    {"tricuspid", tricuspid_valve_kind},
     {"trileaflet", trileaflet_valve_kind},
 };
 

@@ -95,14 +95,16 @@ struct ValveKind {
 // Adds the parameter "skirt_length" to a kind.
 ValveKind with_skirt(ValveKind kind, SkirtAxis axis);
 
-// The kinds of valves that are defined by parameters. Each is in a file of its name, and valve/coapting.cpp has those with two to
-// four coapting cusps.
+// The kinds of valves that are defined by parameters. Each is in a file of its name. But valve/coapting.cpp has the kinds with two
+// to four coapting cusps, and valve/atrioventricular.cpp the kinds with coapting leaflets on an annulus.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bicuspid_valve_kind();
 const ValveKind &bileaflet_valve_kind();
 const ValveKind &coapting_valve_kind();
 const ValveKind &mitral_valve_kind();
+const ValveKind &mitral_coapting_valve_kind();
 const ValveKind &quadricuspid_valve_kind();
+const ValveKind &tricuspid_valve_kind();
 const ValveKind &trileaflet_valve_kind();
 
 // Returns the kind with that name. If there is none, fails with RIIS_INVALID_PARAMETER and names the existing kinds.

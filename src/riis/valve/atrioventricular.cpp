@@ -1,0 +1,631 @@
+// SPDX-License-Identifier: Apache-2.0
+// The valves between atria and ventricles, whose leaflets hang from a saddle and lie side by side in a coaptation zone: the
+// tricuspid valve, and a mitral valve (docs/theory/atrioventricular.md).
+#include "valve/atrioventricular.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "common/array_view.hpp"
+#include "geometry/placement.hpp"
+#include "valve/bumps.hpp"
+#include "valve/patches.hpp"
+#include "valve/valve.hpp"
+
+namespace riis {
+namespace {
+
+// A leaflet has this many places of equal distance along the annulus, from one commissure to the next. From each place hangs a
+// meridian. A free edge and a coaptation line are two cubics each, so they have as many control points.
+constexpr std::size_t n_places = 7, middle = 3, n_cells = n_places - 1;
+template <class Value>
+using AtPlaces = std::array<Value, n_places>;
+constexpr double u_of(std::size_t place) { return static_cast<double>(place) / n_cells; }
+
+// The coaptation zone is at least this share of a leaflet. A leaflet that is too short for it stays back from its neighbours.
+constexpr double least_coaptation = 0.05;
+// A meridian's first inner control point lies below the annulus by this share of the drop to the coaptation line.
+constexpr double first_drop = 0.2;
+// At a commissure: the rise of that point in lengths of the commissure, and the end tangent in lengths of the meridian.
+constexpr double commissure_rise = 0.15, commissure_turn = 0.3;
+// The inner control point by the commissure has this share of the way in height.
+constexpr double edge_rise = 0.6;
+// A bump's lift acts on a meridian's first inner control point by this share.
+constexpr double lift_of_start = 0.3;
+// The sizes must leave so much of a lap to a leaflet, so much of the annulus' depth to its way to the meeting point, and so much of
+// the way from a commissure to it. At most so much of a leaflet coapts.
+constexpr double least_ratio = 0.05, least_way = 0.12, most_of_way = 0.8, most_coaptation = 0.7;
+// The rates of the control points are differences over this step of the opening. The rates only determine where vertices are
+// dense.
+constexpr double rate_step = 1e-4;
+
+// Positions in the list of specs behind the leaflets' own sizes.
+// clang-format off
+enum Parameter : std::size_t {
+  width, depth, flatness, saddle_height, flat_ratio, commissure_length, commissure_angle, commissure_coaptation, tenting_height, gap,
+  belly, turn, open_angle, translation, opening_, skirt_length, first_bump
+};
+// clang-format on
+
+// The kinds have two leaflets or three. Leaflets have lengths, and with three leaflets the anterior one also has a share of the
+// annulus. The list of specs begins with these.
+class Sizes {
+ public:
+  Sizes(const ParameterValues &values, std::size_t n_leaflets) : n_leaflets_(n_leaflets), values_(values) {}
+
+  static std::size_t position(Parameter parameter, std::size_t n_leaflets) { return 2 * n_leaflets - 2 + parameter; }
+  std::size_t n_leaflets() const { return n_leaflets_; }
+  std::size_t next(std::size_t leaflet) const { return (leaflet + 1) % n_leaflets_; }
+  const std::array<double, 3> &values_of(Parameter parameter) const {
+    return values_[position(parameter, n_leaflets_)];
+  }
+  double of(Parameter parameter) const { return values_of(parameter)[0]; }
+  double length(std::size_t leaflet) const { return values_[leaflet][0]; }
+  Bumps bumps() const { return {values_, position(first_bump, n_leaflets_), n_leaflets_, BumpLift::yes}; }
+
+  std::array<Bezier, 4> annulus() const {
+    return saddle_annulus({of(width), of(depth), of(flatness), of(saddle_height),
+                           n_leaflets_ == 2 ? FlatSide::at_positive_y : FlatSide::at_negative_y});
+  }
+  // Returns where the leaflets begin, and where the last one ends, in laps from the middle of the flat side.
+  Vector<double> commissures() const {
+    const double half = 0.5 * of(flat_ratio);
+    if (n_leaflets_ == 2) return {-half, half, 1 - half};
+    const double anterior = values_[3][0];
+    return {-half - anterior, -half, half, 1 - half - anterior};
+  }
+
+ private:
+  std::size_t n_leaflets_;
+  const ParameterValues &values_;
+};
+
+// A place of the annulus, and the horizontal direction inwards.
+struct Hinge {
+  Vec3 point, inwards;
+
+  // Returns the point at a distance, inwards and by an angle below the horizontal.
+  Vec3 hang(double distance, SineCosine angle) const {
+    return point + distance * (angle.cosine * inwards - Vec3{0, 0, angle.sine});
+  }
+};
+
+// The annulus in two laps, so that each leaflet is one part of it, and the places of the leaflets.
+class Annulus {
+ public:
+  Annulus(const std::array<Bezier, 4> &lap, const Vector<double> &commissures) : laps_(two_laps(lap)) {
+    const std::size_t n_leaflets = commissures.size() - 1;
+    for (std::size_t leaflet = 0; leaflet < n_leaflets; ++leaflet) {
+      leaflets_.emplace_back();
+      for (std::size_t i = 0; i < n_places; ++i) {
+        const double u = riis::blend(commissures[leaflet], commissures[leaflet + 1], u_of(i));
+        const PointOnSpan where = laps_.on_span(0.5 * (u + 1));
+        const auto [point, along] = laps_.with_tangent(where);
+        view(leaflets_[leaflet])[i] = {where, {point, 1 / std::hypot(along.x, along.y) * Vec3{-along.y, along.x, 0}}};
+      }
+    }
+    // Neighbours have the same commissure, even at the end of a lap.
+    leaflets_.back()[n_cells].hinge = leaflets_.front()[0].hinge;
+  }
+
+  const Hinge &hinge(std::size_t leaflet, std::size_t place) const { return view(leaflets_[leaflet])[place].hinge; }
+  Curve between_places(std::size_t leaflet, std::size_t place) const {
+    const auto &from = view(leaflets_[leaflet])[place], &to = view(leaflets_[leaflet])[place + 1];
+    return Curve(laps_.spans_between(from.where, to.where)).through(from.hinge.point, to.hinge.point);
+  }
+
+ private:
+  struct Place {
+    PointOnSpan where;
+    Hinge hinge;
+  };
+
+  static Curve two_laps(const std::array<Bezier, 4> &lap) {
+    Vector<Bezier> spans;
+    for (int i = 0; i < 2; ++i) spans.insert(spans.end(), lap.begin(), lap.end());
+    return Curve(std::move(spans));
+  }
+
+  Curve laps_;
+  Vector<AtPlaces<Place>> leaflets_;
+};
+
+// The control points of a leaflet, as vectors from the hinges at their places.
+struct Leaflet {
+  AtPlaces<Vec3> edge, line;  // of the free edge and of the coaptation line, which ends above the commissure
+  AtPlaces<Vec3> start;       // the meridians' first inner control points
+  AtPlaces<double> turn;      // the lengths of the meridians' end tangents
+  AtPlaces<double> body;      // the lengths of the meridians down to the coaptation line
+  AtPlaces<double> whole;     // and down to the free edge
+};
+
+Vec3 level(Vec3 p) { return {p.x, p.y, 0}; }
+Vec3 unit(Vec3 p) { return (1 / length(p)) * p; }
+
+// Two cubics that meet at the middle place.
+std::array<Bezier, 2> halves(const AtPlaces<Vec3> &q) {
+  return {Bezier::cubic(q[0], q[1], q[2], q[3]), Bezier::cubic(q[3], q[4], q[5], q[6])};
+}
+// Returns the parts of both cubics between the places.
+std::array<Bezier, n_cells> parts(const AtPlaces<Vec3> &q) {
+  const auto [first, second] = halves(q);
+  const auto [a, rest_of_first] = split(first, 1.0 / 3);
+  const auto [b, c] = split(rest_of_first, 0.5);
+  const auto [d, rest_of_second] = split(second, 1.0 / 3);
+  const auto [e, f] = split(rest_of_second, 0.5);
+  return {a, b, c, d, e, f};
+}
+AtPlaces<Vec3> on_parts(const std::array<Bezier, n_cells> &parts) {
+  AtPlaces<Vec3> points;
+  for (std::size_t i = 0; i < n_cells; ++i) view(points)[i] = view(parts)[i].first();
+  points.back() = parts.back().last();
+  return points;
+}
+
+// A meridian arrives at the coaptation line in the direction of the zone.
+Bezier meridian(Vec3 hinge, Vec3 start, double turn, Vec3 on_line, Vec3 on_edge) {
+  return Bezier::cubic(hinge, hinge + start, on_line + turn * unit(on_line - on_edge), on_line);
+}
+
+// Returns the point at which all leaflets would overlap by the same length, seen along z.
+Vec3 meeting_point(const Sizes &sizes, const Annulus &annulus) {
+  const auto hinge = [&](std::size_t leaflet) { return level(annulus.hinge(leaflet, middle).point); };
+  const double apart = distance(hinge(0), hinge(1));
+  if (sizes.n_leaflets() == 2) return mix(hinge(0), hinge(1), 0.5 * (1 + (sizes.length(0) - sizes.length(1)) / apart));
+  // Newton's method for |H - M| + overlap = length of the three leaflets. The differences of two equations leave out the overlap.
+  Vec3 at = 1.0 / 3 * (hinge(0) + hinge(1) + hinge(2));
+  for (int step = 0; step < 30; ++step) {
+    std::array<Vec3, 3> row{};
+    std::array<double, 3> left{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      view(row)[k] = unit(at - hinge(k));
+      view(left)[k] = sizes.length(k) - distance(at, hinge(k));
+    }
+    const Vec3 a = row[0] - row[2], b = row[1] - row[2];
+    const double c = left[0] - left[2], d = left[1] - left[2], determinant = a.x * b.y - a.y * b.x;
+    const Vec3 by = 1 / determinant * Vec3{c * b.y - d * a.y, a.x * d - b.x * c, 0};
+    at = at + by;
+    if (!(length(by) > 1e-15 * apart)) break;
+  }
+  return at;
+}
+
+// Closed leaflets of the same valve, side by side in the zone.
+class ClosedLeaflets {
+ public:
+  ClosedLeaflets(const Sizes &sizes, const Annulus &annulus)
+      : sizes_(sizes),
+        annulus_(annulus),
+        meeting_(meeting_point(sizes, annulus)),
+        down_(sine_cosine_degrees(sizes.of(commissure_angle))),
+        commissure_zone_(sizes.of(commissure_coaptation) * sizes.of(commissure_length)) {}
+
+  Vec3 meeting() const { return meeting_; }
+
+  Leaflet leaflet(std::size_t k, const Bumps &bumps) const {
+    const Hinge &hinge = annulus_.hinge(k, middle);
+    const Vec3 away = unit(level(hinge.point) - meeting_), low{0, 0, -sizes_.of(tenting_height)};
+    // The leaflet is at least half the gap away from the lines to the commissures.
+    double least_sine = 1;
+    for (const std::size_t end : {std::size_t{0}, n_cells}) {
+      const Vec3 to = unit(level(commissure(k, end)) - meeting_);
+      least_sine = std::min(least_sine, std::abs(away.x * to.y - away.y * to.x));
+    }
+    Vec3 on_line = meeting_ + 0.5 * sizes_.of(gap) / least_sine * away + low;
+    double zone = 0;
+    for (int step = 0; step < 60; ++step) {
+      zone = sizes_.length(k) - arc_length(middle_meridian(hinge.point, on_line));
+      const double lacking = least_coaptation * sizes_.length(k) - zone;
+      if (!(lacking > 1e-12 * sizes_.length(k))) break;
+      on_line = on_line + lacking * away;
+    }
+    AtPlaces<Vec3> line{}, edge{};
+    for (const std::size_t end : {std::size_t{0}, n_cells}) {
+      const Vec3 last = commissure(k, end), flat = level(last);
+      const Vec3 straight = flat - level(on_line);
+      // Two leaflets meet in a smile, which is horizontal in the middle. Three meet in straight lines.
+      Vec3 along = unit(straight);
+      if (sizes_.n_leaflets() == 2) {
+        along = Vec3{-away.y, away.x, 0};
+        if (dot(along, straight) < 0) along = -along;
+      }
+      const Vec3 first = level(on_line) + length(straight) / 3 * along, second = mix(flat, first, 0.5);
+      const auto put = [&](AtPlaces<Vec3> &to, double from_z, double to_z) {
+        const auto at = [&](std::size_t i) -> Vec3 & { return view(to)[end == 0 ? middle - i : middle + i]; };
+        at(0) = level(on_line) + Vec3{0, 0, from_z};
+        at(1) = first + Vec3{0, 0, from_z};
+        at(2) = second + Vec3{0, 0, riis::blend(from_z, to_z, edge_rise)};
+        at(3) = flat + Vec3{0, 0, to_z};
+      };
+      put(line, on_line.z, last.z + commissure_zone_);
+      put(edge, on_line.z - zone, last.z);
+    }
+    return from_control_points(k, line, edge, bumps);
+  }
+
+ private:
+  // Returns the end of the free edge at a commissure.
+  Vec3 commissure(std::size_t leaflet, std::size_t place) const {
+    return annulus_.hinge(leaflet, place).hang(sizes_.of(commissure_length), down_);
+  }
+
+  Vec3 start(Vec3 hinge, Vec3 on_line) const {
+    return sizes_.of(belly) * level(on_line - hinge) - Vec3{0, 0, first_drop * (hinge.z - on_line.z)};
+  }
+  Bezier middle_meridian(Vec3 hinge, Vec3 on_line) const {
+    return meridian(hinge, start(hinge, on_line), sizes_.of(turn) * (hinge.z - on_line.z), on_line,
+                    on_line - Vec3{0, 0, 1});
+  }
+
+  Leaflet from_control_points(std::size_t k, const AtPlaces<Vec3> &line, const AtPlaces<Vec3> &edge,
+                              const Bumps &bumps) const {
+    const AtPlaces<Vec3> on_line = on_parts(parts(line)), on_edge = on_parts(parts(edge));
+    const double commissure_size = sizes_.of(commissure_length);
+    Leaflet made{};
+    for (std::size_t i = 0; i < n_places; ++i) {
+      const Vec3 hinge = annulus_.hinge(k, i).point, end = view(on_line)[i];
+      const bool is_commissure = i == 0 || i == n_cells;
+      view(made.start)[i] =
+          is_commissure ? 1.0 / 3 * (end - hinge) + Vec3{0, 0, commissure_rise * commissure_size} : start(hinge, end);
+      view(made.turn)[i] =
+          is_commissure ? commissure_turn * (commissure_size - commissure_zone_) : sizes_.of(turn) * (hinge.z - end.z);
+      const double zone = distance(end, view(on_edge)[i]);
+      view(made.body)[i] =
+          is_commissure ? commissure_size - zone
+                        : arc_length(meridian(hinge, view(made.start)[i], view(made.turn)[i], end, view(on_edge)[i]));
+      view(made.whole)[i] = view(made.body)[i] + zone;
+      const Vec3 lift{0, 0, bumps.at(k, u_of(i)).lift};
+      view(made.start)[i] = view(made.start)[i] + lift_of_start * lift;
+      view(made.line)[i] = view(line)[i] - hinge + lift;
+      view(made.edge)[i] = view(edge)[i] - hinge + lift;
+    }
+    return made;
+  }
+
+  const Sizes &sizes_;
+  const Annulus &annulus_;
+  Vec3 meeting_;
+  SineCosine down_;
+  double commissure_zone_;
+};
+
+// Open leaflets hang straight down from the annulus, with the lengths of the closed ones.
+Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, const Leaflet &closed) {
+  const SineCosine down = sine_cosine_degrees(sizes.of(open_angle));
+  AtPlaces<Vec3> edge{};
+  for (std::size_t i = 0; i < n_places; ++i) view(edge)[i] = annulus.hinge(k, i).hang(view(closed.whole)[i], down);
+  const Bezier first = cubic_through(edge[0], edge[1], edge[2], edge[3]);
+  const Bezier second = cubic_through(edge[3], edge[4], edge[5], edge[6]);
+  for (std::size_t i = 1; i < middle; ++i)
+    view(edge)[i] = view(first.control)[i], view(edge)[middle + i] = view(second.control)[i];
+  // The edge has no corner in the middle.
+  const Vec3 along = unit(edge[middle + 1] - edge[middle - 1]);
+  edge[middle - 1] = edge[middle] - distance(edge[middle - 1], edge[middle]) * along;
+  edge[middle + 1] = edge[middle] + distance(edge[middle + 1], edge[middle]) * along;
+  Leaflet made = closed;
+  for (std::size_t i = 0; i < n_places; ++i) {
+    view(made.edge)[i] = view(edge)[i] - annulus.hinge(k, i).point;
+    view(made.line)[i] = view(closed.body)[i] / view(closed.whole)[i] * view(made.edge)[i];
+  }
+  for (std::size_t i = 0; i < n_places; ++i) {
+    view(made.start)[i] = 1.0 / 3 * view(closed.body)[i] * unit(view(made.line)[i]);
+    view(made.turn)[i] = 1.0 / 3 * view(closed.body)[i];
+  }
+  return made;
+}
+
+// A vector from a hinge swings from one state to another: the vector is blended, and so is its length.
+Vec3 swung(Vec3 from, Vec3 to, double share) {
+  const Vec3 blended = riis::blend(from, to, share);
+  const double size = length(blended);
+  return size > 0 ? riis::blend(length(from), length(to), share) / size * blended : blended;
+}
+
+// Returns the length of the middle meridian, down to the free edge.
+double middle_length(const Leaflet &leaflet) {
+  const Vec3 on_line = leaflet.line[middle], on_edge = leaflet.edge[middle];
+  return distance(on_line, on_edge) +
+         arc_length(meridian({0, 0, 0}, leaflet.start[middle], leaflet.turn[middle], on_line, on_edge));
+}
+
+// Returns the leaflet with every place at a share of its way. Each control point swings about its hinge. Then the leaflet is
+// stretched so that its middle has its length, and by less towards the commissures.
+Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double> &shares) {
+  Leaflet made = closed;
+  for (std::size_t i = 0; i < n_places; ++i) {
+    const double share = view(shares)[i];
+    for (AtPlaces<Vec3> Leaflet::*points : {&Leaflet::edge, &Leaflet::line, &Leaflet::start})
+      view(made.*points)[i] = swung(view(closed.*points)[i], view(open.*points)[i], share);
+    view(made.turn)[i] = riis::blend(view(closed.turn)[i], view(open.turn)[i], share);
+  }
+  const double stretch = riis::blend(middle_length(closed), middle_length(open), shares[middle]) / middle_length(made);
+  for (std::size_t i = 0; i < n_places; ++i) {
+    const double here = 1 + (stretch - 1) * (1 - std::abs(2 * u_of(i) - 1));
+    for (AtPlaces<Vec3> Leaflet::*points : {&Leaflet::edge, &Leaflet::line, &Leaflet::start})
+      view(made.*points)[i] = here * view(made.*points)[i];
+    view(made.turn)[i] = here * view(made.turn)[i];
+  }
+  return made;
+}
+
+// The curves of a leaflet, from the commissure before it to the commissure behind it.
+struct LeafletCurves {
+  std::array<Bezier, n_cells> line, edge;
+  AtPlaces<Bezier> meridians, zone;  // down to the coaptation line, and from there to the free edge
+};
+
+LeafletCurves curves_of(const Leaflet &leaflet, const Annulus &annulus, std::size_t k) {
+  AtPlaces<Vec3> line{}, edge{};
+  for (std::size_t i = 0; i < n_places; ++i) {
+    view(line)[i] = annulus.hinge(k, i).point + view(leaflet.line)[i];
+    view(edge)[i] = annulus.hinge(k, i).point + view(leaflet.edge)[i];
+  }
+  LeafletCurves made{parts(line), parts(edge), {}, {}};
+  const AtPlaces<Vec3> on_line = on_parts(made.line), on_edge = on_parts(made.edge);
+  for (std::size_t i = 0; i < n_places; ++i) {
+    const Vec3 from = view(on_line)[i], to = view(on_edge)[i];
+    view(made.meridians)[i] =
+        meridian(annulus.hinge(k, i).point, view(leaflet.start)[i], view(leaflet.turn)[i], from, to);
+    view(made.zone)[i] = Bezier::line(from, to);
+  }
+  return made;
+}
+
+// A valve between its closed state and its open state, which may have other sizes.
+class Motion {
+ public:
+  Motion(const ValveState &closed, const ValveState &open, std::size_t n_leaflets)
+      : closed_(closed.values, n_leaflets), open_(open.values, n_leaflets), has_one_annulus_(&closed == &open) {
+    const Annulus of_closed(closed_.annulus(), closed_.commissures()), of_open(open_.annulus(), open_.commissures());
+    const Bumps bumps = closed_.bumps(), bumps_when_open = open_.bumps();
+    const ClosedLeaflets leaflets(closed_, of_closed), leaflets_when_open(open_, of_open);
+    for (std::size_t k = 0; k < n_leaflets; ++k) {
+      closed_leaflets_.push_back(leaflets.leaflet(k, bumps));
+      open_leaflets_.push_back(open_leaflet(open_, of_open, k, leaflets_when_open.leaflet(k, bumps_when_open)));
+      local_.emplace_back();
+      for (std::size_t i = 0; i < n_places; ++i)
+        view(local_.back())[i] = {bumps.at(k, u_of(i)).closed, bumps_when_open.at(k, u_of(i)).open, 0};
+    }
+  }
+
+  Annulus annulus(double opening) const {
+    std::array<Bezier, 4> lap = closed_.annulus();
+    Vector<double> commissures = closed_.commissures();
+    if (has_one_annulus_) return {lap, commissures};
+    const std::array<Bezier, 4> open_lap = open_.annulus();
+    const Vector<double> open_commissures = open_.commissures();
+    for (std::size_t i = 0; i < lap.size(); ++i)
+      view(lap)[i] = riis::blend(view(lap)[i], view(open_lap)[i], opening);
+    for (std::size_t i = 0; i < commissures.size(); ++i)
+      commissures[i] = riis::blend(commissures[i], open_commissures[i], opening);
+    return {lap, commissures};
+  }
+
+  Vector<LeafletCurves> leaflets(const Annulus &annulus, double opening) const {
+    Vector<LeafletCurves> made;
+    for (std::size_t k = 0; k < local_.size(); ++k) {
+      AtPlaces<double> shares{};
+      for (std::size_t i = 0; i < n_places; ++i)
+        view(shares)[i] = riis::blend(view(local_[k])[i].closed, view(local_[k])[i].open, opening);
+      made.push_back(curves_of(moved(closed_leaflets_[k], open_leaflets_[k], shares), annulus, k));
+    }
+    return made;
+  }
+
+  Vec3 shift(double opening) const {
+    return riis::blend(vector_of(closed_.values_of(translation)), vector_of(open_.values_of(translation)), opening);
+  }
+
+ private:
+  Sizes closed_, open_;
+  bool has_one_annulus_;
+  Vector<Leaflet> closed_leaflets_, open_leaflets_;
+  Vector<AtPlaces<LocalOpening>> local_;
+};
+
+// Patches run clockwise and down from the annulus, so S_u x S_v points into the ventricle, downstream.
+PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening, std::size_t n_leaflets) {
+  const Motion motion(closed, open, n_leaflets);
+  const double from = std::max(opening - rate_step, 0.0), to = std::min(opening + rate_step, 1.0);
+  const Annulus annulus = motion.annulus(opening);
+  const auto now = motion.leaflets(annulus, opening), before = motion.leaflets(motion.annulus(from), from),
+             after = motion.leaflets(motion.annulus(to), to);
+  PatchSet set;
+  const auto add = [&](std::size_t k, const auto &curve_in) {
+    Bezier change = rate(curve_in(before[k]), curve_in(after[k]));
+    for (Vec3 &q : change.control) q = 1 / (to - from) * q;
+    set.rates.push_back({change});
+    return set.add(curve_in(now[k]));
+  };
+  const auto add_across = [&](std::size_t k, std::size_t i) -> std::array<Side, 2> {
+    return {add(k, [&](const LeafletCurves &of) { return view(of.meridians)[i]; }),
+            add(k, [&](const LeafletCurves &of) { return view(of.zone)[i]; })};
+  };
+  const PatchImage image{Mirror::none, rotation_xyz({0, 0, 0}), motion.shift(opening), 0, 0};
+  std::int32_t n_images = 0;
+  const auto add_patch = [&](std::size_t k, Side v0, Side v1, Side u0, Side u1, AttachedSide attached) {
+    PatchImage own = image;
+    own.leaflet_id = static_cast<std::int32_t>(k);
+    own.patch_id = n_images++;
+    set.patches.push_back({{v0.curve, true}, {v1.curve, true}, u0, u1, {own}, 0, attached});
+  };
+  Vector<std::array<Side, 2>> commissures;  // neighbours share these curves
+  for (std::size_t k = 0; k < n_leaflets; ++k) commissures.push_back(add_across(k, n_cells));
+  for (std::size_t k = 0; k < n_leaflets; ++k) {
+    std::array<Side, 2> last = commissures[(k + n_leaflets - 1) % n_leaflets];
+    for (std::size_t i = 0; i < n_cells; ++i) {
+      const std::array<Side, 2> next = i + 1 < n_cells ? add_across(k, i + 1) : commissures[k];
+      const Side line = add(k, [&](const LeafletCurves &of) { return view(of.line)[i]; });
+      const Side edge = add(k, [&](const LeafletCurves &of) { return view(of.edge)[i]; });
+      const Curve base = annulus.between_places(k, i);
+      set.rates.emplace_back(base.spans().size(), rate(base.spans().front(), base.spans().front()));
+      add_patch(k, set.add(base), line, next[0], last[0], AttachedSide::v0);
+      add_patch(k, line, edge, next[1], last[1], AttachedSide::none);
+      last = next;
+    }
+  }
+  return set;
+}
+
+// Refuses values that do not go together. The message names the size that is out of proportion.
+void check_values(const ParameterValues &values, const ValveKind &kind, std::size_t n_leaflets) {
+  const Sizes sizes(values, n_leaflets);
+  const auto name = [&](std::size_t position) { return kind.parameters[position].name.c_str(); };
+  const auto name_of = [&](Parameter parameter) { return name(Sizes::position(parameter, n_leaflets)); };
+  const Reference across{name_of(depth), sizes.of(depth)};
+  const auto check = [&](std::size_t position, double least, double most) {
+    check_ratio(kind.parameters[position], values[position], across, least, most);
+  };
+  for (std::size_t k = 0; k < n_leaflets; ++k) check(k, 0.1, 2);
+  for (const auto &[parameter, least, most] : {std::tuple(width, 0.5, 2.0),
+                                               {saddle_height, 0.0, 0.5},
+                                               {commissure_length, 0.02, 1.0},
+                                               {tenting_height, 0.0, 1.0},
+                                               {gap, 0.0005, 0.1},
+                                               {translation, 0.0, 100.0}})
+    check(Sizes::position(parameter, n_leaflets), least, most);
+  const Vector<double> commissures = sizes.commissures();
+  for (std::size_t k = 0; k < n_leaflets; ++k)
+    if (!(commissures[k + 1] - commissures[k] >= least_ratio))
+      fail(RIIS_INVALID_PARAMETER, "the shares of the annulus leave ", commissures[k + 1] - commissures[k],
+           " to one leaflet; it must be at least ", least_ratio, ": look at ", name_of(flat_ratio),
+           " and anterior_ratio");
+  const Annulus annulus(sizes.annulus(), commissures);
+  const ClosedLeaflets closed(sizes, annulus);
+  const Bumps bumps = sizes.bumps();
+  for (std::size_t k = 0; k < n_leaflets; ++k) {
+    const double to_meeting = distance(level(annulus.hinge(k, middle).point), closed.meeting());
+    if (!(to_meeting >= least_way * across.size && to_meeting <= (1 - least_way) * across.size))
+      fail(RIIS_INVALID_PARAMETER, "the leaflets would meet at a distance of ", to_meeting,
+           " from the middle of the annulus of ", "the leaflet of ", name(k), "; it must be from ", least_way, " to ",
+           1 - least_way, " times ", across.name, ", which is ", across.size, ": look at the leaflets' lengths");
+    const double inwards = sizes.of(commissure_length) * sine_cosine_degrees(sizes.of(commissure_angle)).cosine,
+                 room = distance(level(annulus.hinge(k, n_cells).point), closed.meeting());
+    if (!(inwards <= most_of_way * room))
+      fail(RIIS_INVALID_PARAMETER, "commissure_length is ", sizes.of(commissure_length), "; inwards that is ", inwards,
+           ", which must be at most ", most_of_way, " times the distance ", room,
+           " from a commissure to the meeting point");
+    const Leaflet leaflet = closed.leaflet(k, bumps);
+    const double zone = leaflet.whole[middle] - leaflet.body[middle];
+    if (!(zone <= most_coaptation * sizes.length(k)))
+      fail(RIIS_INVALID_PARAMETER, name(k), " is ", sizes.length(k), ", of which ", zone,
+           " would coapt; that must be at most ", most_coaptation,
+           " of the length: the leaflets are too long for the annulus");
+    if (!(std::abs(leaflet.whole[middle] - sizes.length(k)) <= 1e-6 * sizes.length(k)))
+      fail(RIIS_INVALID_PARAMETER, name(k), " is ", sizes.length(k),
+           ", too short for its part of the annulus with tenting_height ", sizes.of(tenting_height));
+  }
+}
+
+// clang-format off
+ValveKind make_kind(const char *name, Vector<ParameterSpec> leaflets, const ParameterSpec &width_spec, const ParameterSpec &depth_spec,
+                    const ParameterSpec &flat_spec, double saddle, double tenting) {
+  constexpr double shortest = 1e-9, longest = 1e9;
+  const char *length = "length", *degree = "degree", *number = "1";
+  Vector<ParameterSpec> specs = std::move(leaflets);
+  const Vector<ParameterSpec> common{
+    width_spec, depth_spec,
+    {"flatness", number, "outline of the annulus: 0 an ellipse, 1 a D", 1, {1}, 0, 1},
+    {"saddle_height", length, "height of the annulus from its lowest to its highest points", 1, {saddle}, 0, longest},
+    flat_spec,
+    {"commissure_length", length, "length of the leaflets at the commissures", 1, {0.8}, shortest, longest},
+    {"commissure_angle", degree, "angle of the closed commissures below the horizontal", 1, {40}, 0, 85},
+    {"commissure_coaptation", number, "share of commissure_length that coapts", 1, {0.2}, 0.05, 0.8},
+    {"tenting_height", length, "depth of the coaptation line's middle below the annulus' mean height", 1, {tenting}, 0, longest},
+    {"gap", length, "distance between closed leaflets in the middle of the coaptation zone", 1, {0.03}, shortest, longest},
+    {"belly", number, "closed: start tangent of a leaflet, times its horizontal reach", 1, {0.55}, 0.1, 0.9},
+    {"turn", number, "closed: end tangent of a leaflet above the coaptation line, times its drop", 1, {0.5}, 0.1, 0.9},
+    {"open_angle", degree, "how open leaflets hang: 0 inwards, 90 straight down", 1, {75}, 30, 90},
+    {"translation", length, "shift of the valve", 3, {0, 0, 0}, -longest, longest},
+    opening_spec("0 closed to 1 open", 0),
+  };
+  const std::size_t opening = specs.size() + opening_;
+  specs.insert(specs.end(), common.begin(), common.end());
+  ValveKind kind{name, std::move(specs), opening, true, nullptr, nullptr, nullptr};
+  kind.has_exact_contacts = true;
+  return with_skirt(std::move(kind), SkirtAxis::vertical);
+}
+
+ParameterSpec length_spec(const char *name, double value) {
+  return {name, "length", "length of the leaflet's middle, from the annulus to the free edge", 1, {value}, 1e-9, 1e9};
+}
+ParameterSpec diameter_spec(const char *name, const char *description, double value) {
+  return {name, "length", description, 1, {value}, 1e-9, 1e9};
+}
+ParameterSpec ratio_spec(const char *name, const char *description, double value) {
+  return {name, "1", description, 1, {value}, 0.05, 0.9};
+}
+// clang-format on
+
+const ValveKind *new_mitral_coapting() {
+  auto *kind = new ValveKind(make_kind(
+      "mitral_coapting", {length_spec("anterior_length", 2.5), length_spec("posterior_length", 1.6)},
+      diameter_spec("ALPM_diameter", "width of the annulus, from the anterolateral to the posteromedial side", 3.6),
+      diameter_spec("AP_diameter", "depth of the annulus, from the posterior to the anterior point", 2.7),
+      ratio_spec("anterior_ratio", "share of the annulus that the anterior leaflet takes", 0.41), 0.6, 0.4));
+  add_bump_specs(kind->parameters, 2, BumpLift::yes);
+  kind->check_values = [](const ParameterValues &values) { check_values(values, mitral_coapting_valve_kind(), 2); };
+  kind->make_patches = [](const ValveState &closed, const ValveState &open, double opening) {
+    return make_patches(closed, open, opening, 2);
+  };
+  return kind;
+}
+
+const ValveKind *new_tricuspid() {
+  auto *kind = new ValveKind(make_kind(
+      "tricuspid",
+      {length_spec("anterior_length", 2.4), length_spec("septal_length", 1.9), length_spec("posterior_length", 2.1),
+       ratio_spec("anterior_ratio", "share of the annulus that the anterior leaflet takes", 0.4)},
+      diameter_spec("AP_diameter", "width of the annulus, from the anterior to the posterior point", 3.6),
+      diameter_spec("SL_diameter", "depth of the annulus, from the septal to the lateral point", 3.0),
+      ratio_spec("septal_ratio", "share of the annulus that the septal leaflet takes", 0.33), 0.4, 0.4));
+  add_bump_specs(kind->parameters, 3, BumpLift::yes);
+  kind->check_values = [](const ParameterValues &values) { check_values(values, tricuspid_valve_kind(), 3); };
+  kind->make_patches = [](const ValveState &closed, const ValveState &open, double opening) {
+    return make_patches(closed, open, opening, 3);
+  };
+  return kind;
+}
+
+}  // namespace
+
+// The outline seen along z is an ellipse whose flat side is nearer and flatter, by the flatness.
+std::array<Bezier, 4> saddle_annulus(const SaddleAnnulus &annulus) {
+  constexpr double circle = 0.5523;  // the reach of a cubic for a quarter of a circle, in radii
+  const double sign = annulus.flat_side == FlatSide::at_positive_y ? 1 : -1, high = 0.5 * annulus.saddle_height;
+  const double half = 0.5 * annulus.width, near = (0.5 - 0.12 * annulus.flatness) * annulus.depth,
+               far = annulus.depth - near, reach = circle * half, flat_reach = (circle + 0.3 * annulus.flatness) * half;
+  // The outline's points are followed counter-clockwise. At each of them, the tangent is along x or along y.
+  const std::array<Vec3, 4> at{
+      {{0, sign * near, high}, {-sign * half, 0, -high}, {0, -sign * far, high}, {sign * half, 0, -high}}};
+  const std::array<Vec3, 4> along{{{-sign, 0, 0}, {0, -sign, 0}, {sign, 0, 0}, {0, sign, 0}}};
+  const std::array<double, 4> out{flat_reach, circle * far, reach, circle * near},
+      in{flat_reach, circle * near, reach, circle * far};
+  std::array<Bezier, 4> made{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t next = (i + 1) % 4;
+    view(made)[i] = Bezier::cubic(view(at)[i], view(at)[i] + view(out)[i] * view(along)[i],
+                                  view(at)[next] - view(in)[next] * view(along)[next], view(at)[next]);
+  }
+  return made;
+}
+
+// The kinds are made when they are first used, and they are never destroyed. So they can be used during the whole life of the
+// process.
+const ValveKind &mitral_coapting_valve_kind() {
+  static const ValveKind &kind = *new_mitral_coapting();
+  return kind;
+}
+
+const ValveKind &tricuspid_valve_kind() {
+  static const ValveKind &kind = *new_tricuspid();
+  return kind;
+}
+
+}  // namespace riis

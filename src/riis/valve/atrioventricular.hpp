@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The annulus of the atrioventricular valves (docs/theory/atrioventricular.md, "Annulus").
+// In: its sizes. Out: four cubics.
+#pragma once
+
+#include <array>
+
+#include "geometry/bezier.hpp"
+
+namespace riis {
+
+// The side towards the other ventricle is flat: the anterior side of the mitral valve, and the septal side of the tricuspid.
+enum class FlatSide : bool { at_negative_y, at_positive_y };
+
+struct SaddleAnnulus {
+  double width, depth;   // along x and along y
+  double flatness;       // 0 for an ellipse, 1 for a D
+  double saddle_height;  // from the lowest to the highest points
+  FlatSide flat_side;
+};
+
+// Returns the annulus counter-clockwise seen from +z, from the middle of the flat side.
+std::array<Bezier, 4> saddle_annulus(const SaddleAnnulus &annulus);
+
+}  // namespace riis
