@@ -512,7 +512,7 @@ TEST(test_refusals) {
   RUN_REFUSED(1, "no/states.csv: cannot be written: the folder", "states", scratch_path("no/states.csv"));
   RUN_REFUSED(1, "is a directory", "states", scratch_path("."));
   RUN_REFUSED(1, "times root_radius, which is 0.001", "states", csv, "--set", "root_radius=0.001");
-  RUN_REFUSED(1, "is not a kind of valve", "states", csv, "--valve", "tricuspid");
+  RUN_REFUSED(1, "is not a kind of valve", "states", csv, "--valve", "pulmonary");
   assert_false(scratch_exists("no.csv"));
 }
 
