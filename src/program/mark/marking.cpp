@@ -12,6 +12,7 @@
 #include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
 #include "program/input/wall.hpp"
+#include "program/mark/bridged_gap.hpp"
 #include "program/mark/mesh_marking.hpp"
 #include "program/mark/warnings.hpp"
 
@@ -131,6 +132,8 @@ Marking::Marking(Case &all, const MeshPieces &mesh)
   report_.prints_flow = options().measures || options().check_leaks;
   move_to_least_openings();
   for (std::size_t i = 0; i < valves_.size(); ++i) {
+    if (valves_[i].opening() == 0.0)
+      warn_of_bridged_gap(valves_[i].options(), valves_[i].source().valve, all_.part_of(i));
     report_.valves.push_back(report_of(i));
     sums_.push_back(
         {MeshLeaks(valves_[i].options(), mesh, valves_[i].surface(), valves_[i].source().valve, all.surface_of(i))});
