@@ -79,7 +79,7 @@ contains
   !> Makes a valve with the default parameter values. Errors: RIIS_INVALID_PARAMETER for an unknown kind.
   subroutine valve_create(this, kind, status)
     class(riis_valve), intent(inout) :: this                !< Must be empty.
-    character(len=*), intent(in) :: kind                    !< 'aortic', 'mitral', 'coapting', 'trileaflet' or 'bileaflet'.
+    character(len=*), intent(in) :: kind                    !< 'aortic', 'tricuspid' or another kind of riis_valve_create.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_not_created(this%handle, 'the valve')

@@ -170,7 +170,7 @@ def refusals(program, folder, *files):
         ("a line without an entry", beats, "Steps = 3\n", "Steps = 3"),
         ("a subsection without end", beats, "subsection Run\nset Steps = 1\n", "end"),
         ("no function of time", beats, unknown.format("Inlet", "Pressure", "500 * sine(t)"), "Inlet/Pressure: '500 * sine(t)'"),
-        ("an unknown kind", beats, unknown.format("Valve", "Kind", "tricuspid"), "tricuspid"),
+        ("an unknown kind", beats, unknown.format("Valve", "Kind", "pulmonary"), "pulmonary"),
         ("an unknown parameter of the valve", beats, unknown.format("Valve", "Parameters", "anulus=2"), "anulus"),
         ("a parameter out of its range", beats, unknown.format("Valve", "Parameters", "root_radius=-1"), "root_radius"),
         ("a parameter without a number", beats, unknown.format("Valve", "Parameters", "root_radius=wide"), "wide"),

@@ -651,8 +651,8 @@ of_arteries() {
 
 openfoam_refusals() {
   local dict=system/fvOptions
-  of_bad unknown-valve && of_set unknown-valve "$dict" aorticValve/valve/kind tricuspid &&
-    of_refused "an unknown valve" unknown-valve "RIIS_INVALID_PARAMETER: 'tricuspid' is not a kind of valve" &&
+  of_bad unknown-valve && of_set unknown-valve "$dict" aorticValve/valve/kind pulmonary &&
+    of_refused "an unknown valve" unknown-valve "RIIS_INVALID_PARAMETER: 'pulmonary' is not a kind of valve" &&
     of_bad unknown-parameter && of_set unknown-parameter "$dict" aorticValve/valve/leaflet_hight 1 &&
     of_refused "an unknown parameter" unknown-parameter "'leaflet_hight' is not a parameter of the trileaflet valve" &&
     of_bad no-resistance && foamDictionary "$of_cases/no-resistance/$dict" -entry aorticValve/resistance -remove >/dev/null &&

@@ -63,6 +63,7 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_LEAFLET_NON_CORONARY = 2
   integer(c_int32_t), parameter :: RIIS_LEAFLET_ANTERIOR = 0
   integer(c_int32_t), parameter :: RIIS_LEAFLET_POSTERIOR = 1
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_SEPTAL = 2
   integer(c_int32_t), parameter :: RIIS_LEAFLET_POSITIVE = 0
   integer(c_int32_t), parameter :: RIIS_LEAFLET_NEGATIVE = 1
   integer(c_int32_t), parameter :: RIIS_LEAFLET_HOUSING = 2
@@ -261,6 +262,10 @@ module riis_c
                                              !! for a surface from arrays
     integer(c_int64_t) :: largest_leaflet_id !< of the triangles
     real(c_double) :: offset                 !< of the band, in half thicknesses
+    real(c_double) :: contact_depth          !< deeper crossings of triangles are no contacts of leaflets
+                                             !! (docs/theory/crossings.md)
+    integer(c_int32_t) :: skirt_leaflet_id   !< the leaflet_id of the skirt; -1: no skirt
+    integer(c_int32_t) :: housing_leaflet_id !< bileaflet: RIIS_LEAFLET_HOUSING; -1 for other surfaces
   end type riis_surface_info
 
   type, bind(c) :: riis_triangles
@@ -867,7 +872,7 @@ module riis_c
     ! Valve
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !>   kind  riis_c_string('aortic'), 'mitral', 'coapting', 'trileaflet' or 'bileaflet'
+    !>   kind  riis_c_string('aortic'), 'tricuspid' or another kind of riis.h
     function riis_valve_create(kind, valve) result(status) bind(c, name='riis_valve_create')
       import :: c_char, c_ptr, riis_status
       implicit none

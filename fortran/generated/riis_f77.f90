@@ -43,7 +43,7 @@ subroutine riisf_valve_create(kind, valve, status)
   use riis_support, only: end_for_c, handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_valve_create
   implicit none
-  character(len=*), intent(in) :: kind                    !< 'aortic', 'mitral', 'coapting', 'trileaflet' or 'bileaflet'.
+  character(len=*), intent(in) :: kind                    !< 'aortic', 'tricuspid' or another kind of riis.h.
   integer(int64), intent(inout) :: valve                  !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(kind) + 1, kind=c_char) :: c_kind

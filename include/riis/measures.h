@@ -87,8 +87,8 @@ typedef struct riis_area_search {
   int64_t struct_size;                 /* set by the init function */
   const riis_surface_options *surface; /* options of the valve's surface. NULL, the default, stands for defaults */
   const riis_resistance *resistance;   /* as in riis_surface_get_orifice. NULL, the default, stands for defaults */
-  double from, to;    /* the values to search, from < to. Default NaN: 0 to 1 for the opening, a tenth to ten times
-                         the scale, and half to twice a parameter. A parameter that is 0 needs both */
+  double from, to;    /* the values to search, from < to. Default NaN: 0 to 1 for the opening, a tenth to ten times the
+                         scale, half to twice a parameter, and all shares if a share is 0. Other zeros need both */
   double tolerance;   /* of an area, as a share of it, 1e-12 to 1e-2. Default 1e-8 */
   int32_t n_samples;  /* the number of values that are tried first, 2 to 100,001. Default 33 */
   int32_t area;       /* RIIS_AREA_*, default RIIS_AREA_GEOMETRIC */

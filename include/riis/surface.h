@@ -21,17 +21,18 @@ typedef struct riis_surface riis_surface;
 /* The leaflets of the parametric valves, as leaflet_id reports them. */
 enum {
   RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters;
-                                   coapting, trileaflet: on the x axis */
-  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; coapting, trileaflet: at 120 degrees */
-  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; coapting, trileaflet: at -120 degrees */
-  RIIS_LEAFLET_ANTERIOR = 0,    /* mitral: the anterior leaflet */
-  RIIS_LEAFLET_POSTERIOR = 1,   /* mitral: the posterior leaflet, all three scallops */
+                                   other cusps: on the x axis. Others follow counter-clockwise, seen from +z */
+  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; other cusps: the second one */
+  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; other cusps: the third one. The fourth one has the id 3 */
+  RIIS_LEAFLET_ANTERIOR = 0,    /* mitral, mitral_coapting, tricuspid: the anterior leaflet */
+  RIIS_LEAFLET_POSTERIOR = 1,   /* mitral, mitral_coapting, tricuspid: the posterior leaflet, with all its scallops */
+  RIIS_LEAFLET_SEPTAL = 2,      /* tricuspid: the septal leaflet */
   RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
   RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
   RIIS_LEAFLET_HOUSING = 2,     /* bileaflet: the housing's wall, if ring_height is not 0 */
-  RIIS_LEAFLET_SKIRT = 3        /* the skirt of a valve of any kind but bileaflet, if skirt_length is not 0. The skirt of
-                                   a valve from patches or of arrays has this id, or the largest leaflet_id + 1 if that
-                                   is larger */
+  RIIS_LEAFLET_SKIRT = 3        /* the skirt of a valve of any kind but bileaflet, if skirt_length is not 0. It has this id,
+                                   or the largest leaflet_id + 1 if that is larger, as for four cusps. The skirt of arrays
+                                   has its id by the same rule. riis_surface_info has the id */
 };
 
 /* How triangles of zero area in the caller's arrays are treated. */
@@ -178,6 +179,9 @@ typedef struct riis_surface_info {
                                 valve; at most tolerance * half_thickness. 0 for a surface from arrays */
   int64_t largest_leaflet_id; /* of the triangles */
   double offset;             /* of the band, in half thicknesses */
+  double contact_depth;      /* deeper crossings of triangles are no contacts of leaflets (docs/theory/crossings.md) */
+  int32_t skirt_leaflet_id;  /* the leaflet_id of the skirt; -1: no skirt */
+  int32_t housing_leaflet_id; /* bileaflet: RIIS_LEAFLET_HOUSING; -1 for other surfaces */
 } riis_surface_info;
 /* Gives the size of the surface, and the seconds that it took. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,

@@ -19,9 +19,9 @@ typedef struct riis_valve riis_valve;
 
 /* Makes a valve with the default parameter values. The defaults of "aortic" and "mitral" are the paper's.
  *   kind  one of these (docs/theory.md); any other is RIIS_INVALID_PARAMETER:
- *         "aortic", the paper's three cusps
- *         "mitral", two leaflets
- *         "coapting", three equal cusps with a zone of coaptation
+ *         "aortic" and "mitral", the paper's three cusps and two leaflets
+ *         "coapting", "bicuspid" and "quadricuspid", three, two and four cusps with a zone of coaptation
+ *         "tricuspid" and "mitral_coapting", three and two leaflets of an annulus, with a zone of coaptation
  *         "trileaflet", three equal cusps that close in straight lines
  *         "bileaflet", a mechanical prosthesis */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
@@ -31,8 +31,8 @@ RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy)
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by its name in the paper. riis_surface_create checks whether all values fit together.
- *   name      such as "root_radius". A name such as "right.leaflet_angle" means one cusp ("right", "left",
- *             "non_coronary"), and "leaflet_angle" means all three
+ *   name      such as "root_radius", or "right.leaflet_angle", "commissure_0.fusion" and "bump_0.open" of one part. The
+ *             name "leaflet_angle" means this parameter of all parts, unless the valve itself has such a parameter
  *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
  *   values    (n_values), within the parameter's range
  * Two parameters change the whole valve:
@@ -55,11 +55,11 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
 
 /* Sizes by a surgeon's names, and sizes that follow from other sizes (docs/theory/sizes.md). Three names
  * stand for parameters. If a kind lacks such a size, it refuses the name and says why:
- *   annulus           diameter: 2 root_radius (aortic, coapting, trileaflet), 2 radius (bileaflet)
+ *   annulus           diameter: 2 root_radius (kinds with cusps), 2 radius (bileaflet)
  *   stj               diameter at the commissures: 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius
- *                     (coapting)
- *   effective_height  height of the free edges above the annulus: leaflet_height (aortic, trileaflet). The
- *                     coapting valve has it as a parameter, for the middle of the edges
+ *                     (coapting, bicuspid, quadricuspid)
+ *   effective_height  height of the free edges above the annulus: leaflet_height (aortic, trileaflet). The other
+ *                     kinds with cusps have it as a parameter, for the middle of the edges
  * Some parameters have a rule: until they are set, they follow from other parameters. The order of calls does not matter.
  * riis_valve_get gives their present values. Copies and open states keep which parameters were set. */
 
@@ -78,7 +78,7 @@ RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name
  *         has the same curves, sides and degrees (1 may stand for 2). Both bileaflet valves have a ring, or neither has one
  * A second call replaces the state. No call removes it. Control points are blended linearly between the states
  * (docs/theory/openings.md). A bileaflet valve blends lengths and angles instead. The middle of a coapting cusp's free edge
- * hangs as deep as the edge's length requires. Mitral, trileaflet and coapting valves take the closed shape from their
+ * hangs as deep as the edge's length requires. All kinds but aortic and bileaflet take the closed shape from their
  * own parameters, and the open shape from the parameters of `open`.
  * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);

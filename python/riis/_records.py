@@ -43,6 +43,9 @@ class SurfaceInfo(NamedTuple):
     error_bound: float  #: distances to the triangles and to the smooth valve differ by at most this length
     largest_leaflet_id: int  #: of the triangles
     offset: float  #: of the band, in half thicknesses
+    contact_depth: float  #: deeper crossings of triangles are no contacts of leaflets
+    skirt_leaflet_id: int  #: -1 without a skirt
+    housing_leaflet_id: int  #: of a bileaflet valve; -1 for other surfaces
 
 
 class Triangles(NamedTuple):

@@ -167,7 +167,8 @@ nb::object info(Surface &surface) {
   return record("SurfaceInfo")(found.n_vertices, found.n_triangles, found.n_zero_area, found.half_thickness, found.area,
                                array_of(found.lower, "float64"), array_of(found.upper, "float64"),
                                found.seconds_triangles, found.seconds_scene, found.error_bound,
-                               found.largest_leaflet_id, found.offset);
+                               found.largest_leaflet_id, found.offset, found.contact_depth, found.skirt_leaflet_id,
+                               found.housing_leaflet_id);
 }
 
 riis_triangles triangles_of(const Surface &surface) {

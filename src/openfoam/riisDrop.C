@@ -279,7 +279,9 @@ void riisValve::estimateDrop() {
   const boolList isEnd = endsOf(mesh_, K, side);
   riis_triangles triangles;
   check(riis_surface_get_triangles(surface_.get(), &triangles, sizeof triangles));
-  const int32_t housing = kind_ == "bileaflet" ? RIIS_LEAFLET_HOUSING : -1;
+  riis_surface_info info;
+  check(riis_surface_get_info(surface_.get(), &info, sizeof info));
+  const int32_t housing = info.housing_leaflet_id;
   scalar area = returnReduce(areaInMesh(mesh_, triangles, halfThickness_, housing), sumOp<scalar>());
   if (placement_.offset != 0) {
     // Blood passes the middle of the band, which has another area than the leaflets. The library's ideal leak has this area.

@@ -102,7 +102,7 @@ TEST(test_structs) {
   FIELD(riis_keyframe_arrays, interpolation, 48, 4);
   FIELD(riis_keyframe_arrays, real_bits, 52, 4);
 
-  SIZE(riis_surface_info, 128);
+  SIZE(riis_surface_info, 144);
   FIELD(riis_surface_info, n_vertices, 0, 8);
   FIELD(riis_surface_info, n_triangles, 8, 8);
   FIELD(riis_surface_info, n_zero_area, 16, 8);
@@ -115,6 +115,9 @@ TEST(test_structs) {
   FIELD(riis_surface_info, error_bound, 104, 8);
   FIELD(riis_surface_info, largest_leaflet_id, 112, 8);
   FIELD(riis_surface_info, offset, 120, 8);
+  FIELD(riis_surface_info, contact_depth, 128, 8);
+  FIELD(riis_surface_info, skirt_leaflet_id, 136, 4);
+  FIELD(riis_surface_info, housing_leaflet_id, 140, 4);
 
   SIZE(riis_attachment, 40);
   FIELD(riis_attachment, n_edges, 0, 8);
@@ -607,6 +610,7 @@ TEST(test_constants) {
   assert_int_equal(RIIS_LEAFLET_NON_CORONARY, 2);
   assert_int_equal(RIIS_LEAFLET_ANTERIOR, 0);
   assert_int_equal(RIIS_LEAFLET_POSTERIOR, 1);
+  assert_int_equal(RIIS_LEAFLET_SEPTAL, 2);
   assert_int_equal(RIIS_LEAFLET_POSITIVE, 0);
   assert_int_equal(RIIS_LEAFLET_NEGATIVE, 1);
   assert_int_equal(RIIS_LEAFLET_HOUSING, 2);

@@ -233,7 +233,7 @@ class Judged(unittest.TestCase):
         # The last row of the lower patch is the first row of the upper patch.
         for found, right in zip(numbers[3 * 72 : 3 * 81], numbers[3 * 81 : 3 * 90]):
             self.assertAlmostEqual(found, right, delta=1e-12)
-        for words, message in ((["tricuspid", "1"], "'tricuspid' is not a kind of valve"), (["coapting"], "usage")):
+        for words, message in ((["pulmonary", "1"], "'pulmonary' is not a kind of valve"), (["coapting"], "usage")):
             run = subprocess.run([program, *words], capture_output=True, text=True, check=False)
             self.assertIn(message, run.stderr)
             self.assertNotEqual(run.returncode, 0)

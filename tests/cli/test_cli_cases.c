@@ -300,7 +300,7 @@ TEST(test_refused_cases) {
                       "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"name\": \"a\", \"valve\": \"mitral\"}", "");
   expect_case_refused("name: \"a b\" must be 1 to 64 letters", "{\"name\": \"a b\", \"valve\": \"mitral\"}", "");
   expect_case_refused("valve: either it or \"surface\" must be given", "{\"name\": \"a\"}", "");
-  expect_case_refused("valve 0: 'tricuspid' is not a kind of valve", "{\"valve\": \"tricuspid\"}", "");
+  expect_case_refused("valve 0: 'pulmonary' is not a kind of valve", "{\"valve\": \"pulmonary\"}", "");
   expect_case_refused("opening: 1.5 is not from 0 to 1", "{\"valve\": \"mitral\", \"opening\": 1.5}", "");
   expect_case_refused("opening: a valve that moves needs times",
                       "{\"valve\": \"mitral\", \"opening\": {\"times\": [0, 1], \"openings\": [0, 1]}}", "");

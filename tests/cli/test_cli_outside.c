@@ -177,11 +177,12 @@ TEST(test_skirts_and_housings_do_not_count) {
   /* The leaflets end at x = 0.9, and skirt and housing reach beyond the box everywhere. */
   const double lower[3] = {-3, -1.2, -3}, upper[3] = {0.9, 3, 3}, size[3] = {3.9, 4.2, 6};
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 31, lower, upper, 0), 1);
-  static const char *const kinds[] = {"coapting", "mitral", "bileaflet"};
-  for (int i = 0; i < 3; ++i) {
-    const char *const skirt = i < 2 ? "1" : NULL;
+  static const char *const kinds[] = {"coapting", "quadricuspid", "mitral", "bileaflet"};
+  static const int n_leaflets[] = {3, 4, 2, 2};
+  for (int i = 0; i < 4; ++i) {
+    const char *const skirt = i < 3 ? "1" : NULL;
     char *json = MARK_BOX("--valve", kinds[i], "--opening", "0", "--set", skirt ? "skirt_length=1" : "ring_height=0.6");
-    const double expected = random_share(kinds[i], skirt, i == 0 ? 3 : 2, lower, size);
+    const double expected = random_share(kinds[i], skirt, n_leaflets[i], lower, size);
     CHECK_NEAR(json_number(strstr(json, "\"outside\""), "share"), expected, 0.005);
     assert_true(expected > 0.01);
     assert_true((strstr(program_outside, "stands through the wall") != NULL) == (expected > 0.02));

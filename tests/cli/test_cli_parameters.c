@@ -255,6 +255,52 @@ TEST(test_table) {
   assert_non_null(strstr(program_out, " 0.5 "));
 }
 
+/* One line stands for the parts that are like the part before them. */
+TEST(test_table_of_parts) {
+  RUN_FINE("params", "--describe", "--valve", "quadricuspid");
+  assert_non_null(strstr(program_out, "\ncommissure_0.fusion "));
+  assert_non_null(
+      strstr(program_out, "\ncommissure_1 to commissure_3 have the same parameters and values as commissure_0\n"));
+  assert_non_null(strstr(program_out, "\ncusp_1 to cusp_3 have the same parameters and values as cusp_0\n"));
+  assert_non_null(strstr(program_out, "\nbump_1 to bump_5 have the same parameters and values as bump_0\n"));
+  assert_null(strstr(program_out, "\nbump_1.open "));
+  RUN_FINE("params", "--describe", "--valve", "bicuspid", "--set", "bump_2.leaflet=1", "--set", "cusp_1.sector=200");
+  assert_non_null(strstr(program_out, "\nbump_1 has the same parameters and values as bump_0\n"));
+  assert_non_null(strstr(program_out, "\nbump_2.leaflet "));
+  assert_non_null(strstr(program_out, "\nbump_3.leaflet "));
+  assert_non_null(strstr(program_out, "\nbump_4 to bump_5 have the same parameters and values as bump_3\n"));
+  assert_non_null(strstr(program_out, "\ncusp_1.sector "));
+}
+
+/* A file has parts as objects, and so has the template. Bumps at no place but the first are left out. */
+TEST(test_parts_in_files) {
+  scratch_write_text("p.json",
+                     "{\"cusp_0\": {\"sector\": 140}, \"commissure_1.fusion\": 0.2, \"effective_height\": 0.95,"
+                     " \"cusp_1\": {\"effective_height\": 0.9}, \"bump_2\": {\"leaflet\": 1, \"open\": 0.3}}");
+  RUN_FINE("params", "--valve", "coapting", "--params", scratch_path("p.json"));
+  assert_true(in_cusp(program_out, "cusp_0", "sector") == 140);
+  assert_true(in_cusp(program_out, "cusp_0", "effective_height") == 0.95);
+  assert_true(in_cusp(program_out, "cusp_1", "effective_height") == 0.9);
+  assert_true(in_cusp(program_out, "commissure_1", "fusion") == 0.2);
+  assert_true(in_cusp(program_out, "bump_0", "leaflet") == -1);
+  assert_true(in_cusp(program_out, "bump_2", "open") == 0.3);
+  assert_null(strstr(program_out, "\"bump_1\""));
+  static char printed[longest_output];
+  strcpy(printed, program_out);
+  scratch_write_text("p.json", printed);
+  RUN_FINE("params", "--valve", "coapting", "--params", scratch_path("p.json"));
+  assert_string_equal(program_out, printed);
+  scratch_write_text("p.json", "{\"bump_6\": {\"leaflet\": 1}}");
+  RUN_REFUSED(1, "p.json: bump_6 is not a part of the valve with parameters of its own", "params", "--valve",
+              "coapting", "--params", scratch_path("p.json"));
+  RUN_REFUSED(1, "'bump_0.open' is not a parameter of the trileaflet valve: only bicuspid", "params", "--valve",
+              "trileaflet", "--set", "bump_0.open=0.5");
+  scratch_write_text("case.json",
+                     "{\"mesh\": \"in.vtu\", \"valves\": [{\"name\": \"a\", \"valve\": \"bicuspid\","
+                     " \"parameters\": {\"cusp_0\": {\"sector\": 200}, \"bump_0.commissure\": 1}}]}");
+  RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("case.vtu"));
+}
+
 /* A refusal of an unknown name suggests a similar name. */
 TEST(test_near_names) {
   RUN_REFUSED(1, "'leaflet_angel' is not a parameter of the aortic valve; did you mean 'leaflet_angle'?", "params",

@@ -477,7 +477,7 @@ TEST(fits_are_refused_in_words_of_the_file) {
   RUN_REFUSED(1, "a.json: flow is at 180 degrees", "place", path, "--valve", "trileaflet", "--flow", "-1,0,0");
   RUN_REFUSED(1, "\"nadir_right\" has a role that the mitral valve lacks", "place", path, "--valve", "mitral");
   RUN_REFUSED(2, "--valve is needed, because", "place", path);
-  RUN_REFUSED(1, "'tricuspid' is not a kind of valve", "place", path, "--valve", "tricuspid");
+  RUN_REFUSED(1, "'pulmonary' is not a kind of valve", "place", path, "--valve", "pulmonary");
   RUN_REFUSED(2, "is a file; landmarks place a kind of valve", "place", path, "--valve", "own.json");
   RUN_REFUSED(2, "must end in .json", "place", path, "--valve", "trileaflet", "--output", scratch_path("placed.txt"));
   RUN_REFUSED(2, "cannot both be on standard output", "place", path, "--valve", "trileaflet", "--output", "-", "--c",

@@ -436,6 +436,9 @@ TEST(test_skirts_and_files) {
   RUN_STATES("--valve", "trileaflet", "--skirt", "0.1", "--coaptation", "--count", "2");
   CHECK_NEAR(cell(0, "contact_edge"), 7.5, 1e-9);
   assert_true(cell(1, "contact_edge") < 2 && cell(0, "skirt_area") > 0.5 && cell(0, "contact_area") > 0.1);
+  /* Behind four cusps, the skirt has another id. */
+  RUN_STATES("--valve", "quadricuspid", "--skirt", "0.1", "--count", "2");
+  assert_true(cell(0, "skirt_area") > 0.5 && cell(0, "cusp_3_area") > 0.5 && cell(0, "cusp_3_edge") > 1);
 
   /* Two frames of a mitral valve. */
   for (int frame = 0; frame < 2; ++frame) {
@@ -512,7 +515,7 @@ TEST(test_refusals) {
   RUN_REFUSED(1, "no/states.csv: cannot be written: the folder", "states", scratch_path("no/states.csv"));
   RUN_REFUSED(1, "is a directory", "states", scratch_path("."));
   RUN_REFUSED(1, "times root_radius, which is 0.001", "states", csv, "--set", "root_radius=0.001");
-  RUN_REFUSED(1, "is not a kind of valve", "states", csv, "--valve", "tricuspid");
+  RUN_REFUSED(1, "is not a kind of valve", "states", csv, "--valve", "pulmonary");
   assert_false(scratch_exists("no.csv"));
 }
 

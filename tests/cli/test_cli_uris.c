@@ -141,6 +141,7 @@ static const struct {
 } kinds[] = {{"aortic", {"right", "left", "non_coronary"}, "root_radius=1.4", 3},
              {"trileaflet", {"right", "left", "non_coronary"}, "leaflet_height=1.15", 3},
              {"coapting", {"right", "left", "non_coronary"}, "effective_height=0.95", 3},
+             {"bicuspid", {"cusp_0", "cusp_1"}, "root_radius=1.35", 2},
              {"mitral", {"anterior", "posterior"}, "anterior_length=2.2", 2},
              {"bileaflet", {"positive", "negative", "housing"}, "ring_height=0.6", 3}};
 enum { n_kinds = sizeof kinds / sizeof kinds[0] };

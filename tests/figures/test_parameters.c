@@ -237,7 +237,7 @@ TEST(test_refused_arguments) {
   free(printed);
   assert_int_equal(system("'" RIIS_FIGURES_PROGRAM "' --curves 2>/dev/null"), 2 << 8);
   assert_int_equal(system("'" RIIS_PYTHON "' -B '" RIIS_DRAW_PARAMETERS "' 2>/dev/null"), 2 << 8);
-  assert_int_equal(draw("curves.json", "tricuspid"), 2);
+  assert_int_equal(draw("curves.json", "pulmonary"), 2);
 }
 
 static int teardown(void **state) {

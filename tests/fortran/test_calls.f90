@@ -67,8 +67,8 @@ contains
     integer(c_int64_t), pointer :: ids(:)
     real(c_double), pointer :: distance(:)
     integer(riis_status) :: status
-    status = riis_valve_create(riis_c_string('tricuspid'), valve)
-    call check_refused(status, RIIS_INVALID_PARAMETER, 'tricuspid')
+    status = riis_valve_create(riis_c_string('pulmonary'), valve)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'pulmonary')
     call check(.not. c_associated(valve), 'no valve is made by a call that is refused')
     call check_ok(riis_valve_create(riis_c_string('aortic'), valve), 'create a valve')
     call check_ok(riis_surface_create(valve, surface=surface), 'create a surface without options')

@@ -48,8 +48,8 @@ C     results have to agree.
 C     Texts.
       CALL RIISF_VERSION(TEXT)
       IF (INDEX(TEXT, '.') .EQ. 0) CALL FAILED('the version')
-      CALL RIISF_VALVE_CREATE('tricuspid', VALVE, STAT)
-      CALL WANT(STAT, RIIS_INVALID_PARAMETER, 'tricuspid')
+      CALL RIISF_VALVE_CREATE('pulmonary', VALVE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_PARAMETER, 'pulmonary')
       IF (VALVE .NE. 0) CALL FAILED('a refused valve')
       CALL RIISF_STATUS_NAME(STAT, NAME)
       IF (NAME .NE. 'RIIS_INVALID_PARAMETER') CALL FAILED('its name')

@@ -101,8 +101,8 @@ contains
     integer(int64) :: i, n
     logical :: found
 
-    call valve%create('tricuspid', status)
-    call check_refused(status, RIIS_INVALID_PARAMETER, 'tricuspid')
+    call valve%create('pulmonary', status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'pulmonary')
     call check(.not. valve%is_created(), 'a refused valve is empty')
     call valve%create('aortic    ', status)
     call check_ok(status, 'a name with trailing blanks')

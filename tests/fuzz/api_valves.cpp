@@ -88,8 +88,9 @@ void put(ValveSlot &slot, riis_valve *valve, double size) {
 }  // namespace
 
 void make_valve(Input &in, State &state) {
-  static const char *const kinds[] = {"aortic",   "mitral", "trileaflet", "coapting", "mitral",
-                                      "coapting", "aortic", "tricuspid",  "",         nullptr};
+  static const char *const kinds[] = {"aortic",          "mitral",    "trileaflet", "coapting",     "mitral",
+                                      "coapting",        "aortic",    "bicuspid",   "quadricuspid", "tricuspid",
+                                      "mitral_coapting", "pulmonary", "",           nullptr};
   ValveSlot &slot = slot_of(in, state);
   const char *kind = in.one_of(kinds);
   put(slot, made_by<riis_valve>(in, [&](riis_valve **valve) { return riis_valve_create(kind, valve); }), 1);

@@ -178,7 +178,7 @@ TEST(swapped_handles_are_refused) {
 TEST(parameters_are_refused_by_name) {
   riis_valve *valve = NULL;
   double values[3] = {0, 0, NAN};
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'tricuspid'|aortic", riis_valve_create("tricuspid", &valve));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'pulmonary'|aortic", riis_valve_create("pulmonary", &valve));
   assert_null(valve);
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "''", riis_valve_create("", &valve));
   valve = new_valve("aortic");

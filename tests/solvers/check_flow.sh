@@ -96,7 +96,7 @@ refuses "the restart file short.bin ends too early" "$flow" cells=16 restart="'s
 refuses "Cannot open file 'nothing.bin'" "$flow" cells=16 restart="'nothing.bin'"
 refuses "flow: step 1, .001000 s: the valve leaves the box: it goes from" "$flow" cells=16 place=0,0,0.03 out="'again'"
 refuses "flow: step 3, .003000 s: RIIS_INVALID_ARGUMENT: pressure_difference is nan" "$checks" nan
-refuses "RIIS_INVALID_PARAMETER: 'tricuspid' is not a kind of valve" "$flow" cells=16 kind="'tricuspid'"
+refuses "RIIS_INVALID_PARAMETER: 'pulmonary' is not a kind of valve" "$flow" cells=16 kind="'pulmonary'"
 refuses "options: Cannot match namelist object name cels" "$flow" cels=16
 refuses "options: cells must be at least 8" "$flow" cells=4
 refuses "options: end_time, longest_step and eps_in_cells must be positive" "$flow" end_time=0

@@ -214,6 +214,31 @@ TEST(refusals_name_the_argument) {
   assert_int_equal(info_of(from_arrays).largest_leaflet_id, 0);
 }
 
+/* A surface names its skirt and its housing. A skirt has the id behind the leaflets', at least 3. Depths of contacts are those
+ * of docs/theory/crossings.md. */
+TEST(info_names_skirt_and_housing) {
+  static const struct {
+    const char *kind;
+    int n_leaflets, housing, has_exact_contacts;
+  } kinds[] = {{"aortic", 3, -1, 1},       {"trileaflet", 3, -1, 1}, {"coapting", 3, -1, 1}, {"bicuspid", 2, -1, 1},
+               {"quadricuspid", 4, -1, 1}, {"mitral", 2, -1, 0},     {"bileaflet", 2, 2, 0}};
+  for (size_t i = 0; i < sizeof kinds / sizeof *kinds; ++i) {
+    riis_valve *valve = valve_of(kinds[i].kind, 0.5);
+    riis_surface *surface = new_surface(valve, NULL);
+    const riis_surface_info info = info_of(surface);
+    assert_int_equal(info.skirt_leaflet_id, -1);
+    assert_int_equal(info.housing_leaflet_id, kinds[i].housing);
+    const double depth = kinds[i].has_exact_contacts ? 1e-3 * info.half_thickness : 2 * info.error_bound;
+    assert_true(info.contact_depth == depth);
+    if (kinds[i].housing >= 0) continue;
+    CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", 0.3));
+    CHECK_OK(riis_surface_update(surface, valve, NULL));
+    const int skirt = kinds[i].n_leaflets > 3 ? kinds[i].n_leaflets : 3;
+    assert_int_equal(info_of(surface).skirt_leaflet_id, skirt);
+    assert_int_equal(info_of(surface).largest_leaflet_id, skirt);
+  }
+}
+
 int main(void) {
   rng = random_start("test_attachment");
   return run_cases(NULL, NULL);

@@ -437,8 +437,8 @@ TEST(refusals) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the kind aortic, the valve of the kind mitral",
                 riis_valve_set_open_state(valve, aortic));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "open is NULL", riis_valve_set_open_state(aortic, NULL));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'tricuspid'|aortic, bileaflet, coapting, mitral, trileaflet",
-                riis_valve_create("tricuspid", &aortic));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'pulmonary'|there are: aortic, bi|mitral|, trileaflet",
+                riis_valve_create("pulmonary", &aortic));
   /* The message names the state that is wrong. */
   riis_valve *open = mitral_valve(1);
   CHECK_OK(riis_valve_set_scalar(open, "anterior_length", 20));

@@ -83,7 +83,7 @@ static int64_t check_strip(const riis_surface *surface, int64_t n_given, double 
     if (all.patch_id[t] != 1) continue;
     const int64_t *id = all.vertex_id + 3 * t;
     assert_int_equal(all.triangle_id[t], all.triangle_id[all.n_triangles - 1] - (all.n_triangles - 1 - t));
-    assert_int_equal(all.leaflet_id[t], info_of(surface).largest_leaflet_id);
+    assert_int_equal(all.leaflet_id[t], info_of(surface).skirt_leaflet_id);
     const int64_t inner = n % 2 ? id[0] : id[1], outer = n % 2 ? id[1] : id[2];
     assert_true(inner < n_given && outer >= n_given);
     /* The second triangle begins at B, and its outer vertex lies beyond A, the second vertex of the first triangle. */

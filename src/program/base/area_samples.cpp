@@ -51,13 +51,15 @@ void for_each_part(std::int64_t n, Places &places, const Visit &visit) {
 
 }  // namespace
 
-AreaSamples area_samples(const riis_surface *surface, std::int32_t n_leaflets) {
+AreaSamples area_samples(const riis_surface *surface) {
+  const riis_surface_info info = info_of(surface);
   const riis_triangles triangles = triangles_of(surface);
   const auto corner = [&](std::int64_t face, int k) { return triangles.xyz + 3 * triangles.vertex_id[3 * face + k]; };
   std::vector<double> areas;
   double sum = 0;
   for (std::int64_t face = 0; face < triangles.n_triangles; ++face) {
-    const bool is_leaflet = triangles.leaflet_id[face] < n_leaflets;
+    const std::int32_t id = triangles.leaflet_id[face];
+    const bool is_leaflet = id != info.skirt_leaflet_id && id != info.housing_leaflet_id;
     areas.push_back(is_leaflet ? area_of(corner(face, 0), corner(face, 1), corner(face, 2)) : 0);
     sum += areas.back();
   }

@@ -18,7 +18,7 @@ struct AreaSamples {
   std::vector<std::int32_t> leaflet;
 };
 
-// Takes only triangles whose leaflet is below n_leaflets. Each triangle is cut into equal ones, with a point in each.
-AreaSamples area_samples(const riis_surface *surface, std::int32_t n_leaflets);
+// Leaves out the skirt and the housing. Each triangle is cut into equal ones, with a point in each.
+AreaSamples area_samples(const riis_surface *surface);
 
 }  // namespace riis::program

@@ -90,7 +90,8 @@ CLI::Option *declare_unit_of(Command &command, const char *name, const char *hel
 void declare_valve(Command &command, ValveOptions &options) {
   command.group("Valve");
   command.text("--valve", "KIND|FILE.json",
-               "aortic (default), mitral, coapting, trileaflet, bileaflet, or a file of patches", options.valve);
+               "aortic (default), coapting, mitral or another kind (riis help valves), or a file of patches",
+               options.valve);
   command.text("--params,--params-closed", "FILE.json", "Parameters of the valve, or of its closed state",
                options.params);
   declare_settings(command, "Set one parameter to a number or X,Y,Z; may be repeated", options);

@@ -117,19 +117,41 @@ Pa s and --drop in Pa. A number may also have a unit: --resistance '1e5 g/(cm s)
 for cm and g/(mm3 s) for mm, or in the unit of --k-unit. The file and the report name its unit. If the unit of the mesh is not
 known, plain numbers and K are in the units of the mesh. OpenFOAM's fields of K are divided by --density.
 )"},
+    {"valves", "the kinds of valves, and their diseases",
+     R"(
+aortic           the paper's three cusps, which do not close
+trileaflet       three equal cusps that close in straight lines
+coapting         three cusps with a zone of coaptation
+bicuspid         two such cusps, and quadricuspid four
+mitral           the paper's two leaflets
+mitral_coapting  two leaflets with a zone of coaptation
+tricuspid        three leaflets with a zone of coaptation: anterior, posterior, septal
+bileaflet        a mechanical prosthesis
+FILE.json        a valve of your own (riis help patches)
+Cusps and commissures have sizes of their own: cusp_0.sector, cusp_0.effective_height, commissure_0.height. Sectors are angles,
+and are scaled to a sum of 360 degrees. commissure_0.fusion is the share of the meeting line over which two cusps are one.
+Cusps, leaflets and commissures count from 0, counter-clockwise seen from +z. Commissure 0 is between the leaflets 0 and 1.
+A bump changes one place of a free edge. bump_0.leaflet and bump_0.u choose the place, or bump_0.commissure chooses a
+commissure. u is 0 at the commissure before the leaflet, and 1 at that behind it. bump_0.closed is how far the place is open in
+the closed valve, and bump_0.open how far it is open in the open valve, from 0 to 1. bump_0.width is the bump's reach as a share
+of the edge. bump_0.lift lifts the closed place of a leaflet of mitral_coapting and tricuspid. A valve has six bumps, bump_0 to
+bump_5. Kinds with sectors or a zone of coaptation have them.
+riis from-area --solve bump_0.closed finds the bump that makes a gap of a given area (riis help areas). The band closes gaps
+narrower than two half thicknesses, or than 2 (1 - O) with --offset O. A line on stderr says so.
+)"},
     {"parameters", "names and files of parameters",
      R"(
-A name with a cusp (right.leaflet_angle) is a parameter of that cusp. A name without a cusp (leaflet_angle) stands for all
-cusps. A JSON file sets the names without a cusp first, in any order of the file. Then --set changes values, from left to
-right. --opening comes last, and cannot be combined with --set opening.
+A name with a part (right.leaflet_angle, bump_0.open) is a parameter of that part. A name without a part (leaflet_angle) is a
+parameter of the valve. If the valve has no such parameter, the name stands for that of all parts. A JSON file sets the names
+without a part first, in any order of the file. A part may be an object: {"cusp_0": {"sector": 140}, "bump_0": {"leaflet": 1}}.
+Then --set changes values, from left to right. --opening comes last, and cannot be combined with --set opening.
 
 annulus and stj are diameters, and effective_height is the height of the free edges above the annulus. These names set sizes of
-aortic, coapting and trileaflet valves, and annulus also that of a bileaflet valve. riis params --describe shows which parameters
-they set.
+valves with cusps, and annulus also that of a bileaflet valve. riis params --describe shows which parameters they set.
 
-Some parameters follow from others unless they are set: five sizes each of the trileaflet and the coapting valve, and two
-rotations of the aortic valve. riis params --describe prints these rules after "unless set". riis params prints the present
-values of all parameters.
+Some parameters follow from others unless they are set. riis params --describe prints these rules after "unless set", and one
+line for parts that are alike. riis params prints the present values of all parameters. Bumps without a place do nothing, and
+only bump_0 of them is printed.
 After such a file was read, all parameters are set, and none follows.
 )"},
     {"opening", "closed and open states",
@@ -137,7 +159,7 @@ After such a file was read, all parameters are set, and none follows.
 The parameters of a kind of valve make it closed and open. By default the mitral valve has opening 1, and the others have
 opening 0. With --params-open, the other options give the closed state. That file's parameters and the defaults give the open
 state. An opening in that file has no effect. The paper's aortic valve, at opening 0 with the default parameters, is not
-closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. --valve coapting and --valve trileaflet close.
+closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. All other kinds close.
 )"},
     {"skirt", "a strip that closes the gap to the wall",
      R"(
@@ -305,13 +327,15 @@ opening 0.
 )"},
     {"areas", "how riis from-area finds an opening or a size",
      R"(
-riis from-area finds the opening at which the orifice has an area, such as an area from echocardiography. Areas are measured as
-in riis states. --effective takes them as effective areas, as in its column effective_area. A plain number is in the mesh's unit
-squared; '2.5 cm2' has a unit. --solve scale finds the factor for --scale, and --solve NAME finds a parameter that is one
-number. The valve is then open, or at --opening. The area is first measured at 33 openings or sizes, from --from to --to: by
-default from 0 to 1 for the opening, a tenth to ten times the present scale, and half to twice a parameter. An area out of
-reach is refused, and the message has the range. If the area grows in one part of the range and falls in another, a line on
-stderr says where it turns. The least opening is taken, or the size nearest to the present one.
+riis from-area finds the opening at which the orifice has an area, such as an area from echocardiography. Areas are measured as in
+riis states. --effective takes them as effective areas, as in its column effective_area. A plain number is in the mesh's unit
+squared; '2.5 cm2' has a unit. --solve scale finds the factor for --scale, and --solve NAME finds a parameter that is one number,
+such as cusp_0.open_radius_ratio, commissure_0.fusion or bump_0.open. The valve is then open, or at --opening. With --opening 0
+the area is the gap of the closed valve, which bump_0.closed changes. The area is first measured at 33 openings or sizes, from
+--from to --to: by default from 0 to 1 for the opening, a tenth to ten times the present scale, and half to twice a parameter. A
+share that is 0 is searched over its whole range. An area out of reach is refused, and the message has the range. If the area
+grows in one part of the range and falls in another, a line on stderr says where it turns. The least opening is taken, or the size
+nearest to the present one.
 --areas FILE has the columns time and area. --output writes a file of openings for --cycle, with the columns time and opening.
 The area 0 stands for the closed valve. With --period the first and the last area must be equal if they are a period apart.
 Adapted triangles are the default, and with them the area jumps by up to 1e-4 of the largest area. --triangulation fixed has no

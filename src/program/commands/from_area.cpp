@@ -13,6 +13,7 @@
 #include "program/commands/commands.hpp"
 #include "program/input/opening_law.hpp"
 #include "program/input/valve_source.hpp"
+#include "program/mark/bridged_gap.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/outputs.hpp"
 
@@ -68,13 +69,29 @@ class Search {
 
   const riis_valve *valve() const { return valve_; }
 
+  // Warns if the band closes the gap of a closed valve whose size was found. Without a half thickness, the band is not known.
+  void judge_gap(const Solution &found) const {
+    const bool is_size = options_.solve != "opening" && options_.solve != "scale";
+    if (!is_size || !options_.has_half_thickness || opening_of(valve_) != 0) return;
+    const Valve sized = copy_of(valve_);
+    check(riis_valve_set_scalar(sized, options_.solve.c_str(), found.values[0]));
+    warn_of_bridged_gap(options_, sized, "");
+  }
+
   Solution solve(const Areas &wanted) const {
     Solution made;
     made.values.resize(wanted.areas.size());
     made.reached.resize(wanted.areas.size());
     const riis_status status = call(wanted.areas, &made);
     if (status == RIIS_INVALID_ARGUMENT && !options_.areas.empty()) refuse_row(wanted, riis_last_error());
-    check(status, subject_of(options_));
+    try {
+      check(status, subject_of(options_));
+    } catch (Refusal &refusal) {
+      const bool is_of_closed =
+          refusal.text.find(" does not change the ") != std::string::npos && opening_of(valve_) == 1;
+      if (is_of_closed) refusal.text += "; the valve is open: --opening 0 closes it";
+      throw;
+    }
     return made;
   }
 
@@ -192,6 +209,7 @@ void run_from_area(const AreaOptions &options) {
   }();
   warn_of_turns(options, found.range);
   warn_of_jumps(wanted, found);
+  search.judge_gap(found);
   if (!options.areas.empty()) return write_cycle(options, wanted, found);
   if (!options.quiet) write_text("-", text_of_size(options, search.valve(), found));
 }

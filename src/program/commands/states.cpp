@@ -85,6 +85,7 @@ class Measured {
   }
 
   const riis_valve *valve() const { return valve_; }  // null for a surface from a file
+  const riis_surface *surface() const { return surface_; }
   std::string why_closed() { return valve_ ? program::why_closed(valve_, own_frame(options_)) : ""; }
 
   // Returns the openings or the times of the table.
@@ -124,13 +125,6 @@ class Measured {
   Surface wall_;  // null unless it bounds the orifice of a surface from a file
 };
 
-// Tells whether a leaflet is the valve's skirt, which has the largest id.
-bool is_skirt(const StatesOptions &options, const riis_leaflet &leaflet, const std::vector<riis_leaflet> &leaflets) {
-  if (options.surface.empty() && options.valve == "bileaflet") return false;
-  if (options.surface.empty() && !is_valve_file(options.valve)) return leaflet.leaflet_id == RIIS_LEAFLET_SKIRT;
-  return options.skirt && &leaflet == &leaflets.back();
-}
-
 State state_at(Measured &valve, double place, bool has_contacts) {
   valve.move_to(place);
   State state{place, valve.leaflets(), valve.orifice()};
@@ -143,20 +137,19 @@ State state_at(Measured &valve, double place, bool has_contacts) {
 States frame_of(const StatesOptions &options, Measured &valve) {
   const bool is_valve = valve.valve() != nullptr;
   if (is_valve) valve.move_to(0);
-  const std::vector<riis_leaflet> leaflets = valve.leaflets();
+  const riis_surface_info info = info_of(valve.surface());
   const riis_orifice orifice = valve.orifice();
   States states{{}, {}, "", "", orifice.outline_area, "", {}, ""};
   states.is_of_file = !is_valve;
-  for (const riis_leaflet &leaflet : leaflets) {
-    const bool is_of_skirt = is_skirt(options, leaflet, leaflets);
+  for (const riis_leaflet &leaflet : valve.leaflets()) {
     states.ids.push_back(leaflet.leaflet_id);
-    states.names.push_back(is_of_skirt ? "skirt" : name_of_leaflet(options, leaflet.leaflet_id));
-    if (leaflet.free_edge == 0 && !is_of_skirt)
+    states.names.push_back(name_of_leaflet(options, info, leaflet.leaflet_id));
+    if (leaflet.free_edge == 0 && leaflet.leaflet_id != info.skirt_leaflet_id)
       states.why_no_edges =
           is_valve ? "a leaflet has no side v = 1 on its rim" : "a leaflet has no open edge besides the outline";
   }
   // A rigid leaflet only turns, so its lengths do not change.
-  if (is_valve && options.valve == "bileaflet") states.why_no_edges = "the leaflets are rigid";
+  if (info.housing_leaflet_id >= 0) states.why_no_edges = "the leaflets are rigid";
   if (orifice.outline == RIIS_OUTLINE_DISC) states.disc = "the disc of radius " + shown(orifice.radius);
   if (orifice.outline == RIIS_OUTLINE_ATTACHMENT) states.disc = "the outline of the attachment";
   if (orifice.outline == RIIS_OUTLINE_BOUNDARY) states.disc = "the outline of the open edges";

@@ -27,7 +27,7 @@ std::vector<double> numbers_of(const std::string &path, const std::string &name,
   return numbers;
 }
 
-bool is_cusp(const riis_valve *valve, const std::string &name) {
+bool is_part(const riis_valve *valve, const std::string &name) {
   const std::vector<riis_parameter> all = all_parameters(valve);
   return std::any_of(all.begin(), all.end(), [&](const riis_parameter &parameter) {
     return std::string(parameter.name).rfind(name + ".", 0) == 0;
@@ -66,7 +66,7 @@ Settings settings_of(const std::string &path, const riis_valve *valve, const Jso
       add(path, valve, name, value, settings);
       continue;
     }
-    if (!is_cusp(valve, name)) refuse_file(path, name + " is not a part of the valve with parameters of its own");
+    if (!is_part(valve, name)) refuse_file(path, name + " is not a part of the valve with parameters of its own");
     for (const auto &[inner, inner_value] : value.items()) add(path, valve, name + "." + inner, inner_value, settings);
   }
   return settings;
@@ -77,7 +77,7 @@ void set_parameter(riis_valve *valve, const std::string &name, const std::vector
   check(riis_valve_set(valve, name.c_str(), static_cast<int64_t>(values.size()), values.data()), subject);
 }
 
-bool belongs_to_cusp(const std::string &name) { return name.find('.') != std::string::npos; }
+bool belongs_to_part(const std::string &name) { return name.find('.') != std::string::npos; }
 
 }  // namespace
 
@@ -87,9 +87,9 @@ void set_from_json_file(riis_valve *valve, const std::string &path) {
 
 void set_from_json(riis_valve *valve, const Json &parameters, const std::string &path) {
   const Settings settings = settings_of(path, valve, parameters);
-  for (const bool cusps : {false, true}) {
+  for (const bool of_parts : {false, true}) {
     for (const auto &[own, setting] : settings) {
-      if (belongs_to_cusp(own) == cusps) set_parameter(valve, setting.name, setting.values, path);
+      if (belongs_to_part(own) == of_parts) set_parameter(valve, setting.name, setting.values, path);
     }
   }
 }
@@ -130,18 +130,76 @@ Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
           text_of(parameter.minimum) + " to " + text_of(parameter.maximum), description_of(parameter)};
 }
 
+// The rows of a part of the valve with a number, such as bump_0, or the row of another parameter.
+struct Part {
+  std::string name;  // "" without a number
+  std::vector<Row> rows;
+};
+
+// Returns "bump_0" for "bump_0.open", and "" for names without a number.
+std::string numbered_part(const std::string &name) {
+  const std::size_t dot = name.find('.');
+  const bool has_number = dot != std::string::npos && dot > 0 && name[dot - 1] >= '0' && name[dot - 1] <= '9';
+  return has_number ? name.substr(0, dot) : "";
+}
+
+// Returns the rows of the table. The rows of a part follow each other.
+std::vector<Part> parts_of(const riis_valve *valve) {
+  std::vector<Part> parts = {{"", {{"name", "value", "unit", "range", "description"}}}};
+  for (const riis_parameter &parameter : all_parameters(valve)) {
+    const std::string name = numbered_part(parameter.name);
+    auto place =
+        std::find_if(parts.begin(), parts.end(), [&](const Part &part) { return !name.empty() && part.name == name; });
+    if (place == parts.end()) place = parts.insert(parts.end(), {name, {}});
+    place->rows.push_back(row_of(valve, parameter));
+  }
+  return parts;
+}
+
+// Returns whether two parts differ by their numbers only.
+bool are_alike(const Part &a, const Part &b) {
+  const auto without_number = [](const Part &part) {
+    std::string text = part.name.substr(0, part.name.find_last_not_of("0123456789") + 1);
+    for (const Row &row : part.rows)
+      for (std::size_t k = 0; k < row.size(); ++k) text += "\n" + row[k].substr(k == 0 ? part.name.size() : 0);
+    return text;
+  };
+  return !a.name.empty() && !b.name.empty() && without_number(a) == without_number(b);
+}
+
+// Returns whether a part is a bump at no place. Such a bump does nothing.
+bool is_idle_bump(const riis_valve *valve, const std::string &part) {
+  const auto has_no = [&](const char *place) {
+    double number = 0;
+    check(riis_valve_get(valve, (part + place).c_str(), 1, &number));
+    return number < 0;
+  };
+  return part.rfind("bump_", 0) == 0 && has_no(".leaflet") && has_no(".commissure");
+}
+
 }  // namespace
 
 std::string parameter_table(const riis_valve *valve) {
-  std::vector<Row> rows = {{"name", "value", "unit", "range", "description"}};
-  for (const riis_parameter &parameter : all_parameters(valve)) rows.push_back(row_of(valve, parameter));
+  const std::vector<Part> parts = parts_of(valve);
   std::array<std::size_t, 5> widths{};
-  for (const Row &row : rows)
-    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  for (const Part &part : parts)
+    for (const Row &row : part.rows)
+      for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
   std::string table;
-  for (const Row &row : rows) {
-    for (std::size_t k = 0; k + 1 < row.size(); ++k) table += row[k] + std::string(widths[k] + 2 - row[k].size(), ' ');
-    table += row.back() + "\n";
+  for (std::size_t i = 0; i < parts.size();) {
+    for (const Row &row : parts[i].rows) {
+      for (std::size_t k = 0; k + 1 < row.size(); ++k)
+        table += row[k] + std::string(widths[k] + 2 - row[k].size(), ' ');
+      table += row.back() + "\n";
+    }
+    std::size_t end = i + 1;
+    while (end < parts.size() && are_alike(parts[i], parts[end])) ++end;
+    const std::size_t n_alike = end - i - 1;
+    if (n_alike == 1) table += parts[i + 1].name + " has the same parameters and values as " + parts[i].name + "\n";
+    if (n_alike > 1)
+      table += parts[i + 1].name + " to " + parts[end - 1].name + " have the same parameters and values as " +
+               parts[i].name + "\n";
+    i = end;
   }
   return table;
 }
@@ -152,6 +210,7 @@ std::string json_template(const riis_valve *valve) {
     const std::vector<double> values = values_of(valve, parameter);
     const std::string name = parameter.name;
     const std::size_t dot = name.find('.');
+    if (const std::string part = name.substr(0, dot); part != "bump_0" && is_idle_bump(valve, part)) continue;
     Json &place = dot == std::string::npos ? root[name] : root[name.substr(0, dot)][name.substr(dot + 1)];
     place = values.size() == 1 ? Json(values[0]) : Json(values);
   }

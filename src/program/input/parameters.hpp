@@ -11,7 +11,7 @@
 
 namespace riis::program {
 
-// Reads, for example, {"root_radius": 1.29, "right": {"leaflet_angle": 61}, "left.leaflet_angle": 58.5}. Names without a cusp
+// Reads, for example, {"root_radius": 1.29, "right": {"leaflet_angle": 61}, "left.leaflet_angle": 58.5}. Names without a part
 // are set first, so the order in the file does not matter. Refused are a repeated name, and two names of one size, such as
 // "annulus" and "root_radius".
 void set_from_json_file(riis_valve *valve, const std::string &path);
@@ -23,9 +23,10 @@ void set_from_json(riis_valve *valve, const Json &parameters, const std::string 
 void set_from_text(riis_valve *valve, const std::string &setting);
 
 // Returns all parameters of the valve with their values. If they are read back, all parameters are set, and none follows from
-// others.
+// others. Of the bumps at no place, only bump_0 is shown.
 std::string json_template(const riis_valve *valve);
-// Returns the parameters as a table for people. Each line has a parameter's name, value, unit, range and description.
+// Returns the parameters as a table for people. Each line has a parameter's name, value, unit, range and description. One line
+// stands for all parts, such as bumps, that are like the part before them.
 std::string parameter_table(const riis_valve *valve);
 
 }  // namespace riis::program

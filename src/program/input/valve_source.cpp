@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -210,19 +211,54 @@ Surface make_surface(const ValveSource &source, FileVelocity velocity) {
   return surface;
 }
 
-std::vector<std::string> leaflet_names(const ValveOptions &options) {
-  if (!options.surface.empty()) return leaflets_of_files(options);
-  if (options.valve == "aortic" || options.valve == "coapting" || options.valve == "trileaflet")
-    return {"right", "left", "non-coronary", "skirt"};
-  if (options.valve == "bileaflet") return {"x > 0", "x < 0", "housing"};
-  if (options.valve == "mitral") return {"anterior", "posterior", "leaflet 2", "skirt"};
-  return {};
+namespace {
+
+// The name of a leaflet in files, and its name for people.
+struct LeafletName {
+  std::string in_files, shown;
+};
+using LeafletNames = std::vector<LeafletName>;  // by leaflet_id
+
+// Returns the names of a kind's leaflets, or none for a file of patches.
+LeafletNames names_of_kind(const std::string &kind) {
+  static const LeafletNames coronary = {{"right", "right"}, {"left", "left"}, {"non_coronary", "non-coronary"}},
+                            numbered = {{"cusp_0", "cusp 0"},
+                                        {"cusp_1", "cusp 1"},
+                                        {"cusp_2", "cusp 2"},
+                                        {"cusp_3", "cusp 3"}},
+                            atrioventricular = {{"anterior", "anterior"},
+                                                {"posterior", "posterior"},
+                                                {"septal", "septal"}},
+                            mechanical = {{"positive", "x > 0"}, {"negative", "x < 0"}, {"housing", "housing"}};
+  static const std::map<std::string, LeafletNames> names = {{"aortic", coronary},
+                                                            {"coapting", coronary},
+                                                            {"trileaflet", coronary},
+                                                            {"bicuspid", numbered},
+                                                            {"quadricuspid", numbered},
+                                                            {"mitral", atrioventricular},
+                                                            {"mitral_coapting", atrioventricular},
+                                                            {"tricuspid", atrioventricular},
+                                                            {"bileaflet", mechanical}};
+  const auto known = names.find(kind);
+  return known == names.end() ? LeafletNames{} : known->second;
 }
 
-std::string name_of_leaflet(const ValveOptions &options, std::int32_t leaflet, const char *word) {
-  const std::vector<std::string> names = leaflet_names(options);
+}  // namespace
+
+std::string name_of_leaflet(const ValveOptions &options, const riis_surface_info &surface, std::int32_t leaflet,
+                            const char *word) {
+  if (leaflet == surface.skirt_leaflet_id) return "skirt";
+  std::vector<std::string> names = leaflets_of_files(options);
+  if (options.surface.empty())
+    for (const LeafletName &name : names_of_kind(options.valve)) names.push_back(name.shown);
   const auto at = static_cast<std::size_t>(leaflet);
   return at < names.size() ? names[at] : word + std::to_string(leaflet);
+}
+
+std::string file_name_of_leaflet(const std::string &kind, std::int32_t leaflet) {
+  const LeafletNames names = names_of_kind(kind);
+  const auto at = static_cast<std::size_t>(leaflet);
+  return at < names.size() ? names[at].in_files : "leaflet_" + std::to_string(leaflet);
 }
 
 int64_t count_leaflets(const riis_surface *surface) {

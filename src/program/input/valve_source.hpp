@@ -76,11 +76,11 @@ enum class FileVelocity { none, zero };
 // Makes the surface. A motion gives it the place at options.time, with velocities.
 Surface make_surface(const ValveSource &source, FileVelocity velocity);
 
-// Returns the names of a valve's leaflets, or of the files if each leaflet has one. Returns no names for a single file, because
-// its leaflets only have numbers.
-std::vector<std::string> leaflet_names(const ValveOptions &options);
-// Returns the name of a leaflet, or its number after a word.
-std::string name_of_leaflet(const ValveOptions &options, std::int32_t leaflet, const char *word = "leaflet ");
+// Returns the name of a leaflet, or its number after a word. If each leaflet has a file, its name is that of the file.
+std::string name_of_leaflet(const ValveOptions &options, const riis_surface_info &surface, std::int32_t leaflet,
+                            const char *word = "leaflet ");
+// Returns the name of a leaflet of a kind in letters, digits and _.
+std::string file_name_of_leaflet(const std::string &kind, std::int32_t leaflet);
 int64_t count_leaflets(const riis_surface *surface);
 
 // --surface FILE.pvd or FILE.dat: the surface of a motion given by frames.

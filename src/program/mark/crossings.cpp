@@ -58,28 +58,21 @@ void sweep_openings(const ValveOptions &options, riis_valve *valve, CrossingRepo
 }
 
 // --quiet does not silence this warning, because such a valve cannot exist, and its normals contradict each other.
-void warn_of_crossings(const ValveOptions &options, const CrossingReport &report, const std::string &part,
-                       const std::string &advice) {
+void warn_of_crossings(const ValveOptions &options, const riis_surface_info &surface, const CrossingReport &report,
+                       const std::string &part, const std::string &advice) {
   const riis_crossing_list &found = report.found;
   const std::string at = report.opening ? printed(" at opening %g", *report.opening) : "";
   const bool is_one_leaflet = found.deepest_leaflet_id[0] == found.deepest_leaflet_id[1];
-  const std::string first = name_of_leaflet(options, found.deepest_leaflet_id[0], "");
-  const std::string who = is_one_leaflet ? "leaflet " + first + " crosses itself"
-                                         : "leaflets " + first + " and " +
-                                               name_of_leaflet(options, found.deepest_leaflet_id[1], "") + " cross";
+  const std::string first = name_of_leaflet(options, surface, found.deepest_leaflet_id[0], ""),
+                    second = name_of_leaflet(options, surface, found.deepest_leaflet_id[1], "");
+  const std::string who =
+      is_one_leaflet ? "leaflet " + first + " crosses itself" : "leaflets " + first + " and " + second + " cross";
   // place_text rounds by an edge's length. The mean length of a pair's intersection stands for the edge length, because both are
   // about equal.
   warn((part.empty() ? "" : part + ": ") + who + at + ": " + counted(found.n_pairs, "pair") +
        " of triangles go through each other, along a length of " + shown(found.total_length) + "; the deepest is " +
        shown(found.deepest_depth) + " deep, at " +
        place_text(options, found.deepest_point, found.total_length / static_cast<double>(found.n_pairs)) + advice);
-}
-
-// Returns the depth up to which triangles of leaflets may cross although the leaflets only touch (docs/theory/crossings.md).
-double depth_of_contacts(const ValveOptions &options, const riis_surface *surface) {
-  const riis_surface_info info = info_of(surface);
-  const bool has_cusps = options.valve == "aortic" || options.valve == "coapting" || options.valve == "trileaflet";
-  return has_cusps ? 1e-3 * info.half_thickness : 2 * info.error_bound;
 }
 
 // Returns the surface at an opening, or null if the valve cannot have that opening. An impossible opening is no error here,
@@ -105,7 +98,7 @@ CrossingReport look_for_crossings(const ValveOptions &options, const riis_valve 
     if (valve) crossings.opening = opening_of(valve);
     crossings.found = crossings_of(options, surface);
   }
-  if (crossings.found.n_pairs > 0) warn_of_crossings(options, crossings, part, "");
+  if (crossings.found.n_pairs > 0) warn_of_crossings(options, info_of(surface), crossings, part, "");
   return crossings;
 }
 
@@ -124,9 +117,11 @@ std::optional<CrossingReport> check_shape(const ValveOptions &options, const rii
     ++report.n_openings;
     report.opening = opening;
     const riis_crossing_list found = crossings_of(options, surface);
-    if (found.deepest_depth <= depth_of_contacts(options, surface)) continue;
+    const riis_surface_info info = info_of(surface);
+    if (found.deepest_depth <= info.contact_depth) continue;
     report.found = found;
-    warn_of_crossings(options, report, part, "; change the sizes, and look at all openings by riis check crossings");
+    warn_of_crossings(options, info, report, part,
+                      "; change the sizes, and look at all openings by riis check crossings");
     return report;
   }
   return report.n_openings > 0 ? std::optional(report) : std::nullopt;

@@ -12,6 +12,7 @@
 #include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
 #include "program/input/wall.hpp"
+#include "program/mark/bridged_gap.hpp"
 #include "program/mark/mesh_marking.hpp"
 #include "program/mark/warnings.hpp"
 
@@ -131,6 +132,8 @@ Marking::Marking(Case &all, const MeshPieces &mesh)
   report_.prints_flow = options().measures || options().check_leaks;
   move_to_least_openings();
   for (std::size_t i = 0; i < valves_.size(); ++i) {
+    if (valves_[i].opening() == 0.0)
+      warn_of_bridged_gap(valves_[i].options(), valves_[i].source().valve, all_.part_of(i));
     report_.valves.push_back(report_of(i));
     sums_.push_back(
         {MeshLeaks(valves_[i].options(), mesh, valves_[i].surface(), valves_[i].source().valve, all.surface_of(i))});
@@ -169,9 +172,9 @@ ValveReport Marking::report_of(std::size_t i) {
   report.surface_name = own.surface.empty() ? own.valve : own.surface;
   report.opening = valve.opening();
   if (!all_.is_series()) report.time = own.time;
-  if (!own.leaflets.empty() || own.surface_files.size() > 1)
-    report.n_leaflets = count_leaflets(valve.surface()) - (own.skirt ? 1 : 0);
   report.surface = info_of(valve.surface());
+  if (!own.leaflets.empty() || own.surface_files.size() > 1)
+    report.n_leaflets = count_leaflets(valve.surface()) - (report.surface.skirt_leaflet_id >= 0 ? 1 : 0);
   if (own.skirt && !own.wall.empty()) report.gap = gap_to_wall(own, valve.surface());
   report.crossings = valve.crossings;
   if (own.given_resistance) report.resistance = report_of_resistance(own, options());

@@ -14,22 +14,6 @@
 namespace riis::program {
 namespace {
 
-bool has_skirt(const riis_valve *valve) {
-  const std::vector<riis_parameter> all = all_parameters(valve);
-  return std::any_of(all.begin(), all.end(), [&](const riis_parameter &parameter) {
-    return std::string(parameter.name) == "skirt_length" && values_of(valve, parameter)[0] != 0;
-  });
-}
-
-// Returns the largest id of a leaflet plus one. A skirt has the largest id of its surface.
-std::int32_t n_leaflets_without_skirt(const MovingValve &valve) {
-  const std::int32_t n = n_leaflets_of(valve.surface());
-  const riis_valve *const shape = valve.source().valve.get();
-  if (!shape) return valve.options().skirt ? n - 1 : n;
-  if (valve.options().valve == "bileaflet") return RIIS_LEAFLET_HOUSING;
-  return has_skirt(shape) ? n - 1 : n;
-}
-
 std::string percent(double share) { return printed(share < 0.1 ? "%.2g %%" : "%.0f %%", 100 * share); }
 
 }  // namespace
@@ -38,7 +22,7 @@ LeafletsOutside::LeafletsOutside(const MovingValve &valve)
     : options_(valve.options()),
       info_(info_of(valve.surface())),
       opening_(valve.opening()),
-      samples_(area_samples(valve.surface(), n_leaflets_without_skirt(valve))),
+      samples_(area_samples(valve.surface())),
       is_outside_(samples_.area.size(), 1) {}
 
 void LeafletsOutside::add(const Piece &piece) {
@@ -69,7 +53,7 @@ OutsideReport LeafletsOutside::report() const {
   if (sum.all > 0) made.share = sum.outside / sum.all;
   made.opening = opening_;
   for (const auto &[leaflet, area] : by_leaflet)
-    if (area.outside > 0) made.leaflets.push_back({name_of_leaflet(options_, leaflet), area.outside / area.all});
+    if (area.outside > 0) made.leaflets.push_back({name_of_leaflet(options_, info_, leaflet), area.outside / area.all});
   return made;
 }
 

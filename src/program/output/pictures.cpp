@@ -124,17 +124,14 @@ struct JoinedMarks {
   std::vector<double> marked, distance, leaflet;
 };
 
-// Returns the names of all leaflets. Leaflets without names get their numbers, except in a single file at one time.
+// Returns the names of all leaflets. Leaflets without names get their numbers.
 std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<MovingValve> &valves) {
   std::vector<std::string> texts;
-  if (valves.size() == 1 && !all.is_series()) {
-    return leaflet_names(valves[0].options());
-  }
   for (std::size_t valve = 0; valve < valves.size(); ++valve) {
     const std::string part = all.part_of(valve), prefix = part.empty() ? "" : part + " ";
-    const int32_t n = n_leaflets_of(valves[valve].surface());
-    for (int32_t leaflet = 0; leaflet < n; ++leaflet)
-      texts.push_back(prefix + name_of_leaflet(valves[valve].options(), leaflet));
+    const riis_surface_info surface = info_of(valves[valve].surface());
+    for (int32_t leaflet = 0; leaflet <= surface.largest_leaflet_id; ++leaflet)
+      texts.push_back(prefix + name_of_leaflet(valves[valve].options(), surface, leaflet));
   }
   return texts;
 }

@@ -20,19 +20,6 @@ namespace {
 // The largest number of triangles. With more, a text file is too large to be useful, even with few frames.
 constexpr std::int64_t most_triangles = 2000000;
 
-std::string name_of_leaflet(const std::string &valve, std::int32_t id) {
-  static const std::map<std::string, std::vector<const char *>> known = {
-      {"aortic", {"right", "left", "non_coronary"}},
-      {"coapting", {"right", "left", "non_coronary"}},
-      {"trileaflet", {"right", "left", "non_coronary"}},
-      {"mitral", {"anterior", "posterior"}},
-      {"bileaflet", {"positive", "negative", "housing"}}};
-  const auto of_kind = known.find(valve);
-  const auto i = static_cast<std::size_t>(id);
-  if (of_kind != known.end() && i < of_kind->second.size()) return of_kind->second[i];
-  return "leaflet_" + std::to_string(id);
-}
-
 template <class Use>
 void for_all_frames(const UrisMotion &motion, const Use &use) {
   for (const std::vector<double> *openings : {&motion.opening, &motion.closing})
@@ -55,7 +42,7 @@ UrisLeaflets::UrisLeaflets(const ExportOptions &options, const UrisMotion &motio
   double largest = half_thickness_;
   for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(info.lower[k]), std::abs(info.upper[k])});
   grid_ = uris_grid(largest);
-  if (options.valve == "bileaflet") housing_ = RIIS_LEAFLET_HOUSING;
+  housing_ = info.housing_leaflet_id;
   ring_ = options.ring;
   std::vector<FinerTriangles::Triangle> lasting = lasting_triangles(motion);
   net_ = FinerTriangles(info.n_vertices, std::move(lasting));
@@ -144,7 +131,7 @@ void UrisLeaflets::part(const ExportOptions &options) {
   for (const auto &[corners, leaflet] : net_.triangles()) by_leaflet[leaflet].push_back(corners);
   for (auto &[id, triangles] : by_leaflet) {
     UrisLeaflet leaflet{
-        name_of_leaflet(options.valve, id), {}, std::move(triangles), id == housing_ && ring_ == ring_scaffold};
+        file_name_of_leaflet(options.valve, id), {}, std::move(triangles), id == housing_ && ring_ == ring_scaffold};
     for (const Corners &corners : leaflet.triangles)
       leaflet.nodes.insert(leaflet.nodes.end(), corners.begin(), corners.end());
     std::sort(leaflet.nodes.begin(), leaflet.nodes.end());

@@ -65,6 +65,7 @@ class AreaTrials {
     double now = 0;
     valve_.get(name_, 1, &now);
     const std::array<double, 2> range = valve_.range_of(name_);
+    if (now == 0 && range[0] == 0 && range[1] <= 1) return checked({0, range[1], now}, range);
     if (now == 0 && (std::isnan(search_.from) || std::isnan(search_.to)))
       riis::fail(RIIS_INVALID_ARGUMENT, name_, " is 0, so a range to search is needed: from and to");
     return checked({std::min(now / 2, 2 * now), std::max(now / 2, 2 * now), now}, range);

@@ -10,6 +10,7 @@
 #include "api/surface_options.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
+#include "measures/measures.hpp"
 #include "pipeline/updatable_surface.hpp"
 
 using riis::guarded;
@@ -281,7 +282,10 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
                                          surface->updatable.seconds().scene,
                                          set.error_bound,
                                          content.leaflet_ids().back(),
-                                         content.band().offset});
+                                         content.band().offset,
+                                         riis::depth_of_contacts(content),
+                                         set.skirt,
+                                         content.source() ? content.source()->housing : -1});
   });
 }
 

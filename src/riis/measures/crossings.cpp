@@ -329,4 +329,11 @@ Crossings find_crossings(const TriangleSet &set, const TriangleGroups &groups, d
   return crossings;
 }
 
+double depth_of_contacts(const Surface &surface) {
+  // A depth of this many half thicknesses cannot come from rounding.
+  constexpr double beyond_rounding = 1e-3;
+  const bool is_exact = surface.source() && surface.source()->kind->has_exact_contacts;
+  return is_exact ? beyond_rounding * surface.half_thickness() : 2 * surface.triangles().error_bound;
+}
+
 }  // namespace riis

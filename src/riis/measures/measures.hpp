@@ -86,6 +86,9 @@ struct Crossings {
 // vertex do not count as a pair. Vertices are shared if their coordinates are equal.
 Crossings find_crossings(const TriangleSet &set, const TriangleGroups &groups, double least_depth, int n_threads);
 
+// Returns the depth up to which the triangles of touching leaflets may cross (docs/theory/crossings.md).
+double depth_of_contacts(const Surface &surface);
+
 // The gap between the attachment of a valve and a wall, along the direction in which a skirt leads.
 // In: points and directions, the triangles of the wall. Out: distances, and the lengths of a skirt that reaches the wall.
 

@@ -111,15 +111,8 @@ void UpdatableSurface::add_direction(const ValveDirection &direction, std::int32
 
 namespace {
 
-// Both depths are in half thicknesses. A pair counts if its depth is at least least_depth, the default of riis_find_crossings. A
-// depth of least_deepest cannot come from rounding.
-constexpr double least_depth = 1e-6, least_deepest = 1e-3;
-
-// Returns the depth up to which the triangles of touching leaflets may cross (docs/theory/crossings.md).
-double depth_of_contacts(const Valve &valve, const Surface &surface) {
-  if (valve.kind().has_exact_contacts) return least_deepest * surface.half_thickness();
-  return 2 * surface.triangles().error_bound;
-}
+// A pair counts if its depth is at least this many half thicknesses, the default of riis_find_crossings.
+constexpr double least_depth = 1e-6;
 
 // Logs a warning if leaflets cross deeper than touching leaflets can. Returns whether it did.
 bool say(const Valve &valve, const Surface &surface, int n_threads) {
@@ -138,7 +131,7 @@ bool say(const Valve &valve, const Surface &surface, int n_threads) {
     ++n;
     if (deepest < 0 || view(pairs.depth)[i] > view(pairs.depth)[deepest]) deepest = i;
   }
-  if (n == 0 || view(pairs.depth)[deepest] <= depth_of_contacts(valve, surface)) return false;
+  if (n == 0 || view(pairs.depth)[deepest] <= depth_of_contacts(surface)) return false;
   constexpr int digits = 3;
   const auto at = [&](int k) { return rounded(view(pairs.point)[3 * deepest + k], digits + 1); };
   const std::int32_t one = leaflet(deepest, 0), other = leaflet(deepest, 1);
