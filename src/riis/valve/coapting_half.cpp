@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "valve/coaptation_line.hpp"
+#include "valve/coapting_half.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
 #include "common/array_view.hpp"
-#include "valve/cusp_numbers.hpp"
 
 namespace riis {
 namespace {
@@ -16,6 +16,14 @@ namespace {
 constexpr int n_crease_steps = 2;
 constexpr std::size_t n_crease_spans = 8;
 constexpr double crease_stiffness = 0.03;
+
+// Along the coaptation line K, the derivative of the lower patch by v is T = K - c + (1 - u) Y + u A, with the chord c of K. Y
+// and A are the end tangents of the symmetry curve and of the attachment, and are as long as these curves.
+struct EndTangents {
+  Vec3 of_symmetry, of_attachment;
+
+  Vec3 at(double u) const { return mix(of_symmetry, of_attachment, u); }
+};
 
 // Returns the cubic from `first` to `last` that passes through these points at 1/3 and 2/3.
 Bezier cubic_through(Vec3 first, Vec3 at_third, Vec3 at_two_thirds, Vec3 last) {
@@ -55,8 +63,8 @@ class Displacements {
   std::array<std::array<double, n + 1>, n> matrix_{};  // the last column is the right side
 };
 
-}  // namespace
-
+// Returns a first coaptation line below the free edge F. The derivative of the upper patch by v is F - K. At the parameters 1/3
+// and 2/3 of both curves, F - K is T times a factor. The factor decreases from the middle to 0 at the commissure.
 Bezier first_coaptation_line(const Bezier &free_edge, Vec3 middle, const EndTangents &tangents) {
   const double factor = distance(free_edge.first(), middle) / length(tangents.of_symmetry);
   const auto point = [&](double u) {
@@ -67,6 +75,7 @@ Bezier first_coaptation_line(const Bezier &free_edge, Vec3 middle, const EndTang
   return cubic_through(middle, point(1.0 / 3), point(2.0 / 3), free_edge.last());
 }
 
+// Moves the inner control points of the coaptation line, so that the two patches that meet in it have a common tangent plane.
 // The crease is the sine of the angle between the planes of K' and T, and of K' and F - K. It is computed at the ends of spans of
 // K. A step linearizes the determinant of K', T and F - K. Patches pair points of K and F at equal shares u of the lengths of
 // both curves.
@@ -105,6 +114,89 @@ Bezier smoothed(Bezier line, const Bezier &free_edge, const EndTangents &tangent
     line.control[2] = line.control[2] + second;
   }
   return line;
+}
+
+Bezier moved(Bezier curve, Vec3 by) {
+  for (Vec3 &q : curve.control) q = q + by;
+  return curve;
+}
+
+// Returns the curve between the free and the fused part below the coaptation line. It is a mixture of the symmetry curve and the
+// attachment, and it arrives in the direction of the zone's edge S, so that the leaflet has no crease there.
+Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double share, const Bezier &S) {
+  const Vec3 first = half.symmetry_below.first(), last = S.first();
+  const Vec3 off = last - mix(half.symmetry_below.last(), attachment.last(), share);
+  const auto mixed = [&](std::size_t i) {
+    return mix(view(half.symmetry_below.control)[i], view(attachment.control)[i], share) +
+           (static_cast<double>(i) / 3) * off;
+  };
+  const Vec3 up = S.last() - last;
+  return Bezier::cubic(first, mixed(1), last - (distance(mixed(2), last) / length(up)) * up, last);
+}
+
+}  // namespace
+
+Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double low) {
+  const Vec3 top = numbers.commissure, moved_by = numbers.fused ? top - numbers.fused->commissure : Vec3{0, 0, 0};
+  const auto on_edge = [&](std::size_t i) {
+    return Vec3{view(numbers.edge_x)[i], view(numbers.edge_y)[i], numbers.edge_top - depth * view(numbers.sag)[i]};
+  };
+  HalfCusp half;
+  half.leaflet =
+      Bezier::cubic(on_edge(0), on_edge(1), on_edge(2), numbers.fused ? numbers.fused->edge.first() + moved_by : top);
+  const Vec3 middle{half.leaflet.first().x + numbers.band_lean, 0, (1 - numbers.band) * low};
+  const Vec3 up = half.leaflet.first() - middle;
+  half.symmetry_below = symmetry_curve(numbers, middle, up);
+  half.symmetry_above = Bezier::line(middle, half.leaflet.first());
+  const double R = numbers.root_radius;
+  const Bezier attachment =
+      Bezier::cubic({R, 0, 0}, {R, numbers.attachment_width, 0}, top - Vec3{0, 0, numbers.attachment_drop}, top);
+  const Vec3 end_of_symmetry = (arc_length(half.symmetry_below) / length(up)) * up;
+  if (!numbers.fused) {
+    half.sinus_below = attachment;
+    half.sinus_above = Bezier::point(top);
+    const EndTangents tangents{end_of_symmetry, {0, 0, arc_length(half.sinus_below)}};
+    half.bending = smoothed(first_coaptation_line(half.leaflet, middle, tangents), half.leaflet, tangents);
+    return {half};
+  }
+  HalfCusp fused;
+  fused.leaflet = moved(numbers.fused->edge, moved_by);
+  fused.bending = moved(numbers.fused->line, moved_by);
+  fused.leaflet.control[3] = fused.bending.control[3] = top;
+  const Vec3 end = fused.bending.first(), up_there = fused.leaflet.first() - end;
+  half.sinus_above = fused.symmetry_above = Bezier::line(end, fused.leaflet.first());
+  half.sinus_below = fused.symmetry_below = parting_curve(half, attachment, numbers.fused->share, fused.symmetry_above);
+  fused.sinus_below = attachment;
+  fused.sinus_above = Bezier::point(top);
+  const auto point = [&](double u) { return evaluate(half.leaflet, u) - mix(up, up_there, u); };
+  const EndTangents tangents{end_of_symmetry, (arc_length(half.sinus_below) / length(up_there)) * up_there};
+  half.bending = smoothed(cubic_through(middle, point(1.0 / 3), point(2.0 / 3), end), half.leaflet, tangents);
+  return {half, fused};
+}
+
+// K is the coaptation line, c is its chord, and Y and A are the tangents at the root. At the root, the lower patch has the tangent
+// K - c + (1 - u) Y + u A. The rise is this tangent's height divided by 1 - u.
+double rise_at_root(const HalfCusp &part) {
+  const Bezier &line = part.bending, &symmetry = part.symmetry_below;
+  const auto start = [](const Bezier &curve) {
+    const Vec3 along = curve.control[1] - curve.control[0];
+    return along.z / length(along);
+  };
+  const double of_symmetry = start(symmetry), symmetry_length = arc_length(symmetry);
+  const double of_other_side = start(part.sinus_below) * arc_length(part.sinus_below);
+  static constexpr std::array<double, 5> shares{0.5, 0.6, 0.7, 0.8, 0.9};
+  const double line_length = arc_length(line);
+  Vector<double> behind;
+  for (const double u : shares) behind.push_back(u * line_length);
+  std::array<double, shares.size()> t{};
+  parameters_at_lengths(line, line_length, behind, t.data());
+  double least = of_symmetry;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double u = view(shares)[i];
+    const double sag = mix(line.first(), line.last(), u).z - evaluate(line, view(t)[i]).z - u * of_other_side;
+    least = std::min(least, of_symmetry - sag / ((1 - u) * symmetry_length));
+  }
+  return least;
 }
 
 }  // namespace riis
