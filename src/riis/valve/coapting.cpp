@@ -252,12 +252,6 @@ Vector<MovingHalf> moving_halves(const CuspNumbers &closed, const CuspNumbers &o
   return made;
 }
 
-double least_rise_of(const Vector<HalfCusp> &parts) {
-  double least = rise_at_root(parts.front());
-  for (const HalfCusp &part : parts) least = std::min(least, rise_at_root(part));
-  return least;
-}
-
 // Refuses a cusp whose edge is too short to open or hangs too low, and one that folds. Both states are checked, because one set of
 // values defines both.
 void check_cusp(const ValveValues &values, std::size_t k) {
@@ -273,7 +267,7 @@ void check_cusp(const ValveValues &values, std::size_t k) {
          least_length, " long, but ", is_half ? "half a" : "the", " closed one is ", edge_length,
          " long, too short to open so far: look at effective_height, commissure_height, open_radius_ratio, "
          "commissure_expansion");
-  if (sizes.keeps_ratio) {
+  if (sizes.keeps_ratio && is_half) {
     // The middle of the edge is at least as far from a commissure as the symmetry plane is. So it never hangs deeper than this.
     const double away = sizes.sector.sine * sizes.commissure_radius;
     const double low = values.of_commissure(k, height) - std::sqrt(edge_length * edge_length - away * away);
@@ -285,7 +279,7 @@ void check_cusp(const ValveValues &values, std::size_t k) {
   }
   for (const double opening : openings_of_folds)
     for (const Vector<HalfCusp> &half : halves_of(blend(closed, open, opening)))
-      if (!(least_rise_of(half) >= least_rise))
+      if (!(rise_at_root(half) >= least_rise))
         fail(RIIS_INVALID_PARAMETER, "a cusp would fold beside its attachment at opening ", opening,
              ", because its free edge hangs deep beside its height: edge_rise is ", sizes.edge_rise,
              ", effective_height ", sizes.effective_height, ", commissure_height ", values[commissure_height],

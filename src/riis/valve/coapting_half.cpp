@@ -134,6 +134,32 @@ Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double shar
   return Bezier::cubic(first, mixed(1), last - (distance(mixed(2), last) / length(up)) * up, last);
 }
 
+// Returns the least rise of a part. K is the coaptation line, c is its chord, and Y and A are the tangents at the root. At the root, the lower patch has the tangent
+// K - c + (1 - u) Y + u A. The rise is this tangent's height divided by 1 - u and by the
+// length of Y.
+double rise_of_part(const HalfCusp &part) {
+  const Bezier &line = part.bending, &symmetry = part.symmetry_below;
+  const auto start = [](const Bezier &curve) {
+    const Vec3 along = curve.control[1] - curve.control[0];
+    return along.z / length(along);
+  };
+  const double of_symmetry = start(symmetry), symmetry_length = arc_length(symmetry);
+  const double of_other_side = start(part.sinus_below) * arc_length(part.sinus_below);
+  static constexpr std::array<double, 5> shares{0.5, 0.6, 0.7, 0.8, 0.9};
+  const double line_length = arc_length(line);
+  Vector<double> behind;
+  for (const double u : shares) behind.push_back(u * line_length);
+  std::array<double, shares.size()> t{};
+  parameters_at_lengths(line, line_length, behind, t.data());
+  double least = of_symmetry;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double u = view(shares)[i];
+    const double sag = mix(line.first(), line.last(), u).z - evaluate(line, view(t)[i]).z - u * of_other_side;
+    least = std::min(least, of_symmetry - sag / ((1 - u) * symmetry_length));
+  }
+  return least;
+}
+
 }  // namespace
 
 Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double low) {
@@ -174,29 +200,13 @@ Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double 
   return {half, fused};
 }
 
-// K is the coaptation line, c is its chord, and Y and A are the tangents at the root. At the root, the lower patch has the tangent
-// K - c + (1 - u) Y + u A. The rise is this tangent's height divided by 1 - u.
-double rise_at_root(const HalfCusp &part) {
-  const Bezier &line = part.bending, &symmetry = part.symmetry_below;
-  const auto start = [](const Bezier &curve) {
-    const Vec3 along = curve.control[1] - curve.control[0];
-    return along.z / length(along);
-  };
-  const double of_symmetry = start(symmetry), symmetry_length = arc_length(symmetry);
-  const double of_other_side = start(part.sinus_below) * arc_length(part.sinus_below);
-  static constexpr std::array<double, 5> shares{0.5, 0.6, 0.7, 0.8, 0.9};
-  const double line_length = arc_length(line);
-  Vector<double> behind;
-  for (const double u : shares) behind.push_back(u * line_length);
-  std::array<double, shares.size()> t{};
-  parameters_at_lengths(line, line_length, behind, t.data());
-  double least = of_symmetry;
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    const double u = view(shares)[i];
-    const double sag = mix(line.first(), line.last(), u).z - evaluate(line, view(t)[i]).z - u * of_other_side;
-    least = std::min(least, of_symmetry - sag / ((1 - u) * symmetry_length));
-  }
-  return least;
+double rise_at_root(const Vector<HalfCusp> &parts) {
+  const double least = rise_of_part(parts.front());
+  if (parts.size() == 1) return least;
+  // The curve between both parts rises less than the symmetry curve, because it is nearer to the commissure.
+  const double free = arc_length(parts[0].leaflet), fused = arc_length(parts[1].leaflet);
+  const double expected = fused / (free + fused) * arc_length(parts[0].symmetry_below);
+  return std::min(least, rise_of_part(parts[1]) * arc_length(parts[1].symmetry_below) / expected);
 }
 
 }  // namespace riis

@@ -13,8 +13,8 @@ namespace riis {
 // same to the last bit for both halves of a cusp. Returns one part or, if the half is fused, the free and the fused part.
 Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double low);
 
-// Returns the least rise of the leaflet at the root, as a share of the length of the curve at the side u = 0. If the rise is
-// negative somewhere, the leaflet dips below its attachment and folds.
-double rise_at_root(const HalfCusp &part);
+// Returns the least rise of the leaflet at the root, as a share of the rise of a leaflet that has everywhere the length of the
+// symmetry curve and no sag. If it is negative somewhere, the leaflet dips below its attachment and folds.
+double rise_at_root(const Vector<HalfCusp> &parts);
 
 }  // namespace riis
