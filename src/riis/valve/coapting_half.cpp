@@ -17,6 +17,9 @@ constexpr int n_crease_steps = 2;
 constexpr std::size_t n_crease_spans = 8;
 constexpr double crease_stiffness = 0.03;
 
+// From this share of the edge on, the fused part is wide enough for a line that arrives at the coaptation line without a crease.
+constexpr double turned_from = 0.3;
+
 // Along the coaptation line K, the derivative of the lower patch by v is T = K - c + (1 - u) Y + u A, with the chord c of K. Y
 // and A are the end tangents of the symmetry curve and of the attachment, and are as long as these curves.
 struct EndTangents {
@@ -121,17 +124,19 @@ Bezier moved(Bezier curve, Vec3 by) {
   return curve;
 }
 
-// Returns the curve between the free and the fused part below the coaptation line. It is a mixture of the symmetry curve and the
-// attachment, and it arrives in the direction of the zone's edge S, so that the leaflet has no crease there.
+// Returns the curve between the free and the fused part below the coaptation line, a mixture of the symmetry curve and the
+// attachment. It arrives in the direction of the zone's edge S, so that the leaflet has no crease there. The narrower the fused
+// part, the less the curve is turned: otherwise it would leave this part and cross the attachment.
 Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double share, const Bezier &S) {
   const Vec3 first = half.symmetry_below.first(), last = S.first();
   const Vec3 off = last - mix(half.symmetry_below.last(), attachment.last(), share);
   const auto mixed = [&](std::size_t i) {
     return mix(view(half.symmetry_below.control)[i], view(attachment.control)[i], share) +
-           (static_cast<double>(i) / 3) * off;
+           (static_cast<double>(i * i) / 9) * off;
   };
   const Vec3 up = S.last() - last;
-  return Bezier::cubic(first, mixed(1), last - (distance(mixed(2), last) / length(up)) * up, last);
+  const Vec3 without_crease = last - (distance(mixed(2), last) / length(up)) * up;
+  return Bezier::cubic(first, mixed(1), mix(mixed(2), without_crease, std::min(1.0, (1 - share) / turned_from)), last);
 }
 
 // Returns the least rise of a part. K is the coaptation line, c is its chord, and Y and A are the tangents at the root. At the root, the lower patch has the tangent

@@ -67,13 +67,23 @@ double tangent_on_cylinder(double sine, double cosine) {
   return 8.0 / 3 * (std::sqrt(1 - middle * middle) - sine / 2);
 }
 
-// Splits the closed half in a part that opens and a fused part. The middle of its edge is at the height `low`.
+// Returns the parameter at which y of a curve has this value. It ascends along the curve.
+double parameter_at_y(const Bezier &curve, double y) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (evaluate(curve, middle).y < y ? low : high) = middle;
+  }
+  return low;
+}
+
+// Splits the closed half in a part that opens and a fused part. The middle of its edge is at the height `low`. Both parts meet in
+// a vertical line of the zone.
 void fuse(HalfNumbers &half, double fusion, double low) {
   const HalfCusp whole = coapting_half(half, half.edge_top - low, low).front();
   const auto [free, fused] = split(whole.leaflet, 1 - fusion);
   const double free_length = arc_length(free), share = free_length / (free_length + arc_length(fused));
-  const double line_length = arc_length(whole.bending);
-  const auto lines = split(whole.bending, parameter_at_length(whole.bending, line_length, share * line_length));
+  const auto lines = split(whole.bending, parameter_at_y(whole.bending, free.last().y));
   half.edge_top = free.last().z;
   for (std::size_t i = 0; i < half.sag.size(); ++i) {
     const Vec3 q = view(free.control)[i];
