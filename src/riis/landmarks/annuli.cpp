@@ -318,7 +318,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   model->differences = {{MitralModel::anterior, MitralModel::posterior, 0.05 * depth}};
 
   const Vec3 origin_there{0.5 * (lower.x + upper.x), lower.y + 0.5 * depth, low_z};
-  KindOfLandmarks made{std::move(model), {}, "AP_diameter", nullptr};
+  KindOfLandmarks made = one_model(std::move(model), {}, "AP_diameter");
   made.n_as_annulus = are_behind ? static_cast<std::int32_t>(trigones.size()) : 0;
   made.starts.push_back({rotation, middle + rotation * (origin_there - by)});
   if (!is_side_known) {
@@ -330,7 +330,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
       const Vec3 there{-origin_there.x, origin_there.y, -low_z};
       made.starts[0] = {other, middle + other * (there - by)};
       for (const std::size_t horn_size : {MitralModel::anterior, MitralModel::posterior})
-        made.model->sizes[horn_size].value *= -1;
+        made.models[0]->sizes[horn_size].value *= -1;
     }
   }
   made.check = [=](const LandmarkModel &fitted, const LandmarkFit &fit, const Landmarks &given) {
@@ -417,9 +417,7 @@ KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmar
                   {"hinge_offset", offset, 1, 0, 0.9 * radius, own_offset, 0.2 * radius},
                   {"hinge_height", height, 1, -3 * radius, 3 * radius, own_height, 0.3 * radius}};
   model->radius = radius;
-  KindOfLandmarks made{std::move(model), {}, "radius", nullptr};
-  made.starts = {{rotation, middle}};
-  return made;
+  return one_model(std::move(model), {{rotation, middle}}, "radius");
 }
 
 }  // namespace riis
