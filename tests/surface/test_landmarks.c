@@ -20,7 +20,7 @@ static double cosine(double degrees) { return cos(degrees * acos(-1.0) / 180); }
 /* A number from the normal distribution, by Box and Muller. */
 static double normal(void) { return sqrt(-2 * log(1 - between(0, 1))) * cosine(360 * between(0, 1)); }
 
-enum { most = 64, most_parameters = 64 };
+enum { most = 64, most_parameters = 128 };
 
 /* Landmarks, first in the valve's frame in centimetres, then as riis_place takes them. */
 typedef struct patient {
@@ -323,6 +323,218 @@ TEST(test_noisy_trileaflet) {
     CHECK_NEAR(found.axis, rows[row].axis, share * rows[row].axis);
     CHECK_AT_MOST(0.95, found.covered);
   }
+}
+
+/* ---- Cusps with sectors of their own, and commissures with heights ---- */
+
+enum { most_cusps = 4 };
+static const char *const kinds_of[most_cusps + 1] = {NULL, NULL, "bicuspid", "coapting", "quadricuspid"};
+
+/* Sizes of a valve with two to four cusps. Commissure k lies behind cusp k. */
+typedef struct cusp_sizes {
+  int n;
+  double R, Rc, sector[most_cusps], height[most_cusps];
+} cusp_sizes;
+
+static const char *of(const char *owner, int k, const char *name) {
+  static char text[64];
+  snprintf(text, sizeof text, "%s_%d.%s", owner, k, name);
+  return text;
+}
+
+static void set_cusps(riis_valve *valve, const cusp_sizes *c) {
+  CHECK_OK(riis_valve_set_scalar(valve, "root_radius", c->R));
+  CHECK_OK(riis_valve_set_scalar(valve, "commissure_radius", c->Rc));
+  for (int k = 0; k < c->n; ++k) {
+    CHECK_OK(riis_valve_set_scalar(valve, of("cusp", k, "sector"), c->sector[k]));
+    CHECK_OK(riis_valve_set_scalar(valve, of("commissure", k, "height"), c->height[k]));
+  }
+}
+
+/* Random cusps that the kind accepts, with a commissure_height that is the mean of the heights. */
+static cusp_sizes random_cusps(int n) {
+  for (;;) {
+    cusp_sizes c = {n, between(1, 1.4), 0, {0}, {0}};
+    double sum = 0, mean = 0;
+    c.Rc = c.R * between(0.95, 1.05);
+    for (int k = 0; k < n; ++k) sum += c.sector[k] = between(40, 150);
+    for (int k = 0; k < n; ++k) c.sector[k] *= 360 / sum;
+    for (int k = 0; k < n; ++k) mean += (c.height[k] = 1.4 * c.Rc * between(0.95, 1.1)) / n;
+    riis_valve *valve = new_valve(kinds_of[n]);
+    set_cusps(valve, &c);
+    CHECK_OK(riis_valve_set_scalar(valve, "commissure_height", mean));
+    const riis_surface_options options = surface_options();
+    riis_surface *surface = NULL;
+    const riis_status status = riis_surface_create(valve, &options, &surface);
+    riis_surface_destroy(&surface);
+    if (status == RIIS_OK) return c;
+    assert_int_equal(status, RIIS_INVALID_PARAMETER);
+  }
+}
+
+static cusp_sizes equal_cusps(int n, double R, double Rc, double h) {
+  cusp_sizes c = {n, R, Rc, {0}, {0}};
+  for (int k = 0; k < n; ++k) c.sector[k] = 360.0 / n, c.height[k] = h;
+  return c;
+}
+
+/* Cusp 0 is about the x axis. With names, the landmarks say which cusp is which. */
+static patient patient_of(const cusp_sizes *c, bool has_names) {
+  patient p = empty_patient();
+  double end = -0.5 * c->sector[0];
+  for (int32_t k = 0; k < c->n; ++k) {
+    add_around(&p, RIIS_LANDMARK_NADIR, c->R, end + 0.5 * c->sector[k], 0);
+    if (has_names) p.leaflet_id[p.n - 1][0] = k;
+    add_around(&p, RIIS_LANDMARK_COMMISSURE, c->Rc, end += c->sector[k], c->height[k]);
+    if (has_names) p.leaflet_id[p.n - 1][0] = (k + 1) % c->n, p.leaflet_id[p.n - 1][1] = k;
+  }
+  return p;
+}
+
+static int32_t is_set(const riis_valve *valve, const char *name) {
+  int32_t found = -1;
+  CHECK_OK(riis_valve_is_set(valve, name, &found));
+  return found;
+}
+
+TEST(test_exact_sectors) {
+  for (int trial = 0; trial < trials_of(120); ++trial) {
+    const cusp_sizes c = random_cusps(2 + trial % 3);
+    patient p = patient_of(&c, true);
+    if (trial % 2 == 0) add(&p, RIIS_LANDMARK_COAPTATION, 0, 0, 0.6);
+    place_patient(&p, scales[trial % 3]);
+    shuffle(&p);
+    riis_valve *valve = new_valve(kinds_of[c.n]);
+    const answer found = place(valve, &p);
+    CHECK_AT_MOST(found.placement.worst, 1e-8 * p.scale);
+    assert_int_equal(found.placement.n_undetermined, 0);
+    CHECK_NEAR(value(valve, "root_radius"), c.R, 1e-8);
+    CHECK_NEAR(value(valve, "commissure_radius"), c.Rc, 1e-8);
+    double sum = 0, mean = 0;
+    for (int k = 0; k < c.n; ++k) {
+      CHECK_NEAR(value(valve, of("cusp", k, "sector")), c.sector[k], 1e-6);
+      CHECK_NEAR(value(valve, of("commissure", k, "height")), c.height[k], 1e-8);
+      assert_int_equal(found.state[position(valve, of("cusp", k, "sector"))], RIIS_SIZE_DETERMINED);
+      assert_int_equal(found.state[position(valve, of("commissure", k, "height"))], RIIS_SIZE_DETERMINED);
+      sum += value(valve, of("cusp", k, "sector")), mean += c.height[k] / c.n;
+    }
+    CHECK_NEAR(sum, 360, 1e-9);
+    CHECK_NEAR(value(valve, "commissure_height"), mean, 1e-8);
+    check_on_surface(valve, &p, &found,
+                     trial % 2 == 0 ? 2 : 0.01); /* the point of coaptation may be anywhere on the axis */
+  }
+}
+
+/* Landmarks of equal cusps give the valve with equal cusps: nothing is set for a cusp or for a commissure. */
+TEST(test_equal_cusps_stay_equal) {
+  int n_unequal = 0;
+  const int n = trials_of(300);
+  for (int trial = 0; trial < n; ++trial) {
+    const double R = between(1, 1.4);
+    const cusp_sizes c = equal_cusps(2 + trial % 3, R, R * between(0.95, 1.05), 1.4 * R * between(0.97, 1.05));
+    const bool is_exact = trial % 4 == 0;
+    patient p = patient_of(&c, trial % 2 == 0);
+    place_patient(&p, 10);
+    if (!is_exact) disturb(&p, 0.3);
+    riis_valve *valve = new_valve(kinds_of[c.n]);
+    const answer found = place(valve, &p);
+    int n_set = 0;
+    for (int k = 0; k < c.n; ++k)
+      n_set += is_set(valve, of("cusp", k, "sector")) + is_set(valve, of("commissure", k, "height"));
+    n_unequal += n_set > 0;
+    if (is_exact) {
+      assert_int_equal(n_set, 0);
+      CHECK_NEAR(value(valve, "root_radius"), c.R, 1e-9);
+      CHECK_NEAR(value(valve, "commissure_height"), c.height[0], 1e-9);
+      assert_int_equal(found.state[position(valve, "cusp_0.sector")], RIIS_SIZE_KEPT);
+      assert_int_equal(found.state[position(valve, "commissure_1.height")], RIIS_SIZE_TIED);
+    }
+    free_owned_after(0);
+  }
+  print_message("%d of %d noisy valves with equal cusps did not stay equal\n", n_unequal, n - n / 4);
+  CHECK_AT_MOST(n_unequal, 0.06 * n + 3);
+}
+
+/* The standard errors explain the scatter of a valve whose cusps differ by much more than the noise. */
+TEST(test_noisy_sectors) {
+  static const cusp_sizes truth[3] = {{2, 1.35, 1.35, {150, 210}, {1.9, 1.9}},
+                                      {3, 1.25, 1.3, {130, 100, 130}, {1.9, 1.6, 1.75}},
+                                      {4, 1.3, 1.3, {100, 100, 100, 60}, {1.9, 1.7, 1.9, 1.7}}};
+  const int n = is_long_test() ? 2000 : 100;
+  for (int row = 0; row < 3; ++row) {
+    const cusp_sizes *c = &truth[row];
+    double squares = 0, expected = 0, sectors = 0;
+    int n_covered = 0, n_values = 0;
+    for (int trial = 0; trial < n; ++trial) {
+      patient p = patient_of(c, true);
+      place_patient(&p, 10);
+      disturb(&p, 0.3);
+      riis_valve *valve = new_valve(kinds_of[c->n]);
+      const answer found = place(valve, &p);
+      for (int k = 0; k < c->n; ++k) {
+        const double error = value(valve, of("cusp", k, "sector")) - c->sector[k];
+        const double stated = found.standard_error[position(valve, of("cusp", k, "sector"))];
+        n_covered += fabs(error) <= 3 * stated;
+        squares += error * error / (stated * stated), sectors += error * error, expected += stated * stated;
+        ++n_values;
+        if (found.state[position(valve, "commissure_0.height")] != RIIS_SIZE_DETERMINED) continue;
+        const double off = value(valve, of("commissure", k, "height")) - c->height[k];
+        const double height_error = found.standard_error[position(valve, of("commissure", k, "height"))];
+        n_covered += fabs(off) <= 3 * height_error;
+        squares += off * off / (height_error * height_error);
+        ++n_values;
+      }
+      free_owned_after(0);
+    }
+    print_message(
+        "%s, noise 0.3 mm, %d patients: sectors off by %.2f degrees, standard error %.2f; errors are %.2f "
+        "standard errors; within 3 errors %.3f\n",
+        kinds_of[c->n], n, sqrt(sectors / (n * c->n)), sqrt(expected / (n * c->n)), sqrt(squares / n_values),
+        (double)n_covered / n_values);
+    CHECK_AT_MOST(0.97 * n_values, n_covered);
+    /* The standard errors come from the stated noise or from larger residuals, so they are rather too large. */
+    CHECK_NEAR(sqrt(sectors / expected), 0.9, 0.25);
+  }
+}
+
+/* Held sectors and heights stay, and the others take what is left. */
+TEST(test_held_sectors) {
+  const cusp_sizes c = {3, 1.25, 1.3, {130, 100, 130}, {1.9, 1.6, 1.75}};
+  patient p = patient_of(&c, true);
+  place_patient(&p, 10);
+  answer found;
+  riis_valve *valve = new_valve("coapting");
+  CHECK_OK(riis_valve_set_scalar(valve, "cusp_2.sector", 126));
+  CHECK_OK(try_to_place(valve, &p, "cusp_2.sector", &found));
+  CHECK_NEAR(value(valve, "cusp_2.sector"), 126, 0);
+  assert_int_equal(found.state[position(valve, "cusp_2.sector")], RIIS_SIZE_KEPT);
+  CHECK_NEAR(value(valve, "cusp_0.sector") + value(valve, "cusp_1.sector"), 234, 1e-9);
+  CHECK_AT_MOST(0.1, found.placement.worst);
+  valve = new_valve("coapting");
+  for (int k = 0; k < 3; ++k) CHECK_OK(riis_valve_set_scalar(valve, of("cusp", k, "sector"), 2 * c.sector[k]));
+  CHECK_OK(try_to_place(valve, &p, "cusp_0.sector cusp_1.sector cusp_2.sector", &found));
+  CHECK_AT_MOST(found.placement.worst, 1e-7);
+  CHECK_NEAR(value(valve, "cusp_1.sector"), 200, 0);
+  valve = new_valve("coapting");
+  CHECK_OK(riis_valve_set_scalar(valve, "commissure_height", 1.75));
+  CHECK_OK(try_to_place(valve, &p, "commissure_height", &found));
+  assert_int_equal(is_set(valve, "commissure_0.height"), 0);
+  CHECK_NEAR(value(valve, "commissure_0.height"), 1.75, 0);
+  valve = new_valve("coapting");
+  CHECK_OK(riis_valve_set_scalar(valve, "commissure_1.height", 1.6));
+  CHECK_OK(try_to_place(valve, &p, "commissure_1.height", &found));
+  CHECK_NEAR(value(valve, "commissure_0.height"), 1.9, 1e-8);
+  CHECK_NEAR(value(valve, "commissure_height"), 1.75, 1e-8);
+  /* A template whose cusps differ keeps them if the landmarks agree. */
+  valve = new_valve("coapting");
+  set_cusps(valve, &c);
+  for (int k = 0; k < 3; ++k) CHECK_OK(riis_valve_set_scalar(valve, of("commissure", k, "height"), 2 * c.height[k]));
+  CHECK_OK(riis_valve_set_scalar(valve, "commissure_height", 3.5));
+  CHECK_OK(try_to_place(valve, &p, "", &found));
+  assert_int_equal(found.state[position(valve, "cusp_1.sector")], RIIS_SIZE_KEPT);
+  CHECK_NEAR(value(valve, "commissure_1.height"), 1.6, 1e-8);
+  CHECK_NEAR(value(valve, "commissure_height"), 1.75, 1e-8);
+  CHECK_AT_MOST(found.placement.worst, 1e-7);
 }
 
 /* ---- Aortic ---- */

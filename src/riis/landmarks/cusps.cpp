@@ -237,7 +237,11 @@ class CircleSizes {
  public:
   CircleSizes(const Valve &valve, const CuspsOnCircles &names, const Landmarks &landmarks, const CuspAxes &axes,
               const IsHeld &is_held)
-      : valve_(valve), names_(names), landmarks_(landmarks), axes_(axes), is_held_(is_held),
+      : valve_(valve),
+        names_(names),
+        landmarks_(landmarks),
+        axes_(axes),
+        is_held_(is_held),
         own_(names.n_cusps, 360.0 / static_cast<double>(names.n_cusps)) {
     if (!has_sectors()) return;
     double sum = 0;
@@ -285,11 +289,7 @@ class CircleSizes {
 
  private:
   std::size_t n() const { return names_.n_cusps; }
-  bool has_sectors() const {  // TEMPORARY
-    for (const ParameterSpec &spec : valve_.kind().parameters)
-      if (spec.name == "cusp_0.sector") return names_.has_sectors;
-    return false;
-  }
+  bool has_sectors() const { return names_.has_sectors; }
   template <class NameOf>
   std::size_t count_held(const NameOf &name_of) const {
     std::size_t n_held = 0;
@@ -313,16 +313,14 @@ class CircleSizes {
     }
   }
 
-  // Each commissure has a height, and commissure_height is their mean in the template's proportions.
+  // Each commissure has a height, and commissure_height is their mean.
   template <class Add>
   void add_heights(CirclesModel &model, const Add &add) const {
     DerivedSize mean{names_.height, {}};
-    double sum = 0;
-    for (std::size_t cusp = 0; cusp < n(); ++cusp) sum += ratio(cusp);
     for (std::size_t cusp = 0; cusp < n(); ++cusp) {
       const std::size_t size = add(height_of_commissure(cusp), axes_.height);
       model.heights.push_back({0, {{size, 1}}});
-      mean.of.terms.push_back({size, 1 / sum});
+      mean.of.terms.push_back({size, 1 / static_cast<double>(n())});
     }
     model.derived.push_back(mean);
   }
@@ -330,6 +328,7 @@ class CircleSizes {
   // The last sector that is not held has what the others leave of 360 degrees.
   void add_sectors(CirclesModel &model, double commissure_radius) const {
     const std::vector<double> shown = shown_sectors(landmarks_, axes_);
+    const double reach = 0.5 * commissure_radius * (pi / 180);  // a sector grows on both sides of its cusp's middle
     std::size_t last = n() - 1;
     while (is_held_(of_cusp(last, "sector"))) --last;
     LinearValue left{360, {}};
@@ -338,8 +337,7 @@ class CircleSizes {
       if (cusp == last) continue;
       model.sectors.back().terms = {{model.sizes.size(), 1}};
       left.terms.push_back({model.sizes.size(), -1});
-      model.sizes.push_back({of_cusp(cusp, "sector"), shown[cusp], commissure_radius * (pi / 180), least_sector,
-                             most_sector, own_[cusp], 30});
+      model.sizes.push_back({of_cusp(cusp, "sector"), shown[cusp], reach, least_sector, most_sector, own_[cusp], 30});
     }
     model.sectors[last] = left;
     model.derived.push_back({of_cusp(last, "sector"), left});

@@ -253,8 +253,8 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
     problem.residuals(x, r);
   }
 
-  LandmarkFit made{problem.pose_at(x), std::vector<double>(n_landmarks), problem.places(), 0, 0, 0, minimum.converged,
-                   0, n};
+  LandmarkFit made{
+      problem.pose_at(x), std::vector<double>(n_landmarks), problem.places(), 0, 0, 0, minimum.converged, 0, n};
   made.squares = sum_of_squares(problem, made.residuals);
   made.noise = std::max(landmarks.noise, seen_noise(model, made.squares, n));
   const std::vector<double> errors = covariance(problem.normals(x), n);
@@ -278,8 +278,8 @@ bool is_as_good(const LandmarkFit &simple, const LandmarkFit &general, const Lan
                 const Landmarks &landmarks) {
   if (!simple.converged) return false;
   const double seen = seen_noise(general_model, general.squares, general.n_unknowns);
-  const double noise = std::max(seen < exact_share * landmarks.noise ? seen : landmarks.noise,
-                                rounding_share * general_model.radius);
+  const double noise =
+      std::max(seen < exact_share * landmarks.noise ? seen : landmarks.noise, rounding_share * general_model.radius);
   const auto n_more = static_cast<double>(general.n_unknowns - simple.n_unknowns);
   return simple.squares - general.squares <= (n_more + surely_more * std::sqrt(2 * n_more)) * noise * noise;
 }

@@ -135,8 +135,7 @@ Order order_around(const Landmarks &landmarks, const LeafletsAround &leaflets, V
   if (n_fitting > 1) fail(RIIS_INVALID_ARGUMENT, "landmarks.leaflet_id does not say ", leaflets.why_names);
   for (std::size_t by = 0; by < n; ++by)
     if (fits(landmarks, leaflets, mirrored(rotated(turn, by)))) {
-      const std::string must = leaflets.seen_along_flow,
-                        are = must == "clockwise" ? "counter-clockwise" : "clockwise";
+      const std::string must = leaflets.seen_along_flow, are = must == "clockwise" ? "counter-clockwise" : "clockwise";
       fail(RIIS_INVALID_ARGUMENT, "landmarks.leaflet_id: seen along the flow, ", listed(leaflets.names),
            " follow each other ", are, ", but they must follow ", must, ": the landmarks or their names are mirrored");
     }
