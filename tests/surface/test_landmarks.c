@@ -723,6 +723,211 @@ TEST(test_noisy_mitral) {
   }
 }
 
+/* ---- Saddles: tricuspid, mitral_coapting ---- */
+
+/* An annulus of four cubics, and the places of the commissures on it. The flat side is at -y for a tricuspid valve, and at +y for a
+ * mitral_coapting valve. */
+typedef struct saddle {
+  bool is_mitral;
+  double width, depth, flatness, height, flat_ratio, anterior_ratio;
+} saddle;
+
+static const char *kind_of(const saddle *s) { return s->is_mitral ? "mitral_coapting" : "tricuspid"; }
+
+/* Writes the control points counter-clockwise seen from +z, from the middle of the flat side. */
+static void cubics(const saddle *s, double q[4][4][3]) {
+  const double sign = s->is_mitral ? 1 : -1, a = s->width / 2, circle = 0.5523, h = s->height / 2;
+  const double near = (0.5 - 0.12 * s->flatness) * s->depth, far = s->depth - near;
+  const double at[5][3] = {
+      {0, sign * near, h}, {-sign * a, 0, -h}, {0, -sign * far, h}, {sign * a, 0, -h}, {0, sign * near, h}};
+  const double along[5][2] = {{-sign, 0}, {0, -sign}, {sign, 0}, {0, sign}, {-sign, 0}};
+  const double flat = (circle + 0.3 * s->flatness) * a, round = circle * a;
+  const double out[4] = {flat, circle * far, round, circle * near}, in[4] = {circle * near, round, circle * far, flat};
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 3; ++k) {
+      q[i][0][k] = at[i][k], q[i][3][k] = at[i + 1][k];
+      q[i][1][k] = at[i][k] + (k < 2 ? out[i] * along[i][k] : 0);
+      q[i][2][k] = at[i + 1][k] - (k < 2 ? in[i] * along[i + 1][k] : 0);
+    }
+}
+
+static void on_cubic(double q[4][3], double t, double *at) {
+  const double u = 1 - t;
+  for (int k = 0; k < 3; ++k)
+    at[k] = u * u * u * q[0][k] + 3 * u * u * t * q[1][k] + 3 * u * t * t * q[2][k] + t * t * t * q[3][k];
+}
+static double speed(double q[4][3], double t) {
+  const double u = 1 - t;
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double slope =
+        3 * (u * u * (q[1][k] - q[0][k]) + 2 * u * t * (q[2][k] - q[1][k]) + t * t * (q[3][k] - q[2][k]));
+    sum += slope * slope;
+  }
+  return sqrt(sum);
+}
+/* The length from 0 to t, by Gauss and Legendre with two points in each of 200 parts. */
+static double length_to(double q[4][3], double t) {
+  const double off = 0.5 / sqrt(3);
+  double sum = 0;
+  for (int i = 0; i < 200; ++i)
+    sum += (speed(q, t * (i + 0.5 - off) / 200) + speed(q, t * (i + 0.5 + off) / 200)) * t / 400;
+  return sum;
+}
+
+/* The point at a share of the whole length. */
+static void at_lap(const saddle *s, double lap, double *at) {
+  double q[4][4][3], whole = 0;
+  cubics(s, q);
+  for (int i = 0; i < 4; ++i) whole += length_to(q[i], 1);
+  double left = (lap - floor(lap)) * whole;
+  int i = 0;
+  while (i < 3 && left > length_to(q[i], 1)) left -= length_to(q[i++], 1);
+  double low = 0, high = 1;
+  for (int step = 0; step < 60; ++step) *(length_to(q[i], (low + high) / 2) < left ? &low : &high) = (low + high) / 2;
+  on_cubic(q[i], (low + high) / 2, at);
+}
+
+static saddle random_saddle(bool is_mitral) {
+  saddle s = {is_mitral, 0, 0, between(0.3, 0.9), 0, 0, 0};
+  const riis_valve *valve = new_valve(kind_of(&s));
+  const double grown = between(0.85, 1.15);
+  s.width = grown * between(0.93, 1.07) * value(valve, is_mitral ? "ALPM_diameter" : "AP_diameter");
+  s.depth = grown * value(valve, is_mitral ? "AP_diameter" : "SL_diameter");
+  s.height = grown * between(0.7, 1.3) * value(valve, "saddle_height");
+  s.flat_ratio = value(valve, is_mitral ? "anterior_ratio" : "septal_ratio") + between(-0.04, 0.04);
+  if (!is_mitral) s.anterior_ratio = value(valve, "anterior_ratio") + between(-0.04, 0.04);
+  return s;
+}
+
+static void add_at_lap(patient *p, const saddle *s, int32_t role, double lap, int32_t leaflet) {
+  double at[3];
+  at_lap(s, lap, at);
+  add(p, role, at[0], at[1], at[2]);
+  if (leaflet >= 0) p->leaflet_id[p->n - 1][0] = leaflet, p->leaflet_id[p->n - 1][1] = (leaflet + 1) % 3;
+}
+
+/* Tricuspid leaflets are 0 anterior, 1 septal and 2 posterior. */
+static patient patient_with(const saddle *s, int n_points, bool has_horns, bool has_commissures) {
+  patient p = empty_patient();
+  double q[4][4][3];
+  cubics(s, q);
+  const double phase = between(0, 1);
+  for (int i = 0; i < n_points; ++i) {
+    const double at = 4 * (phase + i) / n_points;
+    double point[3];
+    on_cubic(q[(int)at], at - floor(at), point);
+    add(&p, RIIS_LANDMARK_ANNULUS, point[0], point[1], point[2]);
+  }
+  const double half = s->flat_ratio / 2;
+  if (!s->is_mitral) {
+    add_at_lap(&p, s, RIIS_LANDMARK_COMMISSURE, -half, 0);
+    add_at_lap(&p, s, RIIS_LANDMARK_COMMISSURE, half, 1);
+    add_at_lap(&p, s, RIIS_LANDMARK_COMMISSURE, 1 - half - s->anterior_ratio, 2);
+  }
+  if (has_horns) add_at_lap(&p, s, RIIS_LANDMARK_ANTERIOR_HORN, 0, -1);
+  if (has_horns) add_at_lap(&p, s, RIIS_LANDMARK_POSTERIOR_HORN, 0.5, -1);
+  if (has_commissures) add_at_lap(&p, s, RIIS_LANDMARK_ANTEROLATERAL, half, -1);
+  if (has_commissures) add_at_lap(&p, s, RIIS_LANDMARK_POSTEROMEDIAL, -half, -1);
+  p.flow[2] = -1;
+  return p;
+}
+
+/* Compares the sizes of a placed valve. Returns their number, and writes the errors in standard errors. */
+static int saddle_errors(const riis_valve *valve, const saddle *s, const answer *found, double *error,
+                         double *in_errors) {
+  const char *names[6] = {s->is_mitral ? "ALPM_diameter" : "AP_diameter",
+                          s->is_mitral ? "AP_diameter" : "SL_diameter",
+                          "flatness",
+                          "saddle_height",
+                          s->is_mitral ? "anterior_ratio" : "septal_ratio",
+                          "anterior_ratio"};
+  const double truth[6] = {s->width, s->depth, s->flatness, s->height, s->flat_ratio, s->anterior_ratio};
+  const int n = s->is_mitral ? 5 : 6;
+  for (int i = 0; i < n; ++i) {
+    error[i] = value(valve, names[i]) - truth[i];
+    in_errors[i] = error[i] / found->standard_error[position(valve, names[i])];
+  }
+  return n;
+}
+
+TEST(test_exact_saddles) {
+  for (int trial = 0; trial < trials_of(40); ++trial) {
+    const saddle s = random_saddle(trial % 2 == 1);
+    const int has = trial / 2 % 3; /* horns and commissures, only horns, only commissures */
+    const bool has_commissures = s.is_mitral && has != 1;
+    patient p = patient_with(&s, 12, s.is_mitral && has != 2, has_commissures);
+    if (has == 0) memset(p.flow, 0, sizeof p.flow); /* the names show the side of the atrium */
+    place_patient(&p, scales[trial % 3]);
+    p.noise = 0.01 * p.scale;
+    riis_valve *valve = new_valve(kind_of(&s));
+    const double own_length = value(valve, "posterior_length"),
+                 own_depth = value(valve, s.is_mitral ? "AP_diameter" : "SL_diameter");
+    const answer found = place(valve, &p);
+    double error[6], in_errors[6];
+    const int n = saddle_errors(valve, &s, &found, error, in_errors);
+    for (int i = 0; i < n; ++i)
+      if (i != 4 || !s.is_mitral || has_commissures) CHECK_NEAR(error[i], 0, 1e-6);
+    CHECK_AT_MOST(found.placement.worst, 1e-6 * p.scale);
+    for (int k = 0; k < 3; ++k) CHECK_NEAR(found.placement.translation[k], p.shift[k], 1e-5 * p.scale);
+    /* The leaflets' lengths grow with the annulus. */
+    CHECK_NEAR(value(valve, "posterior_length"), own_length * s.depth / own_depth, 1e-5);
+    assert_int_equal(found.state[position(valve, "posterior_length")], RIIS_SIZE_TIED);
+    check_on_surface(valve, &p, &found, 0.01);
+  }
+}
+
+/* A length that was measured stays, and the leaflets of two commissures suffice. */
+TEST(test_saddle_with_lengths) {
+  saddle s = random_saddle(false);
+  patient p = patient_with(&s, 12, false, false);
+  place_patient(&p, 10);
+  p.leaflet_id[13][0] = p.leaflet_id[13][1] = -1;
+  riis_valve *valve = new_valve("tricuspid");
+  CHECK_OK(riis_valve_set_scalar(valve, "anterior_length", 2.45));
+  answer found;
+  CHECK_OK(try_to_place(valve, &p, "anterior_length", &found));
+  CHECK_NEAR(value(valve, "anterior_length"), 2.45, 0);
+  assert_int_equal(found.state[position(valve, "anterior_length")], RIIS_SIZE_KEPT);
+  assert_int_equal(found.state[position(valve, "septal_length")], RIIS_SIZE_TIED);
+  /* The names alone show that the commissures are mirrored. */
+  p.leaflet_id[12][0] = 2, p.leaflet_id[12][1] = 0, p.leaflet_id[14][0] = 0, p.leaflet_id[14][1] = 1;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "seen along the flow, anterior, septal and posterior|counter-clockwise|mirrored",
+                try_to_place(valve, &p, "", &found));
+}
+
+TEST(test_noisy_saddles) {
+  const int n = is_long_test() ? 1000 : 60;
+  for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
+    double squares[6] = {0}, in_squares[6] = {0};
+    int n_sizes_of = 0, n_covered = 0;
+    for (int trial = 0; trial < n; ++trial) {
+      const saddle s = random_saddle(is_mitral);
+      patient p = patient_with(&s, 16, is_mitral, is_mitral);
+      place_patient(&p, 10);
+      disturb(&p, 0.3);
+      riis_valve *valve = new_valve(kind_of(&s));
+      const answer found = place(valve, &p);
+      double error[6], in_errors[6];
+      n_sizes_of = saddle_errors(valve, &s, &found, error, in_errors);
+      for (int i = 0; i < n_sizes_of; ++i) {
+        squares[i] += error[i] * error[i] / n, in_squares[i] += in_errors[i] * in_errors[i] / n;
+        n_covered += fabs(in_errors[i]) <= 3;
+      }
+      free_owned_after(0);
+    }
+    print_message(
+        "%s, 16 points, noise 0.3, %d patients: width %.2f, depth %.2f, saddle %.2f mm, flatness %.3f, "
+        "ratios %.4f %.4f; in standard errors %.2f %.2f %.2f %.2f %.2f %.2f; within 3 errors %.3f\n",
+        is_mitral ? "mitral_coapting" : "tricuspid", n, 10 * sqrt(squares[0]), 10 * sqrt(squares[1]),
+        10 * sqrt(squares[3]), sqrt(squares[2]), sqrt(squares[4]), sqrt(squares[5]), sqrt(in_squares[0]),
+        sqrt(in_squares[1]), sqrt(in_squares[2]), sqrt(in_squares[3]), sqrt(in_squares[4]), sqrt(in_squares[5]),
+        (double)n_covered / (n * n_sizes_of));
+    CHECK_AT_MOST(0.96 * n * n_sizes_of, n_covered);
+    for (int i = 0; i < n_sizes_of; ++i) CHECK_NEAR(sqrt(in_squares[i]), 0.85, 0.35);
+  }
+}
+
 /* ---- Bileaflet ---- */
 
 TEST(test_exact_bileaflet) {
@@ -800,9 +1005,10 @@ TEST(test_forms_of_input) {
 
 static void check_place_refused(const char *kind, const patient *p, const char *parts, const char *what) {
   riis_valve *valve = new_valve(kind);
-  const char *size = strcmp(kind, "mitral") == 0      ? "AP_diameter"
-                     : strcmp(kind, "bileaflet") == 0 ? "radius"
-                                                      : "root_radius";
+  const char *size = strcmp(kind, "bileaflet") == 0                           ? "radius"
+                     : strcmp(kind, "mitral") == 0 || strstr(kind, "mitral_") ? "AP_diameter"
+                     : strcmp(kind, "tricuspid") == 0                         ? "AP_diameter"
+                                                                              : "root_radius";
   CHECK_OK(riis_valve_set_scalar(valve, size, 1.7));
   answer found, untouched;
   memset(&untouched, 0x5a, sizeof untouched);
@@ -900,6 +1106,51 @@ TEST(test_refused_annuli) {
   check_place_refused("bileaflet", &p, "hinges are|direction", "hinges in one place");
   p = ring, p.xyz[5][1] = p.xyz[6][1] = 0, p.xyz[5][2] = 1, p.xyz[6][2] = -1;
   check_place_refused("bileaflet", &p, "hinges are at|normal", "hinges along the axis");
+}
+
+TEST(test_refused_sectors_and_saddles) {
+  const cusp_sizes c = equal_cusps(4, 1.2, 1.2, 1.7), two = equal_cusps(2, 1.2, 1.2, 1.7);
+#define REFUSED(kind, from, parts, ...)                 \
+  do {                                                  \
+    patient p = from;                                   \
+    __VA_ARGS__;                                        \
+    check_place_refused(kind, &p, parts, #__VA_ARGS__); \
+  } while (0)
+  const patient four = patient_of(&c, true), pair = patient_of(&two, true);
+  REFUSED("quadricuspid", four, "has the commissure 3 times; the quadricuspid valve needs 4", p.n = 7);
+  REFUSED("coapting", four, "has the commissure 4 times; the coapting valve needs 3", p.noise = 0);
+  REFUSED("bicuspid", four, "has the commissure 4 times; the bicuspid valve needs 2", p.noise = 0);
+  REFUSED("quadricuspid", four, "is 4; it must be 0 (cusp_0), 1 (cusp_1), 2 (cusp_2), 3 (cusp_3) or -1",
+          p.leaflet_id[0][0] = 4);
+  REFUSED("quadricuspid", four, "seen along the flow, cusp_0, cusp_1, cusp_2 and cusp_3|mirrored",
+          for (int i = 0; i < 8; ++i) p.xyz[i][1] *= -1);
+  REFUSED("bicuspid", pair, "landmark 1 (commissure) and landmark 3 (commissure) are in one place",
+          memcpy(p.xyz[3], p.xyz[1], sizeof p.xyz[1]));
+  REFUSED("bicuspid", pair, "landmark 0 (annulus) has a role that the bicuspid valve lacks",
+          p.role[0] = RIIS_LANDMARK_ANNULUS);
+  saddle s = random_saddle(false), m = random_saddle(true);
+  const patient right = patient_with(&s, 12, false, false), left = patient_with(&m, 12, true, true);
+  REFUSED("tricuspid", right, "has the commissure 2 times; the tricuspid valve needs 3", p.n = 14);
+  REFUSED("tricuspid", right, "has the annulus 3 times; the tricuspid valve needs 4 or more",
+          for (int i = 0; i < 9; ++i) p.role[i] = RIIS_LANDMARK_COMMISSURE);
+  REFUSED("tricuspid", right, "does not say which commissure|name the leaflets of two",
+          for (int i = 12; i < 15; ++i) p.leaflet_id[i][0] = p.leaflet_id[i][1] = -1);
+  REFUSED("tricuspid", right, "landmarks.flow is 0 0 0: one named commissure",
+          (p.leaflet_id[12][0] = p.leaflet_id[12][1] = p.leaflet_id[13][0] = p.leaflet_id[13][1] = -1, p.flow[2] = 0));
+  REFUSED("tricuspid", right, "counter-clockwise|mirrored", p.flow[2] = 1);
+  REFUSED("tricuspid", right, "landmark 0 (anterior_horn) has a role", p.role[0] = RIIS_LANDMARK_ANTERIOR_HORN);
+  REFUSED("mitral_coapting", left, "has the anterior_horn 0 times|or both commissures", p.n = 12);
+  REFUSED("mitral_coapting", left, "landmarks.flow is 0 0 0|anterior horn and both commissures",
+          (p.n = 15, p.flow[2] = 0));
+  REFUSED("mitral_coapting", left, "flow points to the atrium", p.flow[2] = 1);
+  REFUSED("mitral_coapting", left, "landmark 0 (trigone) has a role", p.role[0] = RIIS_LANDMARK_TRIGONE);
+#undef REFUSED
+  /* Commissures that leave less than 50 degrees to a cusp. */
+  patient narrow = pair;
+  for (int i = 1; i < 4; i += 2) narrow.xyz[i][0] = 1.19, narrow.xyz[i][1] *= 0.13;
+  answer found;
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the landmarks give root_radius|cusp_0.sector|cusp_1.sector is|from 50 to 240",
+                try_to_place(new_valve("bicuspid"), &narrow, "", &found));
 }
 
 TEST(test_refused_arguments) {

@@ -178,6 +178,8 @@ KindOfLandmarks one_model(std::unique_ptr<LandmarkModel> model, std::vector<Pose
 // Checks the landmarks and prepares the fit, for the kinds with two to four cusps.
 KindOfLandmarks cusp_landmarks(const Valve &valve, const Landmarks &landmarks, const IsHeld &is_held);
 KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks);
+KindOfLandmarks mitral_coapting_landmarks(const Valve &valve, const Landmarks &landmarks);
+KindOfLandmarks tricuspid_landmarks(const Valve &valve, const Landmarks &landmarks);
 KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmarks);
 
 }  // namespace riis

@@ -121,6 +121,13 @@ void check_leaflet_ids(const Landmarks &landmarks, const LeafletsAround &leaflet
   }
 }
 
+bool names_fit(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle) {
+  const Order turn = turn_of(landmarks, axis, middle);
+  for (std::size_t by = 0; by < leaflets.n(); ++by)
+    if (fits(landmarks, leaflets, rotated(turn, by))) return true;
+  return false;
+}
+
 // The names determine which of the possible turns about the axis it is.
 Order order_around(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle) {
   const Order turn = turn_of(landmarks, axis, middle);

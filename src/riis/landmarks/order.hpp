@@ -32,7 +32,10 @@ struct Order {
 // Refuses ids that no leaflet has, and numbers of ids that do not fit a landmark's role.
 void check_leaflet_ids(const Landmarks &landmarks, const LeafletsAround &leaflets);
 
-// Returns the order around the axis, which points along z. There are as many commissures as leaflets, and as many nadirs or none.
+// Returns whether the names fit the order around the axis, which points along z.
+bool names_fit(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle);
+
+// Returns the order around the axis. There are as many commissures as leaflets, and as many nadirs or none.
 // Refuses commissures and nadirs that do not alternate, and names that contradict the order.
 Order order_around(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle);
 

@@ -40,6 +40,8 @@ KindOfLandmarks landmarks_of_kind(const Valve &valve, const Landmarks &landmarks
   for (const char *of_cusps : {"trileaflet", "bicuspid", "coapting", "quadricuspid", "aortic"})
     if (kind == of_cusps) return cusp_landmarks(valve, landmarks, is_held);
   if (kind == "mitral") return mitral_landmarks(valve, landmarks);
+  if (kind == "mitral_coapting") return mitral_coapting_landmarks(valve, landmarks);
+  if (kind == "tricuspid") return tricuspid_landmarks(valve, landmarks);
   if (kind == "bileaflet") return bileaflet_landmarks(valve, landmarks);
   fail(RIIS_INVALID_PARAMETER, "a valve of the kind ", kind, " has no landmarks");
 }
