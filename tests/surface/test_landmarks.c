@@ -20,7 +20,7 @@ static double cosine(double degrees) { return cos(degrees * acos(-1.0) / 180); }
 /* A number from the normal distribution, by Box and Muller. */
 static double normal(void) { return sqrt(-2 * log(1 - between(0, 1))) * cosine(360 * between(0, 1)); }
 
-enum { most = 64, most_parameters = 64 };
+enum { most = 64, most_parameters = 128 };
 
 /* Landmarks, first in the valve's frame in centimetres, then as riis_place takes them. */
 typedef struct patient {
@@ -325,6 +325,218 @@ TEST(test_noisy_trileaflet) {
   }
 }
 
+/* ---- Cusps with sectors of their own, and commissures with heights ---- */
+
+enum { most_cusps = 4 };
+static const char *const kinds_of[most_cusps + 1] = {NULL, NULL, "bicuspid", "coapting", "quadricuspid"};
+
+/* Sizes of a valve with two to four cusps. Commissure k lies behind cusp k. */
+typedef struct cusp_sizes {
+  int n;
+  double R, Rc, sector[most_cusps], height[most_cusps];
+} cusp_sizes;
+
+static const char *of(const char *owner, int k, const char *name) {
+  static char text[64];
+  snprintf(text, sizeof text, "%s_%d.%s", owner, k, name);
+  return text;
+}
+
+static void set_cusps(riis_valve *valve, const cusp_sizes *c) {
+  CHECK_OK(riis_valve_set_scalar(valve, "root_radius", c->R));
+  CHECK_OK(riis_valve_set_scalar(valve, "commissure_radius", c->Rc));
+  for (int k = 0; k < c->n; ++k) {
+    CHECK_OK(riis_valve_set_scalar(valve, of("cusp", k, "sector"), c->sector[k]));
+    CHECK_OK(riis_valve_set_scalar(valve, of("commissure", k, "height"), c->height[k]));
+  }
+}
+
+/* Random cusps that the kind accepts, with a commissure_height that is the mean of the heights. */
+static cusp_sizes random_cusps(int n) {
+  for (;;) {
+    cusp_sizes c = {n, between(1, 1.4), 0, {0}, {0}};
+    double sum = 0, mean = 0;
+    c.Rc = c.R * between(0.95, 1.05);
+    for (int k = 0; k < n; ++k) sum += c.sector[k] = between(40, 150);
+    for (int k = 0; k < n; ++k) c.sector[k] *= 360 / sum;
+    for (int k = 0; k < n; ++k) mean += (c.height[k] = 1.4 * c.Rc * between(0.95, 1.1)) / n;
+    riis_valve *valve = new_valve(kinds_of[n]);
+    set_cusps(valve, &c);
+    CHECK_OK(riis_valve_set_scalar(valve, "commissure_height", mean));
+    const riis_surface_options options = surface_options();
+    riis_surface *surface = NULL;
+    const riis_status status = riis_surface_create(valve, &options, &surface);
+    riis_surface_destroy(&surface);
+    if (status == RIIS_OK) return c;
+    assert_int_equal(status, RIIS_INVALID_PARAMETER);
+  }
+}
+
+static cusp_sizes equal_cusps(int n, double R, double Rc, double h) {
+  cusp_sizes c = {n, R, Rc, {0}, {0}};
+  for (int k = 0; k < n; ++k) c.sector[k] = 360.0 / n, c.height[k] = h;
+  return c;
+}
+
+/* Cusp 0 is about the x axis. With names, the landmarks say which cusp is which. */
+static patient patient_of(const cusp_sizes *c, bool has_names) {
+  patient p = empty_patient();
+  double end = -0.5 * c->sector[0];
+  for (int32_t k = 0; k < c->n; ++k) {
+    add_around(&p, RIIS_LANDMARK_NADIR, c->R, end + 0.5 * c->sector[k], 0);
+    if (has_names) p.leaflet_id[p.n - 1][0] = k;
+    add_around(&p, RIIS_LANDMARK_COMMISSURE, c->Rc, end += c->sector[k], c->height[k]);
+    if (has_names) p.leaflet_id[p.n - 1][0] = (k + 1) % c->n, p.leaflet_id[p.n - 1][1] = k;
+  }
+  return p;
+}
+
+static int32_t is_set(const riis_valve *valve, const char *name) {
+  int32_t found = -1;
+  CHECK_OK(riis_valve_is_set(valve, name, &found));
+  return found;
+}
+
+TEST(test_exact_sectors) {
+  for (int trial = 0; trial < trials_of(120); ++trial) {
+    const cusp_sizes c = random_cusps(2 + trial % 3);
+    patient p = patient_of(&c, true);
+    if (trial % 2 == 0) add(&p, RIIS_LANDMARK_COAPTATION, 0, 0, 0.6);
+    place_patient(&p, scales[trial % 3]);
+    shuffle(&p);
+    riis_valve *valve = new_valve(kinds_of[c.n]);
+    const answer found = place(valve, &p);
+    CHECK_AT_MOST(found.placement.worst, 1e-8 * p.scale);
+    assert_int_equal(found.placement.n_undetermined, 0);
+    CHECK_NEAR(value(valve, "root_radius"), c.R, 1e-8);
+    CHECK_NEAR(value(valve, "commissure_radius"), c.Rc, 1e-8);
+    double sum = 0, mean = 0;
+    for (int k = 0; k < c.n; ++k) {
+      CHECK_NEAR(value(valve, of("cusp", k, "sector")), c.sector[k], 1e-6);
+      CHECK_NEAR(value(valve, of("commissure", k, "height")), c.height[k], 1e-8);
+      assert_int_equal(found.state[position(valve, of("cusp", k, "sector"))], RIIS_SIZE_DETERMINED);
+      assert_int_equal(found.state[position(valve, of("commissure", k, "height"))], RIIS_SIZE_DETERMINED);
+      sum += value(valve, of("cusp", k, "sector")), mean += c.height[k] / c.n;
+    }
+    CHECK_NEAR(sum, 360, 1e-9);
+    CHECK_NEAR(value(valve, "commissure_height"), mean, 1e-8);
+    check_on_surface(valve, &p, &found,
+                     trial % 2 == 0 ? 2 : 0.01); /* the point of coaptation may be anywhere on the axis */
+  }
+}
+
+/* Landmarks of equal cusps give the valve with equal cusps: nothing is set for a cusp or for a commissure. */
+TEST(test_equal_cusps_stay_equal) {
+  int n_unequal = 0;
+  const int n = trials_of(300);
+  for (int trial = 0; trial < n; ++trial) {
+    const double R = between(1, 1.4);
+    const cusp_sizes c = equal_cusps(2 + trial % 3, R, R * between(0.95, 1.05), 1.4 * R * between(0.97, 1.05));
+    const bool is_exact = trial % 4 == 0;
+    patient p = patient_of(&c, trial % 2 == 0);
+    place_patient(&p, 10);
+    if (!is_exact) disturb(&p, 0.3);
+    riis_valve *valve = new_valve(kinds_of[c.n]);
+    const answer found = place(valve, &p);
+    int n_set = 0;
+    for (int k = 0; k < c.n; ++k)
+      n_set += is_set(valve, of("cusp", k, "sector")) + is_set(valve, of("commissure", k, "height"));
+    n_unequal += n_set > 0;
+    if (is_exact) {
+      assert_int_equal(n_set, 0);
+      CHECK_NEAR(value(valve, "root_radius"), c.R, 1e-9);
+      CHECK_NEAR(value(valve, "commissure_height"), c.height[0], 1e-9);
+      assert_int_equal(found.state[position(valve, "cusp_0.sector")], RIIS_SIZE_KEPT);
+      assert_int_equal(found.state[position(valve, "commissure_1.height")], RIIS_SIZE_TIED);
+    }
+    free_owned_after(0);
+  }
+  print_message("%d of %d noisy valves with equal cusps did not stay equal\n", n_unequal, n - n / 4);
+  CHECK_AT_MOST(n_unequal, 0.06 * n + 3);
+}
+
+/* The standard errors explain the scatter of a valve whose cusps differ by much more than the noise. */
+TEST(test_noisy_sectors) {
+  static const cusp_sizes truth[3] = {{2, 1.35, 1.35, {150, 210}, {1.9, 1.9}},
+                                      {3, 1.25, 1.3, {130, 100, 130}, {1.9, 1.6, 1.75}},
+                                      {4, 1.3, 1.3, {100, 100, 100, 60}, {1.9, 1.7, 1.9, 1.7}}};
+  const int n = is_long_test() ? 2000 : 100;
+  for (int row = 0; row < 3; ++row) {
+    const cusp_sizes *c = &truth[row];
+    double squares = 0, expected = 0, sectors = 0;
+    int n_covered = 0, n_values = 0;
+    for (int trial = 0; trial < n; ++trial) {
+      patient p = patient_of(c, true);
+      place_patient(&p, 10);
+      disturb(&p, 0.3);
+      riis_valve *valve = new_valve(kinds_of[c->n]);
+      const answer found = place(valve, &p);
+      for (int k = 0; k < c->n; ++k) {
+        const double error = value(valve, of("cusp", k, "sector")) - c->sector[k];
+        const double stated = found.standard_error[position(valve, of("cusp", k, "sector"))];
+        n_covered += fabs(error) <= 3 * stated;
+        squares += error * error / (stated * stated), sectors += error * error, expected += stated * stated;
+        ++n_values;
+        if (found.state[position(valve, "commissure_0.height")] != RIIS_SIZE_DETERMINED) continue;
+        const double off = value(valve, of("commissure", k, "height")) - c->height[k];
+        const double height_error = found.standard_error[position(valve, of("commissure", k, "height"))];
+        n_covered += fabs(off) <= 3 * height_error;
+        squares += off * off / (height_error * height_error);
+        ++n_values;
+      }
+      free_owned_after(0);
+    }
+    print_message(
+        "%s, noise 0.3 mm, %d patients: sectors off by %.2f degrees, standard error %.2f; errors are %.2f "
+        "standard errors; within 3 errors %.3f\n",
+        kinds_of[c->n], n, sqrt(sectors / (n * c->n)), sqrt(expected / (n * c->n)), sqrt(squares / n_values),
+        (double)n_covered / n_values);
+    CHECK_AT_MOST(0.97 * n_values, n_covered);
+    /* The standard errors come from the stated noise or from larger residuals, so they are rather too large. */
+    CHECK_NEAR(sqrt(sectors / expected), 0.9, 0.25);
+  }
+}
+
+/* Held sectors and heights stay, and the others take what is left. */
+TEST(test_held_sectors) {
+  const cusp_sizes c = {3, 1.25, 1.3, {130, 100, 130}, {1.9, 1.6, 1.75}};
+  patient p = patient_of(&c, true);
+  place_patient(&p, 10);
+  answer found;
+  riis_valve *valve = new_valve("coapting");
+  CHECK_OK(riis_valve_set_scalar(valve, "cusp_2.sector", 126));
+  CHECK_OK(try_to_place(valve, &p, "cusp_2.sector", &found));
+  CHECK_NEAR(value(valve, "cusp_2.sector"), 126, 0);
+  assert_int_equal(found.state[position(valve, "cusp_2.sector")], RIIS_SIZE_KEPT);
+  CHECK_NEAR(value(valve, "cusp_0.sector") + value(valve, "cusp_1.sector"), 234, 1e-9);
+  CHECK_AT_MOST(0.1, found.placement.worst);
+  valve = new_valve("coapting");
+  for (int k = 0; k < 3; ++k) CHECK_OK(riis_valve_set_scalar(valve, of("cusp", k, "sector"), 2 * c.sector[k]));
+  CHECK_OK(try_to_place(valve, &p, "cusp_0.sector cusp_1.sector cusp_2.sector", &found));
+  CHECK_AT_MOST(found.placement.worst, 1e-7);
+  CHECK_NEAR(value(valve, "cusp_1.sector"), 200, 0);
+  valve = new_valve("coapting");
+  CHECK_OK(riis_valve_set_scalar(valve, "commissure_height", 1.75));
+  CHECK_OK(try_to_place(valve, &p, "commissure_height", &found));
+  assert_int_equal(is_set(valve, "commissure_0.height"), 0);
+  CHECK_NEAR(value(valve, "commissure_0.height"), 1.75, 0);
+  valve = new_valve("coapting");
+  CHECK_OK(riis_valve_set_scalar(valve, "commissure_1.height", 1.6));
+  CHECK_OK(try_to_place(valve, &p, "commissure_1.height", &found));
+  CHECK_NEAR(value(valve, "commissure_0.height"), 1.9, 1e-8);
+  CHECK_NEAR(value(valve, "commissure_height"), 1.75, 1e-8);
+  /* A template whose cusps differ keeps them if the landmarks agree. */
+  valve = new_valve("coapting");
+  set_cusps(valve, &c);
+  for (int k = 0; k < 3; ++k) CHECK_OK(riis_valve_set_scalar(valve, of("commissure", k, "height"), 2 * c.height[k]));
+  CHECK_OK(riis_valve_set_scalar(valve, "commissure_height", 3.5));
+  CHECK_OK(try_to_place(valve, &p, "", &found));
+  assert_int_equal(found.state[position(valve, "cusp_1.sector")], RIIS_SIZE_KEPT);
+  CHECK_NEAR(value(valve, "commissure_1.height"), 1.6, 1e-8);
+  CHECK_NEAR(value(valve, "commissure_height"), 1.75, 1e-8);
+  CHECK_AT_MOST(found.placement.worst, 1e-7);
+}
+
 /* ---- Aortic ---- */
 
 static patient aortic(double R, const double *Rc, double h, const double *angle) {
@@ -511,6 +723,211 @@ TEST(test_noisy_mitral) {
   }
 }
 
+/* ---- Saddles: tricuspid, mitral_coapting ---- */
+
+/* An annulus of four cubics, and the places of the commissures on it. The flat side is at -y for a tricuspid valve, and at +y for a
+ * mitral_coapting valve. */
+typedef struct saddle {
+  bool is_mitral;
+  double width, depth, flatness, height, flat_ratio, anterior_ratio;
+} saddle;
+
+static const char *kind_of(const saddle *s) { return s->is_mitral ? "mitral_coapting" : "tricuspid"; }
+
+/* Writes the control points counter-clockwise seen from +z, from the middle of the flat side. */
+static void cubics(const saddle *s, double q[4][4][3]) {
+  const double sign = s->is_mitral ? 1 : -1, a = s->width / 2, circle = 0.5523, h = s->height / 2;
+  const double near = (0.5 - 0.12 * s->flatness) * s->depth, far = s->depth - near;
+  const double at[5][3] = {
+      {0, sign * near, h}, {-sign * a, 0, -h}, {0, -sign * far, h}, {sign * a, 0, -h}, {0, sign * near, h}};
+  const double along[5][2] = {{-sign, 0}, {0, -sign}, {sign, 0}, {0, sign}, {-sign, 0}};
+  const double flat = (circle + 0.3 * s->flatness) * a, round = circle * a;
+  const double out[4] = {flat, circle * far, round, circle * near}, in[4] = {circle * near, round, circle * far, flat};
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 3; ++k) {
+      q[i][0][k] = at[i][k], q[i][3][k] = at[i + 1][k];
+      q[i][1][k] = at[i][k] + (k < 2 ? out[i] * along[i][k] : 0);
+      q[i][2][k] = at[i + 1][k] - (k < 2 ? in[i] * along[i + 1][k] : 0);
+    }
+}
+
+static void on_cubic(double q[4][3], double t, double *at) {
+  const double u = 1 - t;
+  for (int k = 0; k < 3; ++k)
+    at[k] = u * u * u * q[0][k] + 3 * u * u * t * q[1][k] + 3 * u * t * t * q[2][k] + t * t * t * q[3][k];
+}
+static double speed(double q[4][3], double t) {
+  const double u = 1 - t;
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double slope =
+        3 * (u * u * (q[1][k] - q[0][k]) + 2 * u * t * (q[2][k] - q[1][k]) + t * t * (q[3][k] - q[2][k]));
+    sum += slope * slope;
+  }
+  return sqrt(sum);
+}
+/* The length from 0 to t, by Gauss and Legendre with two points in each of 200 parts. */
+static double length_to(double q[4][3], double t) {
+  const double off = 0.5 / sqrt(3);
+  double sum = 0;
+  for (int i = 0; i < 200; ++i)
+    sum += (speed(q, t * (i + 0.5 - off) / 200) + speed(q, t * (i + 0.5 + off) / 200)) * t / 400;
+  return sum;
+}
+
+/* The point at a share of the whole length. */
+static void at_lap(const saddle *s, double lap, double *at) {
+  double q[4][4][3], whole = 0;
+  cubics(s, q);
+  for (int i = 0; i < 4; ++i) whole += length_to(q[i], 1);
+  double left = (lap - floor(lap)) * whole;
+  int i = 0;
+  while (i < 3 && left > length_to(q[i], 1)) left -= length_to(q[i++], 1);
+  double low = 0, high = 1;
+  for (int step = 0; step < 60; ++step) *(length_to(q[i], (low + high) / 2) < left ? &low : &high) = (low + high) / 2;
+  on_cubic(q[i], (low + high) / 2, at);
+}
+
+static saddle random_saddle(bool is_mitral) {
+  saddle s = {is_mitral, 0, 0, between(0.3, 0.9), 0, 0, 0};
+  const riis_valve *valve = new_valve(kind_of(&s));
+  const double grown = between(0.85, 1.15);
+  s.width = grown * between(0.93, 1.07) * value(valve, is_mitral ? "ALPM_diameter" : "AP_diameter");
+  s.depth = grown * value(valve, is_mitral ? "AP_diameter" : "SL_diameter");
+  s.height = grown * between(0.7, 1.3) * value(valve, "saddle_height");
+  s.flat_ratio = value(valve, is_mitral ? "anterior_ratio" : "septal_ratio") + between(-0.04, 0.04);
+  if (!is_mitral) s.anterior_ratio = value(valve, "anterior_ratio") + between(-0.04, 0.04);
+  return s;
+}
+
+static void add_at_lap(patient *p, const saddle *s, int32_t role, double lap, int32_t leaflet) {
+  double at[3];
+  at_lap(s, lap, at);
+  add(p, role, at[0], at[1], at[2]);
+  if (leaflet >= 0) p->leaflet_id[p->n - 1][0] = leaflet, p->leaflet_id[p->n - 1][1] = (leaflet + 1) % 3;
+}
+
+/* Tricuspid leaflets are 0 anterior, 1 septal and 2 posterior. */
+static patient patient_with(const saddle *s, int n_points, bool has_horns, bool has_commissures) {
+  patient p = empty_patient();
+  double q[4][4][3];
+  cubics(s, q);
+  const double phase = between(0, 1);
+  for (int i = 0; i < n_points; ++i) {
+    const double at = 4 * (phase + i) / n_points;
+    double point[3];
+    on_cubic(q[(int)at], at - floor(at), point);
+    add(&p, RIIS_LANDMARK_ANNULUS, point[0], point[1], point[2]);
+  }
+  const double half = s->flat_ratio / 2;
+  if (!s->is_mitral) {
+    add_at_lap(&p, s, RIIS_LANDMARK_COMMISSURE, -half, 0);
+    add_at_lap(&p, s, RIIS_LANDMARK_COMMISSURE, half, 1);
+    add_at_lap(&p, s, RIIS_LANDMARK_COMMISSURE, 1 - half - s->anterior_ratio, 2);
+  }
+  if (has_horns) add_at_lap(&p, s, RIIS_LANDMARK_ANTERIOR_HORN, 0, -1);
+  if (has_horns) add_at_lap(&p, s, RIIS_LANDMARK_POSTERIOR_HORN, 0.5, -1);
+  if (has_commissures) add_at_lap(&p, s, RIIS_LANDMARK_ANTEROLATERAL, half, -1);
+  if (has_commissures) add_at_lap(&p, s, RIIS_LANDMARK_POSTEROMEDIAL, -half, -1);
+  p.flow[2] = -1;
+  return p;
+}
+
+/* Compares the sizes of a placed valve. Returns their number, and writes the errors in standard errors. */
+static int saddle_errors(const riis_valve *valve, const saddle *s, const answer *found, double *error,
+                         double *in_errors) {
+  const char *names[6] = {s->is_mitral ? "ALPM_diameter" : "AP_diameter",
+                          s->is_mitral ? "AP_diameter" : "SL_diameter",
+                          "flatness",
+                          "saddle_height",
+                          s->is_mitral ? "anterior_ratio" : "septal_ratio",
+                          "anterior_ratio"};
+  const double truth[6] = {s->width, s->depth, s->flatness, s->height, s->flat_ratio, s->anterior_ratio};
+  const int n = s->is_mitral ? 5 : 6;
+  for (int i = 0; i < n; ++i) {
+    error[i] = value(valve, names[i]) - truth[i];
+    in_errors[i] = error[i] / found->standard_error[position(valve, names[i])];
+  }
+  return n;
+}
+
+TEST(test_exact_saddles) {
+  for (int trial = 0; trial < trials_of(40); ++trial) {
+    const saddle s = random_saddle(trial % 2 == 1);
+    const int has = trial / 2 % 3; /* horns and commissures, only horns, only commissures */
+    const bool has_commissures = s.is_mitral && has != 1;
+    patient p = patient_with(&s, 12, s.is_mitral && has != 2, has_commissures);
+    if (has == 0) memset(p.flow, 0, sizeof p.flow); /* the names show the side of the atrium */
+    place_patient(&p, scales[trial % 3]);
+    p.noise = 0.01 * p.scale;
+    riis_valve *valve = new_valve(kind_of(&s));
+    const double own_length = value(valve, "posterior_length"),
+                 own_depth = value(valve, s.is_mitral ? "AP_diameter" : "SL_diameter");
+    const answer found = place(valve, &p);
+    double error[6], in_errors[6];
+    const int n = saddle_errors(valve, &s, &found, error, in_errors);
+    for (int i = 0; i < n; ++i)
+      if (i != 4 || !s.is_mitral || has_commissures) CHECK_NEAR(error[i], 0, 1e-6);
+    CHECK_AT_MOST(found.placement.worst, 1e-6 * p.scale);
+    for (int k = 0; k < 3; ++k) CHECK_NEAR(found.placement.translation[k], p.shift[k], 1e-5 * p.scale);
+    /* The leaflets' lengths grow with the annulus. */
+    CHECK_NEAR(value(valve, "posterior_length"), own_length * s.depth / own_depth, 1e-5);
+    assert_int_equal(found.state[position(valve, "posterior_length")], RIIS_SIZE_TIED);
+    check_on_surface(valve, &p, &found, 0.01);
+  }
+}
+
+/* A length that was measured stays, and the leaflets of two commissures suffice. */
+TEST(test_saddle_with_lengths) {
+  saddle s = random_saddle(false);
+  patient p = patient_with(&s, 12, false, false);
+  place_patient(&p, 10);
+  p.leaflet_id[13][0] = p.leaflet_id[13][1] = -1;
+  riis_valve *valve = new_valve("tricuspid");
+  CHECK_OK(riis_valve_set_scalar(valve, "anterior_length", 2.45));
+  answer found;
+  CHECK_OK(try_to_place(valve, &p, "anterior_length", &found));
+  CHECK_NEAR(value(valve, "anterior_length"), 2.45, 0);
+  assert_int_equal(found.state[position(valve, "anterior_length")], RIIS_SIZE_KEPT);
+  assert_int_equal(found.state[position(valve, "septal_length")], RIIS_SIZE_TIED);
+  /* The names alone show that the commissures are mirrored. */
+  p.leaflet_id[12][0] = 2, p.leaflet_id[12][1] = 0, p.leaflet_id[14][0] = 0, p.leaflet_id[14][1] = 1;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "seen along the flow, anterior, septal and posterior|counter-clockwise|mirrored",
+                try_to_place(valve, &p, "", &found));
+}
+
+TEST(test_noisy_saddles) {
+  const int n = is_long_test() ? 1000 : 60;
+  for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
+    double squares[6] = {0}, in_squares[6] = {0};
+    int n_sizes_of = 0, n_covered = 0;
+    for (int trial = 0; trial < n; ++trial) {
+      const saddle s = random_saddle(is_mitral);
+      patient p = patient_with(&s, 16, is_mitral, is_mitral);
+      place_patient(&p, 10);
+      disturb(&p, 0.3);
+      riis_valve *valve = new_valve(kind_of(&s));
+      const answer found = place(valve, &p);
+      double error[6], in_errors[6];
+      n_sizes_of = saddle_errors(valve, &s, &found, error, in_errors);
+      for (int i = 0; i < n_sizes_of; ++i) {
+        squares[i] += error[i] * error[i] / n, in_squares[i] += in_errors[i] * in_errors[i] / n;
+        n_covered += fabs(in_errors[i]) <= 3;
+      }
+      free_owned_after(0);
+    }
+    print_message(
+        "%s, 16 points, noise 0.3, %d patients: width %.2f, depth %.2f, saddle %.2f mm, flatness %.3f, "
+        "ratios %.4f %.4f; in standard errors %.2f %.2f %.2f %.2f %.2f %.2f; within 3 errors %.3f\n",
+        is_mitral ? "mitral_coapting" : "tricuspid", n, 10 * sqrt(squares[0]), 10 * sqrt(squares[1]),
+        10 * sqrt(squares[3]), sqrt(squares[2]), sqrt(squares[4]), sqrt(squares[5]), sqrt(in_squares[0]),
+        sqrt(in_squares[1]), sqrt(in_squares[2]), sqrt(in_squares[3]), sqrt(in_squares[4]), sqrt(in_squares[5]),
+        (double)n_covered / (n * n_sizes_of));
+    CHECK_AT_MOST(0.96 * n * n_sizes_of, n_covered);
+    for (int i = 0; i < n_sizes_of; ++i) CHECK_NEAR(sqrt(in_squares[i]), 0.85, 0.35);
+  }
+}
+
 /* ---- Bileaflet ---- */
 
 TEST(test_exact_bileaflet) {
@@ -588,9 +1005,10 @@ TEST(test_forms_of_input) {
 
 static void check_place_refused(const char *kind, const patient *p, const char *parts, const char *what) {
   riis_valve *valve = new_valve(kind);
-  const char *size = strcmp(kind, "mitral") == 0      ? "AP_diameter"
-                     : strcmp(kind, "bileaflet") == 0 ? "radius"
-                                                      : "root_radius";
+  const char *size = strcmp(kind, "bileaflet") == 0                           ? "radius"
+                     : strcmp(kind, "mitral") == 0 || strstr(kind, "mitral_") ? "AP_diameter"
+                     : strcmp(kind, "tricuspid") == 0                         ? "AP_diameter"
+                                                                              : "root_radius";
   CHECK_OK(riis_valve_set_scalar(valve, size, 1.7));
   answer found, untouched;
   memset(&untouched, 0x5a, sizeof untouched);
@@ -688,6 +1106,51 @@ TEST(test_refused_annuli) {
   check_place_refused("bileaflet", &p, "hinges are|direction", "hinges in one place");
   p = ring, p.xyz[5][1] = p.xyz[6][1] = 0, p.xyz[5][2] = 1, p.xyz[6][2] = -1;
   check_place_refused("bileaflet", &p, "hinges are at|normal", "hinges along the axis");
+}
+
+TEST(test_refused_sectors_and_saddles) {
+  const cusp_sizes c = equal_cusps(4, 1.2, 1.2, 1.7), two = equal_cusps(2, 1.2, 1.2, 1.7);
+#define REFUSED(kind, from, parts, ...)                 \
+  do {                                                  \
+    patient p = from;                                   \
+    __VA_ARGS__;                                        \
+    check_place_refused(kind, &p, parts, #__VA_ARGS__); \
+  } while (0)
+  const patient four = patient_of(&c, true), pair = patient_of(&two, true);
+  REFUSED("quadricuspid", four, "has the commissure 3 times; the quadricuspid valve needs 4", p.n = 7);
+  REFUSED("coapting", four, "has the commissure 4 times; the coapting valve needs 3", p.noise = 0);
+  REFUSED("bicuspid", four, "has the commissure 4 times; the bicuspid valve needs 2", p.noise = 0);
+  REFUSED("quadricuspid", four, "is 4; it must be 0 (cusp_0), 1 (cusp_1), 2 (cusp_2), 3 (cusp_3) or -1",
+          p.leaflet_id[0][0] = 4);
+  REFUSED("quadricuspid", four, "seen along the flow, cusp_0, cusp_1, cusp_2 and cusp_3|mirrored",
+          for (int i = 0; i < 8; ++i) p.xyz[i][1] *= -1);
+  REFUSED("bicuspid", pair, "landmark 1 (commissure) and landmark 3 (commissure) are in one place",
+          memcpy(p.xyz[3], p.xyz[1], sizeof p.xyz[1]));
+  REFUSED("bicuspid", pair, "landmark 0 (annulus) has a role that the bicuspid valve lacks",
+          p.role[0] = RIIS_LANDMARK_ANNULUS);
+  saddle s = random_saddle(false), m = random_saddle(true);
+  const patient right = patient_with(&s, 12, false, false), left = patient_with(&m, 12, true, true);
+  REFUSED("tricuspid", right, "has the commissure 2 times; the tricuspid valve needs 3", p.n = 14);
+  REFUSED("tricuspid", right, "has the annulus 3 times; the tricuspid valve needs 4 or more",
+          for (int i = 0; i < 9; ++i) p.role[i] = RIIS_LANDMARK_COMMISSURE);
+  REFUSED("tricuspid", right, "does not say which commissure|name the leaflets of two",
+          for (int i = 12; i < 15; ++i) p.leaflet_id[i][0] = p.leaflet_id[i][1] = -1);
+  REFUSED("tricuspid", right, "landmarks.flow is 0 0 0: one named commissure",
+          (p.leaflet_id[12][0] = p.leaflet_id[12][1] = p.leaflet_id[13][0] = p.leaflet_id[13][1] = -1, p.flow[2] = 0));
+  REFUSED("tricuspid", right, "counter-clockwise|mirrored", p.flow[2] = 1);
+  REFUSED("tricuspid", right, "landmark 0 (anterior_horn) has a role", p.role[0] = RIIS_LANDMARK_ANTERIOR_HORN);
+  REFUSED("mitral_coapting", left, "has the anterior_horn 0 times|or both commissures", p.n = 12);
+  REFUSED("mitral_coapting", left, "landmarks.flow is 0 0 0|anterior horn and both commissures",
+          (p.n = 15, p.flow[2] = 0));
+  REFUSED("mitral_coapting", left, "flow points to the atrium", p.flow[2] = 1);
+  REFUSED("mitral_coapting", left, "landmark 0 (trigone) has a role", p.role[0] = RIIS_LANDMARK_TRIGONE);
+#undef REFUSED
+  /* Commissures that leave less than 50 degrees to a cusp. */
+  patient narrow = pair;
+  for (int i = 1; i < 4; i += 2) narrow.xyz[i][0] = 1.19, narrow.xyz[i][1] *= 0.13;
+  answer found;
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the landmarks give root_radius|cusp_0.sector|cusp_1.sector is|from 50 to 240",
+                try_to_place(new_valve("bicuspid"), &narrow, "", &found));
 }
 
 TEST(test_refused_arguments) {

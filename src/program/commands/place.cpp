@@ -52,7 +52,7 @@ void check_mesh(const PlaceOptions &options, const Placed &placed) {
 // ---- Lines for OpenFOAM, C and Fortran ----
 
 bool is_changed(const Size &size) {
-  return std::string(size.parameter.name) != "opening" &&
+  return std::string(size.parameter.name) != "opening" && !size.follows &&
          !std::equal(size.values.begin(), size.values.end(), size.parameter.default_values);
 }
 

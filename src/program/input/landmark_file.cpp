@@ -15,7 +15,14 @@
 namespace riis::program {
 namespace {
 
-const std::vector<std::string> cusp_names = {"right", "left", "non_coronary"};
+// The names of leaflets: of three cusps, of a tricuspid valve, and of any number of cusps. A name stands before its beginning.
+struct LeafletWord {
+  const char *word;
+  std::int32_t leaflet_id;
+};
+constexpr LeafletWord leaflet_words[] = {{"right", 0},    {"left", 1},   {"non_coronary", 2}, {"non", 2},
+                                         {"anterior", 0}, {"septal", 1}, {"posterior", 2},    {"cusp_0", 0},
+                                         {"cusp_1", 1},   {"cusp_2", 2}, {"cusp_3", 3}};
 
 // The words for roles. Some words may stand for several landmarks, because a valve has several landmarks of that role.
 struct RoleWord {
@@ -54,19 +61,19 @@ bool is_number(const std::string &text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// Takes a cusp's name from the start of the text. Returns its leaflet id, or -1.
-std::int32_t take_cusp(std::string &text) {
-  for (std::size_t cusp = 0; cusp < cusp_names.size(); ++cusp)
-    for (const std::string &word : {cusp_names[cusp], std::string(cusp == 2 ? "non" : cusp_names[cusp])}) {
-      if (text.rfind(word, 0) != 0 || (text.size() > word.size() && text[word.size()] != '_')) continue;
-      text.erase(0, std::min(text.size(), word.size() + 1));
-      return static_cast<std::int32_t>(cusp);
-    }
+// Takes a leaflet's name from the start of the text. Returns its leaflet id, or -1.
+std::int32_t take_leaflet(std::string &text) {
+  for (const auto &[name, leaflet_id] : leaflet_words) {
+    const std::string word = name;
+    if (text.rfind(word, 0) != 0 || (text.size() > word.size() && text[word.size()] != '_')) continue;
+    text.erase(0, std::min(text.size(), word.size() + 1));
+    return leaflet_id;
+  }
   return -1;
 }
 
-// Reads a name: the word of a role, and perhaps more. A number may follow, or one cusp after a nadir, or two cusps after a
-// commissure. For a point of the attachment, a cusp and a number may follow.
+// Reads a name: the word of a role, and perhaps more. A number may follow, or one leaflet after a nadir, or two leaflets after a
+// commissure. For a point of the attachment, a leaflet and a number may follow.
 std::optional<Place> place_of_name(const std::string &name) {
   const std::string text = plain(name);
   for (const RoleWord &known : role_words) {
@@ -78,12 +85,12 @@ std::optional<Place> place_of_name(const std::string &name) {
       if (known.is_repeated) return Place{known.role, {-1, -1}, false};
       continue;
     }
-    const std::int32_t first = take_cusp(rest);
+    const std::int32_t first = take_leaflet(rest);
     if (known.role == RIIS_LANDMARK_ATTACHMENT) {
       if (first >= 0 && (rest.empty() || is_number(rest))) return Place{known.role, {first, -1}, rest.empty()};
       continue;
     }
-    const std::int32_t second = first >= 0 ? take_cusp(rest) : -1;
+    const std::int32_t second = first >= 0 ? take_leaflet(rest) : -1;
     if (first < 0 || !rest.empty()) continue;
     if (known.role == RIIS_LANDMARK_NADIR && second < 0) return Place{known.role, {first, -1}, false};
     if (known.role == RIIS_LANDMARK_COMMISSURE && second >= 0 && first != second)
@@ -112,9 +119,9 @@ class Collector {
     const std::optional<Place> place = place_of_name(name);
     if (!place) refuse_name(name);
     const auto key = std::pair(place->role, std::minmax(place->leaflet_ids[0], place->leaflet_ids[1]));
-    const bool names_cusp = place->leaflet_ids[0] >= 0 && place->role != RIIS_LANDMARK_ATTACHMENT;
-    const bool is_new = names_cusp ? cusps_.insert({key.first, {key.second.first, key.second.second}}).second
-                                   : names_.insert(text).second;
+    const bool names_leaflet = place->leaflet_ids[0] >= 0 && place->role != RIIS_LANDMARK_ATTACHMENT;
+    const bool is_new = names_leaflet ? leaflets_.insert({key.first, {key.second.first, key.second.second}}).second
+                                      : names_.insert(text).second;
     if (!is_new && !place->may_repeat) refuse_file(file_.path, quoted(name) + " is given twice");
     file_.names.push_back(name);
     file_.roles.push_back(place->role);
@@ -145,13 +152,14 @@ class Collector {
         quoted(name) + " is not the name of a landmark" + did_you_mean(plain(name), names, "\"", "\"") +
             "; there are " + known +
             ", flow_from and flow_to; a nadir may name its cusp, as in nadir_left, a commissure its two, as in "
-            "commissure_left_right, and a point of the attachment its cusp and a number, as in attachment_left_2");
+            "commissure_left_right, and a point of the attachment its cusp and a number, as in attachment_left_2; "
+            "leaflets are called right, left and non_coronary, or anterior, septal and posterior, or cusp_0 to cusp_3");
   }
 
   LandmarkFile &file_;
   std::map<std::string, std::array<double, 3>> ends_;
   std::set<std::string> names_;
-  std::set<std::pair<std::int32_t, std::pair<std::int32_t, std::int32_t>>> cusps_;
+  std::set<std::pair<std::int32_t, std::pair<std::int32_t, std::int32_t>>> leaflets_;
 };
 
 // Returns the coordinates in three cells of a row.

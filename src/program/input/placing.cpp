@@ -192,9 +192,14 @@ Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, cons
   std::copy_n(at.rotation_axis, 3, made.where.rotation_axis);
   made.where.rotation_angle = at.rotation_angle;
   std::copy_n(at.translation, 3, made.where.translation);
-  for (const riis_parameter &parameter : all_parameters(valve)) {
+  const std::vector<riis_parameter> parameters = all_parameters(valve);
+  for (const riis_parameter &parameter : parameters) {
     const std::size_t i = made.sizes.size();
-    made.sizes.push_back({parameter, values_of(valve, parameter), errors[i], states[i]});
+    int32_t is_set = 0;
+    check(riis_valve_is_set(valve, parameter.name, &is_set));
+    const auto is_its_rule = [&](const riis_parameter &other) { return std::string(parameter.rule) == other.name; };
+    const bool follows = is_set == 0 && std::any_of(parameters.begin(), parameters.end(), is_its_rule);
+    made.sizes.push_back({parameter, values_of(valve, parameter), errors[i], states[i], follows});
   }
   return made;
 }
@@ -343,7 +348,7 @@ std::string placed_file_of(const Placed &placed, const riis_valve *valve) {
     if (size.state == RIIS_SIZE_DETERMINED || size.state == RIIS_SIZE_UNDETERMINED)
       errors[size.parameter.name] = size.standard_error;
     if (size.state == RIIS_SIZE_UNDETERMINED) undetermined.push_back(size.parameter.name);
-    if (size.state == RIIS_SIZE_TIED) tied.push_back(size.parameter.name);
+    if (size.state == RIIS_SIZE_TIED && !size.follows) tied.push_back(size.parameter.name);
   }
   fit["standard_errors"] = errors;
   fit["undetermined"] = undetermined;
@@ -376,7 +381,7 @@ std::string place_report(const Placed &placed, Reader reader) {
   text += filled("parameter", width) + filled("value", 26) + filled("std. error", 12) + "from\n";
   std::vector<std::string> undetermined;
   for (const Size &size : placed.sizes) {
-    if (size.state == RIIS_SIZE_KEPT) continue;
+    if (size.state == RIIS_SIZE_KEPT || size.follows) continue;
     const bool is_fitted = size.state != RIIS_SIZE_TIED;
     const std::string of = std::string(size.parameter.unit) == "length"   ? " cm"
                            : std::string(size.parameter.unit) == "degree" ? " degrees"

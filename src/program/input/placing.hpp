@@ -70,6 +70,7 @@ struct Size {
   std::vector<double> values;
   double standard_error;
   int32_t state;
+  bool follows;  // it was not set, and has the value of another parameter
 };
 
 struct Placed {

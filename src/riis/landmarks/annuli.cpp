@@ -1,29 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-// Landmarks of the mitral and the bileaflet valve: points along an annulus, and points that show the directions in its plane.
+// Landmarks of mitral and tricuspid valves: points along an annulus, and points that show the directions in its plane.
 #include <riis/riis.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "geometry/curve.hpp"
+#include "landmarks/annuli.hpp"
 #include "landmarks/fit.hpp"
+#include "landmarks/order.hpp"
+#include "valve/atrioventricular.hpp"
 #include "valve/mitral_annulus.hpp"
 
 namespace riis {
+
+double checked_flow(const Landmarks &landmarks, Vec3 normal, const char *whose) {
+  const double along = dot(landmarks.flow, normal);
+  constexpr double most_degrees = 75;
+  if (std::abs(along) < std::cos(most_degrees * pi / 180))
+    fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is at ", rounded(std::acos(std::abs(along)) * 180 / pi, 3),
+         " degrees to ", whose, " normal; it must be at most ", most_degrees);
+  return along;
+}
+
 namespace {
 
-constexpr double one_place = 1e-3;
+// ---- The annulus ----
 
-Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
-
-// ---- Mitral ----
-
-// Returns the point of the curve that is nearest to p.
-Vec3 nearest_on(const std::array<Bezier, 3> &curve, Vec3 p) {
+// Returns the point of the curve that is nearest to p. The curve may be closed.
+template <std::size_t n>
+Vec3 nearest_on(const std::array<Bezier, n> &curve, Vec3 p) {
   constexpr int n_samples = 12;
   double least = -1;
   const Bezier *span = nullptr;
@@ -56,14 +68,124 @@ Vec3 nearest_on(const std::array<Bezier, 3> &curve, Vec3 p) {
   double squared = 0;
   Vec3 best = refined(*span, t, squared);
   // The nearest sample may be the joint of two spans, so both neighbouring spans are searched.
-  for (const std::size_t other : {index - 1, index + 1}) {
-    if (other >= curve.size()) continue;
+  const bool is_closed = curve.front().first() == curve.back().last();
+  for (const bool is_next : {false, true}) {
+    if (!is_closed && index == (is_next ? n - 1 : 0)) continue;
     double other_squared = 0;
-    const Vec3 there = refined(curve[other], other < index ? 1 : 0, other_squared);
+    const Vec3 there = refined(curve[(index + (is_next ? 1 : n - 1)) % n], is_next ? 0 : 1, other_squared);
     if (other_squared < squared) squared = other_squared, best = there;
   }
   return best;
 }
+
+// Refuses an outline that crosses itself, seen along the normal. Its edges join the points in their order.
+void check_outline(const Landmarks &landmarks, const std::vector<std::size_t> &ring, Vec3 x, Vec3 y) {
+  struct Flat {
+    double x, y;
+  };
+  std::vector<Flat> flat;
+  for (const std::size_t i : ring) flat.push_back({dot(landmarks.at(i), x), dot(landmarks.at(i), y)});
+  const auto turn = [](Flat a, Flat b, Flat c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); };
+  const std::size_t n = flat.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if (i == 0 && j == n - 1) continue;  // they have a point in common
+      const Flat &a = flat[i], &b = flat[i + 1], &c = flat[j], &d = flat[(j + 1) % n];
+      if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0)
+        fail(RIIS_INVALID_ARGUMENT, "the annulus crosses itself: the line from landmark ", ring[i], " to ", ring[i + 1],
+             " crosses the line from ", ring[j], " to ", ring[(j + 1) % n],
+             "; give the annulus points in their order around it");
+    }
+}
+
+// Twice the area vector of a closed polygon.
+Vec3 area_of(const Landmarks &landmarks, const std::vector<std::size_t> &ring) {
+  const Vec3 middle = landmarks.mean_of(ring);
+  Vec3 area{0, 0, 0};
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    area = area + cross(landmarks.at(ring[k]) - middle, landmarks.at(ring[(k + 1) % ring.size()]) - middle);
+  return area;
+}
+
+// The points of an annulus, which were checked.
+struct Outline {
+  std::vector<std::size_t> ring;
+  Vec3 middle, normal;
+  double size;  // the largest standard deviation of the points
+};
+
+Outline outline_of(const Landmarks &landmarks) {
+  const auto ring = landmarks.with_role(RIIS_LANDMARK_ANNULUS);
+  check_spread(landmarks, ring, one_place);
+  const Spread spread = spread_of(landmarks, ring);
+  check_outline(landmarks, ring, spread.direction[0], spread.direction[1]);
+  return {ring, landmarks.mean_of(ring), unit(area_of(landmarks, ring)), spread.deviation[0]};
+}
+
+// The points of an annulus in the directions of a valve, and their extent.
+struct TurnedOutline {
+  std::vector<Vec3> points;
+  Vec3 lower{0, 0, 0}, upper{0, 0, 0};  // z is not used
+};
+
+TurnedOutline turned_outline(const Landmarks &landmarks, const Outline &outline, const Rotation &back) {
+  TurnedOutline made;
+  for (const std::size_t i : outline.ring) {
+    const Vec3 p = back * (landmarks.at(i) - outline.middle);
+    made.points.push_back(p);
+    made.lower = {std::min(made.lower.x, p.x), std::min(made.lower.y, p.y), 0};
+    made.upper = {std::max(made.upper.x, p.x), std::max(made.upper.y, p.y), 0};
+  }
+  return made;
+}
+
+// Returns the direction from the annulus' middle to its anterior horn, seen along its normal.
+Vec3 checked_forward(const Landmarks &landmarks, const Outline &outline, std::size_t horn) {
+  const Vec3 to_horn = landmarks.at(horn) - outline.middle,
+             forward = to_horn - dot(to_horn, outline.normal) * outline.normal;
+  if (!(length(forward) > 0.3 * outline.size))
+    fail(RIIS_INVALID_ARGUMENT, words_for(landmarks, horn), " is ", rounded(landmarks.scale * length(forward), 3),
+         " from the annulus' middle, seen along its normal; it must be on the annulus");
+  return forward;
+}
+
+// The direction towards the atrium, by the flow or the commissures. It is 0 if the landmarks show no direction.
+Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
+  const auto medial = landmarks.with_role(RIIS_LANDMARK_POSTEROMEDIAL),
+             lateral = landmarks.with_role(RIIS_LANDMARK_ANTEROLATERAL);
+  Vec3 found{0, 0, 0};
+  if (landmarks.has_flow()) found = checked_flow(landmarks, normal, "the annulus'") > 0 ? -normal : normal;
+  if (medial.empty() || lateral.empty()) return found;
+  const double side = dot(cross(landmarks.at(medial[0]) - landmarks.at(lateral[0]), forward), normal);
+  const Vec3 by_commissures = side > 0 ? normal : -normal;
+  if (landmarks.has_flow() && dot(found, by_commissures) < 0)
+    fail(RIIS_INVALID_ARGUMENT,
+         "landmarks.flow points to the atrium, by the commissures: seen along the flow with the anterior horn above, "
+         "the "
+         "posteromedial commissure must be on the right: the landmarks or their names are mirrored");
+  return by_commissures;
+}
+
+// Returns words for a landmark that contradicts the others.
+std::string advice_for(const LandmarkFit &fit, const Landmarks &landmarks) {
+  const auto worst = std::max_element(fit.residuals.begin(), fit.residuals.end());
+  return std::string("the worst residual is ") + Message(rounded(landmarks.scale * *worst, 3)).text() + " at " +
+         words_for(landmarks, static_cast<std::size_t>(worst - fit.residuals.begin())) +
+         ": look for a landmark that is not at its place, or that has another's name";
+}
+
+// Refuses a fitted valve that stands obliquely in the annulus.
+void check_axis(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 normal) {
+  const double degrees = std::acos(std::min(1.0, std::abs((transposed(fit.pose.rotation) * normal).z))) * 180 / pi;
+  constexpr double most_degrees = 20;
+  if (degrees > most_degrees)
+    fail(RIIS_INVALID_ARGUMENT, "the axis of the fitted valve is at ", rounded(degrees, 3),
+         " degrees to the annulus' normal; it must be at most ", most_degrees, "; ", advice_for(fit, landmarks));
+}
+
+// ---- Mitral ----
+
+Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
 
 class MitralModel : public LandmarkModel {
  public:
@@ -119,62 +241,6 @@ class MitralModel : public LandmarkModel {
   std::vector<std::int32_t> roles_;
 };
 
-// Refuses an outline that crosses itself, seen along the normal. Its edges join the points in their order.
-void check_outline(const Landmarks &landmarks, const std::vector<std::size_t> &ring, Vec3 x, Vec3 y) {
-  struct Flat {
-    double x, y;
-  };
-  std::vector<Flat> flat;
-  for (const std::size_t i : ring) flat.push_back({dot(landmarks.at(i), x), dot(landmarks.at(i), y)});
-  const auto turn = [](Flat a, Flat b, Flat c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); };
-  const std::size_t n = flat.size();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 2; j < n; ++j) {
-      if (i == 0 && j == n - 1) continue;  // they have a point in common
-      const Flat &a = flat[i], &b = flat[i + 1], &c = flat[j], &d = flat[(j + 1) % n];
-      if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0)
-        fail(RIIS_INVALID_ARGUMENT, "the annulus crosses itself: the line from landmark ", ring[i], " to ", ring[i + 1],
-             " crosses the line from ", ring[j], " to ", ring[(j + 1) % n],
-             "; give the annulus points in their order around it");
-    }
-}
-
-// Twice the area vector of a closed polygon.
-Vec3 area_of(const Landmarks &landmarks, const std::vector<std::size_t> &ring) {
-  const Vec3 middle = landmarks.mean_of(ring);
-  Vec3 area{0, 0, 0};
-  for (std::size_t k = 0; k < ring.size(); ++k)
-    area = area + cross(landmarks.at(ring[k]) - middle, landmarks.at(ring[(k + 1) % ring.size()]) - middle);
-  return area;
-}
-
-// Returns the cosine of the angle between the flow and a normal. Refuses a flow that is nearly perpendicular to the normal.
-double checked_flow(const Landmarks &landmarks, Vec3 normal, const char *whose) {
-  const double along = dot(landmarks.flow, normal);
-  constexpr double most_degrees = 75;
-  if (std::abs(along) < std::cos(most_degrees * pi / 180))
-    fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is at ", rounded(std::acos(std::abs(along)) * 180 / pi, 3),
-         " degrees to ", whose, " normal; it must be at most ", most_degrees);
-  return along;
-}
-
-// The direction towards the atrium, by the flow or the commissures. It is 0 if the landmarks show no direction.
-Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
-  const auto medial = landmarks.with_role(RIIS_LANDMARK_POSTEROMEDIAL),
-             lateral = landmarks.with_role(RIIS_LANDMARK_ANTEROLATERAL);
-  Vec3 found{0, 0, 0};
-  if (landmarks.has_flow()) found = checked_flow(landmarks, normal, "the annulus'") > 0 ? -normal : normal;
-  if (medial.empty() || lateral.empty()) return found;
-  const double side = dot(cross(landmarks.at(medial[0]) - landmarks.at(lateral[0]), forward), normal);
-  const Vec3 by_commissures = side > 0 ? normal : -normal;
-  if (landmarks.has_flow() && dot(found, by_commissures) < 0)
-    fail(RIIS_INVALID_ARGUMENT,
-         "landmarks.flow points to the atrium, by the commissures: seen along the flow with the anterior horn above, "
-         "the "
-         "posteromedial commissure must be on the right: the landmarks or their names are mirrored");
-  return by_commissures;
-}
-
 // Refuses a fit whose horns do not show the side of the atrium.
 void check_side(const LandmarkModel &fitted, const Landmarks &landmarks) {
   const FittedSize &anterior = fitted.sizes[MitralModel::anterior], &posterior = fitted.sizes[MitralModel::posterior];
@@ -194,22 +260,9 @@ struct ShownDepth {
   bool has_posterior_horn;  // or the depth goes to the annulus point that is farthest from the anterior horn
 };
 
-// Returns words for a landmark that contradicts the others.
-std::string advice_for(const LandmarkFit &fit, const Landmarks &landmarks) {
-  const auto worst = std::max_element(fit.residuals.begin(), fit.residuals.end());
-  return std::string("the worst residual is ") + Message(rounded(landmarks.scale * *worst, 3)).text() + " at " +
-         words_for(landmarks, static_cast<std::size_t>(worst - fit.residuals.begin())) +
-         ": look for a landmark that is not at its place, or that has another's name";
-}
-
-// Refuses a fitted valve that stands obliquely in the annulus, or whose depth is not the annulus'.
-void check_against_annulus(const LandmarkModel &fitted, const LandmarkFit &fit, const Landmarks &landmarks, Vec3 normal,
-                           const ShownDepth &shown) {
-  const double degrees = std::acos(std::min(1.0, std::abs((transposed(fit.pose.rotation) * normal).z))) * 180 / pi;
-  constexpr double most_degrees = 20;
-  if (degrees > most_degrees)
-    fail(RIIS_INVALID_ARGUMENT, "the axis of the fitted valve is at ", rounded(degrees, 3),
-         " degrees to the annulus' normal; it must be at most ", most_degrees, "; ", advice_for(fit, landmarks));
+// Refuses a fitted valve whose depth is not the annulus'.
+void check_depth(const LandmarkModel &fitted, const LandmarkFit &fit, const Landmarks &landmarks,
+                 const ShownDepth &shown) {
   const FittedSize &ap = fitted.sizes[MitralModel::ap];
   // Noise alone moves the horns, and so their distance.
   const double most_apart = std::max(shown.depth / 12, 5 * landmarks.noise);
@@ -251,36 +304,20 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   check_count(landmarks, kind, RIIS_LANDMARK_TRIGONE, 0, 2);
   check_count(landmarks, kind, RIIS_LANDMARK_POSTEROMEDIAL, 0, 1);
   check_count(landmarks, kind, RIIS_LANDMARK_ANTEROLATERAL, 0, 1);
-  const auto ring = landmarks.with_role(RIIS_LANDMARK_ANNULUS);
-  check_spread(landmarks, ring, one_place);
-  const Spread spread = spread_of(landmarks, ring);
-  check_outline(landmarks, ring, spread.direction[0], spread.direction[1]);
-
+  const Outline outline = outline_of(landmarks);
+  const Vec3 middle = outline.middle, normal = outline.normal;
   const std::size_t horn = landmarks.with_role(RIIS_LANDMARK_ANTERIOR_HORN)[0];
-  const Vec3 middle = landmarks.mean_of(ring), normal = unit(area_of(landmarks, ring));
-  const Vec3 to_horn = landmarks.at(horn) - middle, forward = to_horn - dot(to_horn, normal) * normal;
-  if (!(length(forward) > 0.3 * spread.deviation[0]))
-    fail(RIIS_INVALID_ARGUMENT, words_for(landmarks, horn), " is ", rounded(landmarks.scale * length(forward), 3),
-         " from the annulus' middle, seen along its normal; it must be on the annulus");
+  const Vec3 to_horn = landmarks.at(horn) - middle, forward = checked_forward(landmarks, outline, horn);
   const Vec3 known = atrial_side(landmarks, normal, forward);
   const bool is_side_known = !(known == Vec3{0, 0, 0});
   const Vec3 up = is_side_known ? known : normal;
   const Rotation rotation = rotation_to(cross(forward, up), up), back = transposed(rotation);
-  Vec3 lower{0, 0, 0}, upper{0, 0, 0};
-  double widest_y = 0, widest = 0;
-  std::vector<Vec3> flat;
-  for (const std::size_t i : ring) {
-    const Vec3 p = back * (landmarks.at(i) - middle);
-    flat.push_back(p);
-    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), 0};
-    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), 0};
-    if (std::abs(p.x) > widest) widest = std::abs(p.x), widest_y = p.y;
-  }
-  double low_z = 0, posterior_z = 0;
-  const auto nearest_to_side = std::max_element(
-      flat.begin(), flat.end(), [](const Vec3 &a, const Vec3 &b) { return std::abs(a.x) < std::abs(b.x); });
-  low_z = nearest_to_side->z;
-  posterior_z = std::min_element(flat.begin(), flat.end(), [](const Vec3 &a, const Vec3 &b) { return a.y < b.y; })->z;
+  const auto [points, lower, upper] = turned_outline(landmarks, outline, back);
+  const Vec3 widest = *std::max_element(points.begin(), points.end(),
+                                        [](const Vec3 &a, const Vec3 &b) { return std::abs(a.x) < std::abs(b.x); });
+  const double low_z = widest.z;
+  const double posterior_z =
+      std::min_element(points.begin(), points.end(), [](const Vec3 &a, const Vec3 &b) { return a.y < b.y; })->z;
   const Vec3 horn_there = back * to_horn;
   const double depth = horn_there.y - lower.y, width = upper.x - lower.x;
   const auto y_of = [&](std::size_t i) { return (back * (landmarks.at(i) - middle)).y - lower.y; };
@@ -303,7 +340,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   add("ALPM_diameter", width, 0.3 * depth, largest, 0.3);
   const double position = value_of(valve, "ALPM_position_ratio");
   model->sizes.push_back(
-      {"ALPM_position_ratio", std::clamp((widest_y - lower.y) / depth, 0.3, 0.8), depth, 0.06, 0.94, position, 0.1});
+      {"ALPM_position_ratio", std::clamp((widest.y - lower.y) / depth, 0.3, 0.8), depth, 0.06, 0.94, position, 0.1});
   add("IT_distance", grown * value_of(valve, "IT_distance"), 0.1 * depth, largest, 0.3);
   add("indent_depth", grown * value_of(valve, "indent_depth"), 0, 0.9 * depth, 0.3);
   add("anterior_horn_height", horn_there.z - low_z, -2 * depth, 2 * depth, 0.2);
@@ -318,7 +355,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   model->differences = {{MitralModel::anterior, MitralModel::posterior, 0.05 * depth}};
 
   const Vec3 origin_there{0.5 * (lower.x + upper.x), lower.y + 0.5 * depth, low_z};
-  KindOfLandmarks made{std::move(model), {}, "AP_diameter", nullptr};
+  KindOfLandmarks made = one_model(std::move(model), {}, "AP_diameter");
   made.n_as_annulus = are_behind ? static_cast<std::int32_t>(trigones.size()) : 0;
   made.starts.push_back({rotation, middle + rotation * (origin_there - by)});
   if (!is_side_known) {
@@ -330,96 +367,164 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
       const Vec3 there{-origin_there.x, origin_there.y, -low_z};
       made.starts[0] = {other, middle + other * (there - by)};
       for (const std::size_t horn_size : {MitralModel::anterior, MitralModel::posterior})
-        made.model->sizes[horn_size].value *= -1;
+        made.models[0]->sizes[horn_size].value *= -1;
     }
   }
   made.check = [=](const LandmarkModel &fitted, const LandmarkFit &fit, const Landmarks &given) {
     if (!is_side_known) check_side(fitted, given);
-    check_against_annulus(fitted, fit, given, normal, shown);
+    check_axis(fit, given, normal);
+    check_depth(fitted, fit, given, shown);
   };
   return made;
 }
 
-// ---- Bileaflet ----
+// ---- Tricuspid, and mitral_coapting ----
 
 namespace {
 
-class HousingModel : public LandmarkModel {
+// Kinds whose annulus is a saddle, with the names of their sizes.
+struct SaddleKind {
+  const char *kind, *width, *depth, *flat_ratio;
+  const char *anterior_ratio;  // null if the flat side is the anterior leaflet's
+  FlatSide flat_side;
+};
+constexpr SaddleKind tricuspid{"tricuspid",    "AP_diameter",    "SL_diameter",
+                               "septal_ratio", "anterior_ratio", FlatSide::at_negative_y};
+constexpr SaddleKind mitral_coapting{"mitral_coapting", "ALPM_diameter", "AP_diameter",
+                                     "anterior_ratio",  nullptr,         FlatSide::at_positive_y};
+
+// Where each landmark is on the annulus, in laps from the middle of the flat side. Without laps, it may be anywhere.
+using Laps = std::vector<std::optional<LinearValue>>;
+
+class SaddleModel : public LandmarkModel {
  public:
-  enum Size { radius_, offset, height };
-  explicit HousingModel(const Landmarks &landmarks) {
-    for (const Landmark &landmark : landmarks.list) roles_.push_back(landmark.role);
+  enum Size { width, depth, flatness, saddle_height, flat_ratio, anterior_ratio };
+  SaddleModel(FlatSide flat_side, Laps laps, Vec3 shift)
+      : flat_side_(flat_side), laps_(std::move(laps)), shift_(shift) {}
+
+  std::size_t n_equations() const override {
+    std::size_t n = 0;
+    for (const auto &at : laps_) n += at ? 3 : 2;
+    return n;
   }
-  std::size_t n_equations() const override { return 2 * roles_.size(); }
+
   void offsets(const std::vector<double> &values, const std::vector<Vec3> &local,
                std::vector<Offset> &out) const override {
+    const std::array<Bezier, 4> lap =
+        saddle_annulus({values[width], values[depth], values[flatness], values[saddle_height], flat_side_});
+    const Curve curve({lap.begin(), lap.end()});
     out.clear();
-    for (std::size_t i = 0; i < roles_.size(); ++i) {
-      const Vec3 &p = local[i];
-      const double r = std::hypot(p.x, p.y), beyond = r > 0 ? 1 - values[radius_] / r : 0;
-      if (roles_[i] == RIIS_LANDMARK_HINGE)
-        out.push_back({i, {p.x - std::copysign(values[offset], p.x), 0, p.z - values[height]}});
-      else
-        out.push_back({i, {beyond * p.x, beyond * p.y, p.z}});
+    for (std::size_t i = 0; i < laps_.size(); ++i) {
+      const Vec3 p = local[i] - shift_;
+      const double at = laps_[i] ? laps_[i]->at(values) : 0;
+      out.push_back({i, p - (laps_[i] ? curve.at(at - std::floor(at)) : nearest_on(lap, p))});
     }
   }
 
  private:
-  std::vector<std::int32_t> roles_;
+  FlatSide flat_side_;
+  Laps laps_;
+  Vec3 shift_;
 };
+
+// `forward` is the direction of y, and `up` that of z.
+KindOfLandmarks saddle_landmarks(const Valve &valve, const SaddleKind &names, const Landmarks &landmarks,
+                                 const Outline &outline, Vec3 forward, Vec3 up, const Laps &laps) {
+  const Rotation rotation = rotation_to(cross(forward, up), up);
+  const TurnedOutline turned = turned_outline(landmarks, outline, transposed(rotation));
+  const Vec3 by = vector_of(valve, "translation"), extent = turned.upper - turned.lower;
+  const double depth = extent.y, grown = depth / value_of(valve, names.depth);
+  auto model = std::make_unique<SaddleModel>(names.flat_side, laps, by);
+  model->radius = 0.5 * depth;
+  const double own_flatness = value_of(valve, "flatness"), saddle = grown * value_of(valve, "saddle_height");
+  model->sizes = {{names.width, extent.x, 1, 0.3 * depth, 3 * depth, grown * value_of(valve, names.width), 0.3 * depth},
+                  {names.depth, depth, 1, 0.3 * depth, 3 * depth, depth, 0.5 * depth},
+                  {"flatness", own_flatness, 0.15 * depth, 0, 1, own_flatness, 0.5},
+                  {"saddle_height", saddle, 0.5, 0, 0.5 * depth, saddle, 0.1 * depth}};
+  const bool has_commissures =
+      std::any_of(laps.begin(), laps.end(), [](const auto &at) { return at && !at->terms.empty(); });
+  for (const char *name : {names.flat_ratio, names.anterior_ratio}) {
+    if (!name) continue;
+    const double share = value_of(valve, name), half_lap = 1.5 * depth;  // a leaflet grows at both of its ends
+    model->sizes.push_back({name, share, half_lap, 0.05, 0.9, share, 0.1});
+    model->sizes.back().held = !has_commissures;
+  }
+  const double flat_y = saddle_annulus({extent.x, depth, own_flatness, saddle, names.flat_side})[0].first().y;
+  const Vec3 origin{0.5 * (turned.lower.x + turned.upper.x),
+                    (names.flat_side == FlatSide::at_negative_y ? turned.lower.y : turned.upper.y) - flat_y, 0};
+  KindOfLandmarks made =
+      one_model(std::move(model), {{rotation, outline.middle + rotation * (origin - by)}}, names.depth);
+  made.check = [normal = outline.normal](const LandmarkModel &, const LandmarkFit &fit, const Landmarks &given) {
+    check_axis(fit, given, normal);
+  };
+  return made;
+}
 
 }  // namespace
 
-KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmarks) {
-  const char *kind = valve.kind().name;
-  check_roles(landmarks, kind, {RIIS_LANDMARK_ANNULUS, RIIS_LANDMARK_HINGE});
-  check_count(landmarks, kind, RIIS_LANDMARK_ANNULUS, 3, 0);
-  check_count(landmarks, kind, RIIS_LANDMARK_HINGE, 2, 4);
-  if (!landmarks.has_flow())
+KindOfLandmarks tricuspid_landmarks(const Valve &valve, const Landmarks &landmarks) {
+  check_roles(landmarks, tricuspid.kind, {RIIS_LANDMARK_ANNULUS, RIIS_LANDMARK_COMMISSURE});
+  check_count(landmarks, tricuspid.kind, RIIS_LANDMARK_ANNULUS, 4, 0);
+  check_count(landmarks, tricuspid.kind, RIIS_LANDMARK_COMMISSURE, 3, 3);
+  const Outline outline = outline_of(landmarks);
+  check_spread(landmarks, landmarks.with_role(RIIS_LANDMARK_COMMISSURE), 0.02);
+  const LeafletsAround leaflets{{"anterior", "septal", "posterior"},
+                                "counter-clockwise",
+                                "which commissure is between which of the anterior, the septal and the posterior "
+                                "leaflet: name the leaflets of two commissures"};
+  check_leaflet_ids(landmarks, leaflets);
+  // Without the flow, the names show the side of the atrium.
+  Vec3 up = outline.normal;
+  const bool is_turned = landmarks.has_flow() ? checked_flow(landmarks, up, "the annulus'") > 0
+                                              : !names_fit(landmarks, leaflets, up, outline.middle);
+  if (is_turned) up = -up;
+  const Order order = order_around(landmarks, leaflets, up, outline.middle);
+  if (!landmarks.has_flow() && names_fit(landmarks, leaflets, -up, outline.middle))
     fail(RIIS_INVALID_ARGUMENT,
-         "landmarks.flow is 0 0 0: the ring and the hinges of the bileaflet valve do not show the direction of flow");
-  const auto ring = landmarks.with_role(RIIS_LANDMARK_ANNULUS), hinges = landmarks.with_role(RIIS_LANDMARK_HINGE);
-  check_spread(landmarks, ring, one_place);
-  const Spread spread = spread_of(landmarks, ring), hinge_spread = spread_of(landmarks, hinges);
-  const Vec3 normal = spread.direction[2], middle = landmarks.mean_of(ring);
-  const Vec3 up = checked_flow(landmarks, normal, "the ring's") < 0 ? -normal : normal;
-  double radius = 0;
-  for (const std::size_t i : ring) {
-    const Vec3 p = landmarks.at(i) - middle;
-    radius += length(p - dot(p, up) * up) / static_cast<double>(ring.size());
-  }
-  // The hinge lines run in the direction of the hinge ends' largest extent.
-  const Vec3 y = hinge_spread.direction[0];
-  if (!(hinge_spread.deviation[0] > 0.2 * radius))
-    fail(RIIS_INVALID_ARGUMENT, "the ends of the hinges are ", rounded(landmarks.scale * hinge_spread.deviation[0], 3),
-         " from their middle, which does not show their direction; they must be more than ",
-         rounded(landmarks.scale * 0.2 * radius, 3), " from it");
-  if (std::abs(dot(y, up)) > 0.5)
-    fail(RIIS_INVALID_ARGUMENT, "the hinges are at ", rounded(std::acos(std::abs(dot(y, up))) * 180 / pi, 3),
-         " degrees to the ring's normal; they must be across it");
-  // If the landmarks belong to only one hinge, it is the hinge of the leaflet at x > 0.
-  const Vec3 hinge_middle = landmarks.mean_of(hinges) - middle;
-  Vec3 x = cross(y, up);
-  if (dot(x, hinge_middle) < 0) x = -x;
-  const Rotation rotation = rotation_to(x, up), back = transposed(rotation);
+         "landmarks.flow is 0 0 0: one named commissure does not show the direction of flow; name two of them");
+  const auto at = [&](std::size_t k) { return landmarks.at(order.commissure[k]); };
+  Laps laps(landmarks.list.size());
+  laps[order.commissure[0]] = LinearValue{0, {{SaddleModel::flat_ratio, -0.5}}};
+  laps[order.commissure[1]] = LinearValue{0, {{SaddleModel::flat_ratio, 0.5}}};
+  laps[order.commissure[2]] = LinearValue{1, {{SaddleModel::flat_ratio, -0.5}, {SaddleModel::anterior_ratio, -1}}};
+  // The septal leaflet is at -y, between the first two commissures.
+  return saddle_landmarks(valve, tricuspid, landmarks, outline, at(2) - 0.5 * (at(0) + at(1)), up, laps);
+}
 
-  auto model = std::make_unique<HousingModel>(landmarks);
-  const double grown = radius / value_of(valve, "radius");
-  const double own_offset = grown * value_of(valve, "hinge_offset"),
-               own_height = grown * value_of(valve, "hinge_height");
-  double offset = 0, height = 0;
-  for (const std::size_t i : hinges) {
-    const Vec3 p = back * (landmarks.at(i) - middle);
-    offset += std::abs(p.x) / static_cast<double>(hinges.size());
-    height += p.z / static_cast<double>(hinges.size());
+KindOfLandmarks mitral_coapting_landmarks(const Valve &valve, const Landmarks &landmarks) {
+  const char *kind = mitral_coapting.kind;
+  check_roles(landmarks, kind,
+              {RIIS_LANDMARK_ANNULUS, RIIS_LANDMARK_ANTERIOR_HORN, RIIS_LANDMARK_POSTERIOR_HORN,
+               RIIS_LANDMARK_POSTEROMEDIAL, RIIS_LANDMARK_ANTEROLATERAL});
+  check_count(landmarks, kind, RIIS_LANDMARK_ANNULUS, 4, 0);
+  for (const std::int32_t role : {RIIS_LANDMARK_ANTERIOR_HORN, RIIS_LANDMARK_POSTERIOR_HORN,
+                                  RIIS_LANDMARK_POSTEROMEDIAL, RIIS_LANDMARK_ANTEROLATERAL})
+    check_count(landmarks, kind, role, 0, 1);
+  const Outline outline = outline_of(landmarks);
+  const auto horns = landmarks.with_role(RIIS_LANDMARK_ANTERIOR_HORN),
+             medial = landmarks.with_role(RIIS_LANDMARK_POSTEROMEDIAL),
+             lateral = landmarks.with_role(RIIS_LANDMARK_ANTEROLATERAL);
+  const bool has_both = !medial.empty() && !lateral.empty();
+  if (horns.empty() && !has_both)
+    fail(RIIS_INVALID_ARGUMENT, "landmarks.role has the anterior_horn 0 times; the ", kind,
+         " valve needs 1, or both commissures");
+  if (!landmarks.has_flow() && (horns.empty() || !has_both))
+    fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is 0 0 0: without it, only the anterior horn and both commissures ",
+         "together show the direction of flow of the ", kind, " valve");
+  Vec3 forward{0, 0, 0}, up{0, 0, 0};
+  if (horns.empty()) {
+    up = checked_flow(landmarks, outline.normal, "the annulus'") > 0 ? -outline.normal : outline.normal;
+    forward = cross(up, landmarks.at(medial[0]) - landmarks.at(lateral[0]));
+  } else {
+    forward = checked_forward(landmarks, outline, horns[0]);
+    up = atrial_side(landmarks, outline.normal, forward);
   }
-  model->sizes = {{"radius", radius, 1, 0.3 * radius, 3 * radius, radius, 0.5 * radius},
-                  {"hinge_offset", offset, 1, 0, 0.9 * radius, own_offset, 0.2 * radius},
-                  {"hinge_height", height, 1, -3 * radius, 3 * radius, own_height, 0.3 * radius}};
-  model->radius = radius;
-  KindOfLandmarks made{std::move(model), {}, "radius", nullptr};
-  made.starts = {{rotation, middle}};
-  return made;
+  Laps laps(landmarks.list.size());
+  for (const std::size_t i : horns) laps[i] = LinearValue{0, {}};
+  for (const std::size_t i : landmarks.with_role(RIIS_LANDMARK_POSTERIOR_HORN)) laps[i] = LinearValue{0.5, {}};
+  for (const std::size_t i : lateral) laps[i] = LinearValue{0, {{SaddleModel::flat_ratio, 0.5}}};
+  for (const std::size_t i : medial) laps[i] = LinearValue{0, {{SaddleModel::flat_ratio, -0.5}}};
+  return saddle_landmarks(valve, mitral_coapting, landmarks, outline, forward, up, laps);
 }
 
 }  // namespace riis

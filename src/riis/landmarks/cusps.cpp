@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Landmarks of valves with three cusps: three commissures, three nadirs, and perhaps the point where the closed cusps meet.
+// Landmarks of valves with two to four cusps: commissures, nadirs, and perhaps the point where the closed cusps meet.
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -9,163 +9,59 @@
 
 #include "base/errors.hpp"
 #include "landmarks/fit.hpp"
+#include "landmarks/order.hpp"
 
 namespace riis {
 namespace {
 
-constexpr std::size_t n_cusps = 3;
 // This limit leaves room for the other landmarks, as a warp has at most 1000 landmarks.
 constexpr std::size_t most_along_attachment = 900;
-// The cusps are in the order of leaflet ids, which is counter-clockwise about the valve's axis z.
-const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};
-constexpr std::size_t next(std::size_t cusp) { return (cusp + 1) % n_cusps; }
+// Three cusps are in the order of leaflet ids, which is counter-clockwise about the valve's axis z.
+constexpr std::size_t n_of_three = 3;
+const char *const names_of_three[n_of_three] = {"right", "left", "non_coronary"};
 
-// The places of the landmarks on the valve.
-struct Order {
-  std::array<std::size_t, n_cusps> nadir;       // landmark of each cusp
-  std::array<std::size_t, n_cusps> commissure;  // a landmark between a cusp and the next cusp
+// Kinds whose cusps lie on one circle at the root and on one circle at the commissures, with the names of their sizes.
+struct CuspsOnCircles {
+  const char *kind;
+  std::size_t n_cusps;
+  const char *radius, *commissure_radius, *height;
+  bool has_sectors;  // cusps have sectors of their own, and commissures have heights
 };
+constexpr CuspsOnCircles cusps_on_circles[] = {
+    {"trileaflet", 3, "root_radius", "leaflet_radius_out", "leaflet_height", false},
+    {"bicuspid", 2, "root_radius", "commissure_radius", "commissure_height", true},
+    {"coapting", 3, "root_radius", "commissure_radius", "commissure_height", true},
+    {"quadricuspid", 4, "root_radius", "commissure_radius", "commissure_height", true}};
 
-// Kinds whose three cusps are equal, with the names of their sizes.
-struct EqualCusps {
-  const char *kind, *radius, *commissure_radius, *height;
-};
-constexpr EqualCusps equal_cusps[] = {{"trileaflet", "root_radius", "leaflet_radius_out", "leaflet_height"},
-                                      {"coapting", "root_radius", "commissure_radius", "commissure_height"}};
+std::string of_cusp(std::size_t cusp, const char *name) { return "cusp_" + std::to_string(cusp) + "." + name; }
+std::string height_of_commissure(std::size_t cusp) { return "commissure_" + std::to_string(cusp) + ".height"; }
 
 Vec3 turned(double radius, double degrees, double height) {
   const auto [sine, cosine] = sine_cosine_degrees(degrees);
   return {radius * cosine, radius * sine, height};
 }
 
-// ---- Which landmark is which ----
-
-std::string words_for_cusp(std::int32_t leaflet_id) { return cusp_names[leaflet_id]; }
-
-void check_leaflet_ids(const Landmarks &landmarks) {
-  for (std::size_t i = 0; i < landmarks.list.size(); ++i) {
-    const auto &[first, second] = landmarks.list[i].leaflet_ids;
-    const bool is_commissure = landmarks.list[i].role == RIIS_LANDMARK_COMMISSURE;
-    for (const std::int32_t id : {first, second})
-      if (id < -1 || id > 2)
-        fail(RIIS_INVALID_ARGUMENT, "landmarks.leaflet_id of ", words_for(landmarks, i), " is ", id,
-             "; it must be 0 (right), 1 (left), 2 (non_coronary) or -1");
-    if (is_commissure ? (first == -1) != (second == -1) || (first != -1 && first == second) : second != -1)
-      fail(RIIS_INVALID_ARGUMENT, "landmarks.leaflet_id of ", words_for(landmarks, i), " is ", first, " and ", second,
-           is_commissure ? "; a commissure has two different leaflets, or -1 and -1"
-                         : "; only a commissure has two leaflets");
-  }
-}
-
-// Returns whether this place agrees with the leaflets that the landmark names.
-bool fits_nadir(const Landmark &landmark, std::size_t cusp) {
-  return landmark.leaflet_ids[0] == -1 || landmark.leaflet_ids[0] == static_cast<std::int32_t>(cusp);
-}
-bool fits_commissure(const Landmark &landmark, std::size_t cusp) {
-  const auto &[first, second] = landmark.leaflet_ids;
-  const auto a = static_cast<std::int32_t>(cusp), b = static_cast<std::int32_t>(next(cusp));
-  return first == -1 || (first == a && second == b) || (first == b && second == a);
-}
-bool fits(const Landmarks &landmarks, const Order &order) {
+LeafletsAround cusps_of(const char *kind, std::size_t n_cusps) {
+  const bool needs_names = std::strcmp(kind, "aortic") == 0;
+  LeafletsAround made{{},
+                      "clockwise",
+                      needs_names ? "which nadir is of the right, the left and the non_coronary cusp: the aortic "
+                                    "valve's cusps differ"
+                                  : nullptr};
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp)
-    if (!fits_nadir(landmarks.list[order.nadir[cusp]], cusp) ||
-        !fits_commissure(landmarks.list[order.commissure[cusp]], cusp))
-      return false;
-  return true;
-}
-
-Order rotated(const Order &order, std::size_t by) {
-  Order made{};
-  for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
-    made.nadir[cusp] = order.nadir[(cusp + by) % n_cusps];
-    made.commissure[cusp] = order.commissure[(cusp + by) % n_cusps];
-  }
+    made.names.push_back(n_cusps == n_of_three ? names_of_three[cusp] : "cusp_" + std::to_string(cusp));
   return made;
-}
-// Returns the order for the opposite turn about the axis. Each commissure then follows the other of its two cusps.
-Order mirrored(const Order &order) {
-  return {{order.nadir[0], order.nadir[2], order.nadir[1]},
-          {order.commissure[2], order.commissure[1], order.commissure[0]}};
-}
-
-// Returns the landmarks in the order of their angles about the axis. Refuses commissures and nadirs that do not alternate.
-Order turn_of(const Landmarks &landmarks, const std::vector<std::size_t> &nadirs,
-              const std::vector<std::size_t> &commissures, Vec3 axis, Vec3 middle) {
-  struct Seen {
-    double angle;
-    std::size_t landmark;
-  };
-  const Vec3 first = landmarks.at(nadirs[0]) - middle;
-  const Rotation to = rotation_to(first, axis), back = transposed(to);
-  std::vector<Seen> seen;
-  for (const auto *list : {&nadirs, &commissures})
-    for (const std::size_t i : *list) {
-      const Vec3 p = back * (landmarks.at(i) - middle);
-      const double angle = std::atan2(p.y, p.x);
-      seen.push_back({i == nadirs[0] ? 0 : angle < 0 ? angle + 2 * pi : angle, i});
-    }
-  std::sort(seen.begin(), seen.end(), [](const Seen &a, const Seen &b) { return a.angle < b.angle; });
-  Order order{};
-  for (std::size_t k = 0; k < seen.size(); ++k) {
-    const std::size_t i = seen[k].landmark;
-    const bool is_nadir = landmarks.list[i].role == RIIS_LANDMARK_NADIR;
-    if (is_nadir != (k % 2 == 0))
-      fail(RIIS_INVALID_ARGUMENT, words_for(landmarks, seen[k - 1].landmark), " and ", words_for(landmarks, i),
-           " follow each other around the valve; commissures and nadirs must take turns");
-    (is_nadir ? order.nadir : order.commissure)[k / 2] = i;
-  }
-  return order;
-}
-
-// Names the first landmark that does not fit the order.
-[[noreturn]] void refuse_names(const Landmarks &landmarks, const Order &order) {
-  for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
-    const std::size_t n = order.nadir[cusp], c = order.commissure[cusp];
-    if (!fits_nadir(landmarks.list[n], cusp))
-      fail(RIIS_INVALID_ARGUMENT, "landmarks.leaflet_id of ", words_for(landmarks, n), " says ",
-           words_for_cusp(landmarks.list[n].leaflet_ids[0]), ", but by the other landmarks' names it is of the ",
-           cusp_names[cusp], " cusp");
-    if (!fits_commissure(landmarks.list[c], cusp))
-      fail(RIIS_INVALID_ARGUMENT, "landmarks.leaflet_id of ", words_for(landmarks, c), " says ",
-           words_for_cusp(landmarks.list[c].leaflet_ids[0]), " and ", words_for_cusp(landmarks.list[c].leaflet_ids[1]),
-           ", but it is between ", cusp_names[cusp], " and ", cusp_names[next(cusp)]);
-  }
-  fail(RIIS_INTERNAL_ERROR, "the names of the landmarks fit after all");
-}
-
-// Finds each landmark's place by the leaflets that it names. If no landmark names a leaflet, leaflet 0 is at the first nadir.
-Order named_order(const Landmarks &landmarks, const Order &turn, bool needs_names) {
-  std::size_t n_fitting = 0, fitting = 0;
-  for (std::size_t by = n_cusps; by-- > 0;)
-    if (fits(landmarks, rotated(turn, by))) {
-      ++n_fitting;
-      fitting = by;
-    }
-  if (n_fitting == 1 || (n_fitting > 1 && !needs_names)) return rotated(turn, fitting);
-  if (n_fitting > 1)
-    fail(
-        RIIS_INVALID_ARGUMENT,
-        "landmarks.leaflet_id does not say which nadir is of the right, the left and the non_coronary cusp: the aortic "
-        "valve's cusps differ");
-  for (std::size_t by = 0; by < n_cusps; ++by)
-    if (fits(landmarks, mirrored(rotated(turn, by))))
-      fail(RIIS_INVALID_ARGUMENT,
-           "landmarks.leaflet_id: seen along the flow, right, left and non_coronary follow each other "
-           "counter-clockwise, but they must follow clockwise: the landmarks or their names are mirrored");
-  for (std::size_t by = 0; by < n_cusps; ++by)
-    if (fits_nadir(landmarks.list[rotated(turn, by).nadir[0]], 0) &&
-        landmarks.list[rotated(turn, by).nadir[0]].leaflet_ids[0] == 0)
-      refuse_names(landmarks, rotated(turn, by));
-  refuse_names(landmarks, turn);
 }
 
 struct CuspAxes {
   Order order;
   Vec3 axis, middle;  // the middle of the nadirs
   double height;
+
+  std::size_t n_cusps() const { return order.nadir.size(); }
 };
 
-CuspAxes axes_of(const Landmarks &landmarks, const char *kind, bool needs_names) {
+CuspAxes axes_of(const Landmarks &landmarks, const char *kind, std::size_t n_cusps) {
   check_roles(landmarks, kind,
               {RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COAPTATION, RIIS_LANDMARK_ATTACHMENT});
   check_count(landmarks, kind, RIIS_LANDMARK_COMMISSURE, n_cusps, n_cusps);
@@ -180,15 +76,18 @@ CuspAxes axes_of(const Landmarks &landmarks, const char *kind, bool needs_names)
   std::sort(all.begin(), all.end());
   constexpr double one_place = 0.02;
   check_spread(landmarks, all, one_place);
-  check_spread(landmarks, nadirs, one_place);
-  check_spread(landmarks, commissures, one_place);
-  check_leaflet_ids(landmarks);
+  for (const auto *list : {&nadirs, &commissures}) {
+    check_apart(landmarks, *list, one_place);
+    if (n_cusps > 2) check_not_collinear(landmarks, *list);
+  }
+  const LeafletsAround cusps = cusps_of(kind, n_cusps);
+  check_leaflet_ids(landmarks, cusps);
   const auto is_named = [&](std::size_t i) { return landmarks.list[i].leaflet_ids[0] != -1; };
   if (std::none_of(all.begin(), all.end(), is_named))
     for (const std::size_t i : landmarks.with_role(RIIS_LANDMARK_ATTACHMENT))
       if (is_named(i))
         fail(RIIS_INVALID_ARGUMENT, "landmarks.leaflet_id of ", words_for(landmarks, i), " says ",
-             words_for_cusp(landmarks.list[i].leaflet_ids[0]),
+             cusps.names[static_cast<std::size_t>(landmarks.list[i].leaflet_ids[0])],
              ", but no nadir and no commissure says which cusp that is");
 
   const Vec3 middle = landmarks.mean_of(nadirs), up = landmarks.mean_of(commissures) - middle;
@@ -203,8 +102,7 @@ CuspAxes axes_of(const Landmarks &landmarks, const char *kind, bool needs_names)
   if (against < 0)
     fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is at ", rounded(std::acos(std::max(-1.0, against)) * 180 / pi, 3),
          " degrees to the direction from the nadirs to the commissures, which must point downstream");
-  return {named_order(landmarks, turn_of(landmarks, nadirs, commissures, axis, middle), needs_names), axis, middle,
-          length(up)};
+  return {order_around(landmarks, cusps, axis, middle), axis, middle, length(up)};
 }
 
 // ---- Models ----
@@ -213,7 +111,7 @@ class CuspModel : public LandmarkModel {
  public:
   CuspModel(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift)
       : order_(axes.order), shift_(shift), coaptation_(landmarks.with_role(RIIS_LANDMARK_COAPTATION)) {}
-  std::size_t n_equations() const override { return 3 * 2 * n_cusps + 2 * coaptation_.size(); }
+  std::size_t n_equations() const override { return 3 * 2 * order_.nadir.size() + 2 * coaptation_.size(); }
 
  protected:
   void add(std::size_t landmark, const std::vector<Vec3> &local, Vec3 place, std::vector<Offset> &out) const {
@@ -235,17 +133,29 @@ class CuspModel : public LandmarkModel {
   std::vector<std::size_t> coaptation_;
 };
 
-class EqualCuspModel : public CuspModel {
+// Returns the directions of the cusps' middles in degrees. The cusps follow each other by half of both sectors.
+std::vector<double> middles_of(const std::vector<double> &sectors) {
+  std::vector<double> middles{0};
+  for (std::size_t cusp = 1; cusp < sectors.size(); ++cusp)
+    middles.push_back(middles.back() + 0.5 * (sectors[cusp - 1] + sectors[cusp]));
+  return middles;
+}
+
+class CirclesModel : public CuspModel {
  public:
+  enum Size { radius_, commissure_radius, n_common };
   using CuspModel::CuspModel;
+  std::vector<LinearValue> sectors, heights;  // of each cusp, and of the commissure behind it
   void offsets(const std::vector<double> &values, const std::vector<Vec3> &local,
                std::vector<Offset> &out) const override {
-    const double R = values[0], Rc = values[1], h = values[2];
+    std::vector<double> degrees;
+    for (const LinearValue &sector : sectors) degrees.push_back(sector.at(values));
+    const std::vector<double> middles = middles_of(degrees);
     out.clear();
-    for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
-      const double at = 120 * static_cast<double>(cusp);
-      add(order_.nadir[cusp], local, turned(R, at, 0), out);
-      add(order_.commissure[cusp], local, turned(Rc, at + 60, h), out);
+    for (std::size_t cusp = 0; cusp < sectors.size(); ++cusp) {
+      add(order_.nadir[cusp], local, turned(values[radius_], middles[cusp], 0), out);
+      add(order_.commissure[cusp], local,
+          turned(values[commissure_radius], middles[cusp] + 0.5 * degrees[cusp], heights[cusp].at(values)), out);
     }
     add_coaptation(local, out);
   }
@@ -260,11 +170,11 @@ class AorticModel : public CuspModel {
   void offsets(const std::vector<double> &values, const std::vector<Vec3> &local,
                std::vector<Offset> &out) const override {
     const double R = values[radius_], h = values[height_], right = values[angle], left = values[angle + 1];
-    const double half[n_cusps] = {right, left, 180 - right - left};
-    const double at[n_cusps] = {0, right + left, -(right + half[2])};
+    const double half[n_of_three] = {right, left, 180 - right - left};
+    const double at[n_of_three] = {0, right + left, -(right + half[2])};
     out.clear();
-    for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
-      const std::size_t after = next(cusp);
+    for (std::size_t cusp = 0; cusp < n_of_three; ++cusp) {
+      const std::size_t after = (cusp + 1) % n_of_three;
       add(order_.nadir[cusp], local, turned(R, at[cusp], 0), out);
       add(order_.commissure[cusp], local, turned(values[end_radius + cusp], at[cusp] + half[cusp], h), out);
       add(order_.commissure[cusp], local, turned(values[end_radius + after], at[after] - half[after], h), out);
@@ -275,13 +185,13 @@ class AorticModel : public CuspModel {
 
 // ---- Sizes ----
 
-double mean_radius(const Landmarks &landmarks, const std::array<std::size_t, n_cusps> &numbers, const CuspAxes &axes) {
+double mean_radius(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, const CuspAxes &axes) {
   double sum = 0;
   for (const std::size_t i : numbers) {
     const Vec3 p = landmarks.at(i) - axes.middle;
     sum += length(p - dot(p, axes.axis) * axes.axis);
   }
-  return sum / n_cusps;
+  return sum / static_cast<double>(numbers.size());
 }
 
 // Returns a length for the fit, with `start` as its first value. Its expected value `grown` is the template's length times the
@@ -290,17 +200,156 @@ FittedSize length_size(const std::string &name, double start, double grown, doub
   return {name, start, 1, 0.05 * radius, 10 * radius, grown, 0.3 * grown};
 }
 
-Pose start_of(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift, const std::array<double, n_cusps> &at) {
-  // The mean of the nadirs' directions, each turned back to the direction of the right cusp.
+// `at` has the directions of the cusps' middles.
+Pose start_of(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift, const std::vector<double> &at) {
+  // The mean of the nadirs' directions, each turned back to the direction of cusp 0.
   const Rotation to = rotation_to(landmarks.at(axes.order.nadir[0]) - axes.middle, axes.axis), back = transposed(to);
   double x = 0, y = 0;
-  for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
+  for (std::size_t cusp = 0; cusp < at.size(); ++cusp) {
     const Vec3 p = rotation_about({0, 0, 1}, -at[cusp]) * (back * (landmarks.at(axes.order.nadir[cusp]) - axes.middle));
     x += p.x / length(p), y += p.y / length(p);
   }
   const Rotation rotation = to * rotation_about({0, 0, 1}, std::atan2(y, x) * 180 / pi);
   return {rotation, axes.middle - rotation * shift};
 }
+
+// ---- Sectors, and heights of commissures ----
+
+constexpr double least_sector = 50, most_sector = 240;
+
+// Returns the angles between the commissures that the landmarks show.
+std::vector<double> shown_sectors(const Landmarks &landmarks, const CuspAxes &axes) {
+  const Rotation back = transposed(rotation_to(landmarks.at(axes.order.nadir[0]) - axes.middle, axes.axis));
+  const auto direction = [&](std::size_t cusp) {
+    const Vec3 p = back * (landmarks.at(axes.order.commissure[cusp]) - axes.middle);
+    return std::atan2(p.y, p.x) * 180 / pi;
+  };
+  std::vector<double> shown;
+  for (std::size_t cusp = 0; cusp < axes.n_cusps(); ++cusp) {
+    const double sector = direction(cusp) - direction((cusp + axes.n_cusps() - 1) % axes.n_cusps());
+    shown.push_back(std::clamp(sector < 0 ? sector + 360 : sector, least_sector, most_sector));
+  }
+  return shown;
+}
+
+// The sizes of cusps on circles: which of them the caller holds, and the template's.
+class CircleSizes {
+ public:
+  CircleSizes(const Valve &valve, const CuspsOnCircles &names, const Landmarks &landmarks, const CuspAxes &axes,
+              const IsHeld &is_held)
+      : valve_(valve),
+        names_(names),
+        landmarks_(landmarks),
+        axes_(axes),
+        is_held_(is_held),
+        own_(names.n_cusps, 360.0 / static_cast<double>(names.n_cusps)) {
+    if (!has_sectors()) return;
+    double sum = 0;
+    for (std::size_t cusp = 0; cusp < n(); ++cusp) sum += own_[cusp] = value_of(valve, of_cusp(cusp, "sector"));
+    for (double &sector : own_) sector *= 360 / sum;
+  }
+
+  // Sectors stay the template's if all are held, and take part in the fit if some are. Otherwise the landmarks decide.
+  std::vector<bool> fits_sectors() const {
+    if (!has_sectors()) return {false};
+    const std::size_t n_held = count_held([](std::size_t cusp) { return of_cusp(cusp, "sector"); });
+    if (n_held == 0) return {false, true};
+    return {n_held < n()};
+  }
+  std::vector<bool> fits_heights() const {
+    if (!has_sectors() || is_held_(names_.height)) return {false};
+    if (count_held(height_of_commissure) == 0) return {false, true};
+    return {true};
+  }
+
+  std::unique_ptr<LandmarkModel> model(bool fits_sectors, bool fits_heights) const {
+    auto made = std::make_unique<CirclesModel>(landmarks_, axes_, vector_of(valve_, "translation"));
+    const double R = mean_radius(landmarks_, axes_.order.nadir, axes_),
+                 Rc = mean_radius(landmarks_, axes_.order.commissure, axes_);
+    made->radius = R;
+    const double grown = R / value_of(valve_, names_.radius);
+    const auto add = [&](const std::string &name, double start) {
+      made->sizes.push_back(length_size(name, start, grown * value_of(valve_, name), R));
+      return made->sizes.size() - 1;
+    };
+    add(names_.radius, R);
+    add(names_.commissure_radius, Rc);
+    if (fits_heights)
+      add_heights(*made, add);
+    else
+      add_height(*made, add);
+    if (fits_sectors)
+      add_sectors(*made, Rc);
+    else
+      for (const double sector : own_) made->sectors.push_back({sector, {}});
+    return made;
+  }
+
+  std::vector<double> shown() const { return has_sectors() ? shown_sectors(landmarks_, axes_) : own_; }
+
+ private:
+  std::size_t n() const { return names_.n_cusps; }
+  bool has_sectors() const { return names_.has_sectors; }
+  template <class NameOf>
+  std::size_t count_held(const NameOf &name_of) const {
+    std::size_t n_held = 0;
+    for (std::size_t cusp = 0; cusp < n(); ++cusp) n_held += is_held_(name_of(cusp)) ? 1 : 0;
+    return n_held;
+  }
+  // Returns the height of a commissure as a multiple of commissure_height in the template.
+  double ratio(std::size_t cusp) const {
+    return has_sectors() ? value_of(valve_, height_of_commissure(cusp)) / value_of(valve_, names_.height) : 1;
+  }
+
+  // One size is the height of all commissures, in the template's proportions.
+  template <class Add>
+  void add_height(CirclesModel &model, const Add &add) const {
+    const std::size_t size = add(names_.height, axes_.height);
+    for (std::size_t cusp = 0; cusp < n(); ++cusp) {
+      const LinearValue height{0, {{size, ratio(cusp)}}};
+      model.heights.push_back(height);
+      if (has_sectors() && valve_.is_set(height_of_commissure(cusp)))
+        model.derived.push_back({height_of_commissure(cusp), height});
+    }
+  }
+
+  // Each commissure has a height, and commissure_height is their mean.
+  template <class Add>
+  void add_heights(CirclesModel &model, const Add &add) const {
+    DerivedSize mean{names_.height, {}};
+    for (std::size_t cusp = 0; cusp < n(); ++cusp) {
+      const std::size_t size = add(height_of_commissure(cusp), axes_.height);
+      model.heights.push_back({0, {{size, 1}}});
+      mean.of.terms.push_back({size, 1 / static_cast<double>(n())});
+    }
+    model.derived.push_back(mean);
+  }
+
+  // The last sector that is not held has what the others leave of 360 degrees.
+  void add_sectors(CirclesModel &model, double commissure_radius) const {
+    const std::vector<double> shown = shown_sectors(landmarks_, axes_);
+    const double reach = 0.5 * commissure_radius * (pi / 180);  // a sector grows on both sides of its cusp's middle
+    std::size_t last = n() - 1;
+    while (is_held_(of_cusp(last, "sector"))) --last;
+    LinearValue left{360, {}};
+    for (std::size_t cusp = 0; cusp < n(); ++cusp) {
+      model.sectors.emplace_back();
+      if (cusp == last) continue;
+      model.sectors.back().terms = {{model.sizes.size(), 1}};
+      left.terms.push_back({model.sizes.size(), -1});
+      model.sizes.push_back({of_cusp(cusp, "sector"), shown[cusp], reach, least_sector, most_sector, own_[cusp], 30});
+    }
+    model.sectors[last] = left;
+    model.derived.push_back({of_cusp(last, "sector"), left});
+  }
+
+  const Valve &valve_;
+  const CuspsOnCircles &names_;
+  const Landmarks &landmarks_;
+  const CuspAxes &axes_;
+  const IsHeld &is_held_;
+  std::vector<double> own_;  // the template's sectors, whose sum is 360 degrees
+};
 
 // Sets a parameter so that its ratio to a measure of the valve equals the ratio in the template, `own`.
 void set_proportion(const Valve &own, Valve &valve, const std::string &name, double own_measure, double measure) {
@@ -322,12 +371,12 @@ void finish_aortic(const Valve &own, Valve &valve) {
   set_proportion(own, valve, "bending_height", value_of(own, "leaflet_height"), value_of(valve, "leaflet_height"));
   const double right = value_of(valve, "right.leaflet_angle"), left = value_of(valve, "left.leaflet_angle"),
                non_coronary = 180 - right - left;
-  const double turns[n_cusps] = {0, right + left, -(right + non_coronary)};
+  const double turns[n_of_three] = {0, right + left, -(right + non_coronary)};
   valve.set("non_coronary.leaflet_angle", 1, &non_coronary);
   std::array<double, 3> shift{};
   own.get("right.translation", 3, shift.data());
-  for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
-    const std::string of = std::string(cusp_names[cusp]) + ".";
+  for (std::size_t cusp = 0; cusp < n_of_three; ++cusp) {
+    const std::string of = std::string(names_of_three[cusp]) + ".";
     const auto middle_radius = [&](const Valve &valve_of) {
       return 0.5 * (value_of(valve_of, "root_radius") + value_of(valve_of, of + "leaflet_radius_out"));
     };
@@ -344,45 +393,41 @@ void finish_aortic(const Valve &own, Valve &valve) {
   }
 }
 
+KindOfLandmarks aortic_landmarks(const Valve &valve, const Landmarks &landmarks) {
+  const CuspAxes axes = axes_of(landmarks, "aortic", n_of_three);
+  const double R = mean_radius(landmarks, axes.order.nadir, axes),
+               Rc = mean_radius(landmarks, axes.order.commissure, axes);
+  const Vec3 by = vector_of(valve, "right.translation");
+  auto model = std::make_unique<AorticModel>(landmarks, axes, by);
+  const double grown = R / value_of(valve, "root_radius");
+  const auto add = [&](const std::string &name, double start) {
+    model->sizes.push_back(length_size(name, start, grown * value_of(valve, name), R));
+  };
+  add("root_radius", R);
+  add("leaflet_height", axes.height);
+  for (const char *cusp : names_of_three) add(std::string(cusp) + ".leaflet_radius_out", Rc);
+  for (const char *name : {"right.leaflet_angle", "left.leaflet_angle"})
+    model->sizes.push_back({name, 60, Rc * (pi / 180), 25, 77.5, value_of(valve, name), 15});
+  model->radius = R;
+  KindOfLandmarks made = one_model(std::move(model), {start_of(landmarks, axes, by, {0, 120, 240})}, "root_radius");
+  made.finish = finish_aortic;
+  return made;
+}
+
 }  // namespace
 
-KindOfLandmarks cusp_landmarks(const Valve &valve, const Landmarks &landmarks) {
+KindOfLandmarks cusp_landmarks(const Valve &valve, const Landmarks &landmarks, const IsHeld &is_held) {
   const char *kind = valve.kind().name;
-  const bool is_aortic = std::strcmp(kind, "aortic") == 0;
-  const CuspAxes axes = axes_of(landmarks, kind, is_aortic);
-  const double R = mean_radius(landmarks, axes.order.nadir, axes),
-               Rc = mean_radius(landmarks, axes.order.commissure, axes), h = axes.height;
-  KindOfLandmarks made{nullptr, {}, "root_radius", nullptr};
-  if (is_aortic) {
-    const Vec3 by = vector_of(valve, "right.translation");
-    auto model = std::make_unique<AorticModel>(landmarks, axes, by);
-    const double grown = R / value_of(valve, "root_radius");
-    const auto add = [&](const std::string &name, double start) {
-      model->sizes.push_back(length_size(name, start, grown * value_of(valve, name), R));
-    };
-    add("root_radius", R);
-    add("leaflet_height", h);
-    for (const char *cusp : cusp_names) add(std::string(cusp) + ".leaflet_radius_out", Rc);
-    for (const char *name : {"right.leaflet_angle", "left.leaflet_angle"})
-      model->sizes.push_back({name, 60, Rc * (pi / 180), 25, 77.5, value_of(valve, name), 15});
-    made.model = std::move(model);
-    made.starts = {start_of(landmarks, axes, by, {0, 120, 240})};
-    made.finish = finish_aortic;
-  } else {
-    const auto *names = std::find_if(std::begin(equal_cusps), std::end(equal_cusps),
-                                     [&](const EqualCusps &cusps) { return std::strcmp(cusps.kind, kind) == 0; });
-    const Vec3 by = vector_of(valve, "translation");
-    auto model = std::make_unique<EqualCuspModel>(landmarks, axes, by);
-    const double grown = R / value_of(valve, names->radius);
-    model->sizes = {length_size(names->radius, R, grown * value_of(valve, names->radius), R),
-                    length_size(names->commissure_radius, Rc, grown * value_of(valve, names->commissure_radius), R),
-                    length_size(names->height, h, grown * value_of(valve, names->height), R)};
-    made.model = std::move(model);
-    made.starts = {start_of(landmarks, axes, by, {0, 120, 240})};
-    made.size_name = names->radius;
-    if (std::strcmp(kind, "trileaflet") == 0) made.finish = finish_trileaflet;
-  }
-  made.model->radius = R;
+  if (std::strcmp(kind, "aortic") == 0) return aortic_landmarks(valve, landmarks);
+  const auto *names = std::find_if(std::begin(cusps_on_circles), std::end(cusps_on_circles),
+                                   [&](const CuspsOnCircles &cusps) { return std::strcmp(cusps.kind, kind) == 0; });
+  const CuspAxes axes = axes_of(landmarks, kind, names->n_cusps);
+  const CircleSizes sizes(valve, *names, landmarks, axes, is_held);
+  KindOfLandmarks made{{}, {}, names->radius};
+  for (const bool fits_sectors : sizes.fits_sectors())
+    for (const bool fits_heights : sizes.fits_heights()) made.models.push_back(sizes.model(fits_sectors, fits_heights));
+  made.starts = {start_of(landmarks, axes, vector_of(valve, "translation"), middles_of(sizes.shown()))};
+  if (std::strcmp(kind, "trileaflet") == 0) made.finish = finish_trileaflet;
   return made;
 }
 

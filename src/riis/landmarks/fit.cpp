@@ -17,6 +17,14 @@ namespace {
 // defined.
 constexpr double determined_share = 1.0 / 15;
 
+// More sizes lower the residuals of noise alone. The sum of squares that they take away has chi-squared's distribution, with a
+// degree of freedom for each of them. It counts if it exceeds the mean by this many standard deviations.
+constexpr double surely_more = 3;
+// Residuals below this share of the stated noise show that the landmarks have none.
+constexpr double exact_share = 0.01;
+// Rounding of exact landmarks, as a share of the valve's radius.
+constexpr double rounding_share = 1e-9;
+
 // The least-squares problem of the fit. The unknowns are the sizes that are not held, a rotation vector and a shift, all in
 // centimetres.
 class Problem {
@@ -139,20 +147,43 @@ double sum_of_squares(const Problem &problem, std::vector<double> &longest) {
   return sum;
 }
 
-// Returns the noise for the standard errors: the larger of the stated noise and the noise of the residuals.
-double shown_noise(const LandmarkModel &model, const Landmarks &landmarks, double squares, std::size_t n_unknowns) {
+// Returns the noise that the residuals show, or 0 if there are no more equations than unknowns.
+double seen_noise(const LandmarkModel &model, double squares, std::size_t n_unknowns) {
   const std::size_t n = model.n_equations();
-  const double seen = n > n_unknowns ? std::sqrt(squares / static_cast<double>(n - n_unknowns)) : 0;
-  return std::max(landmarks.noise, seen);
+  return n > n_unknowns ? std::sqrt(squares / static_cast<double>(n - n_unknowns)) : 0;
 }
 
-void refuse_unconverged(const std::vector<double> &residuals, const Landmarks &landmarks) {
-  const double worst = residuals.empty() ? 0 : *std::max_element(residuals.begin(), residuals.end());
-  fail(RIIS_INVALID_ARGUMENT, "the fit to the landmarks does not end; the worst residual is ",
-       rounded(landmarks.scale * worst, 3), ": look for a landmark that is not at its place");
+// Writes the values and standard errors of parameters that follow from the fitted sizes. `covariance` is that of the problem's
+// unknowns at a noise of 1.
+void derive(LandmarkModel &model, const Problem &problem, const std::vector<double> &covariance, double noise) {
+  const std::size_t n = problem.n_unknowns();
+  const std::vector<std::size_t> &free = problem.free_sizes();
+  for (DerivedSize &derived : model.derived) {
+    std::vector<double> values, weights(free.size());
+    for (const FittedSize &size : model.sizes) values.push_back(size.value);
+    derived.value = derived.of.at(values);
+    derived.determined = true;
+    for (const auto &[size, weight] : derived.of.terms) {
+      const auto found = std::find(free.begin(), free.end(), size);
+      if (found == free.end()) continue;
+      weights[static_cast<std::size_t>(found - free.begin())] = weight / model.sizes[size].reach;
+      derived.determined = derived.determined && model.sizes[size].determined;
+    }
+    double variance = 0;
+    for (std::size_t i = 0; i < free.size(); ++i)
+      for (std::size_t k = 0; k < free.size(); ++k)
+        if (weights[i] != 0 && weights[k] != 0) variance += weights[i] * weights[k] * covariance[i * n + k];
+    derived.standard_error = noise * std::sqrt(std::max(variance, 0.0));
+  }
 }
 
 }  // namespace
+
+double LinearValue::at(const std::vector<double> &values) const {
+  double sum = constant;
+  for (const auto &[size, weight] : terms) sum += weight * values[size];
+  return sum;
+}
 
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts) {
   const std::size_t n_landmarks = landmarks.list.size();
@@ -222,16 +253,17 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
     problem.residuals(x, r);
   }
 
-  LandmarkFit made{problem.pose_at(x), std::vector<double>(n_landmarks), problem.places(), 0, 0, 0};
-  const double squares = sum_of_squares(problem, made.residuals);
-  if (!minimum.converged) refuse_unconverged(made.residuals, landmarks);
-  made.noise = shown_noise(model, landmarks, squares, n);
+  LandmarkFit made{
+      problem.pose_at(x), std::vector<double>(n_landmarks), problem.places(), 0, 0, 0, minimum.converged, 0, n};
+  made.squares = sum_of_squares(problem, made.residuals);
+  made.noise = std::max(landmarks.noise, seen_noise(model, made.squares, n));
   const std::vector<double> errors = covariance(problem.normals(x), n);
   for (std::size_t k = 0; k < problem.free_sizes().size(); ++k) {
     FittedSize &size = model.sizes[problem.free_sizes()[k]];
     size.value = problem.value_of(k, x);
     size.standard_error = made.noise * std::sqrt(errors[k * n + k]) / size.reach;
   }
+  derive(model, problem, errors, made.noise);
   const auto error_of_three = [&](std::size_t first) {
     double sum = 0;
     for (std::size_t i = first; i < first + 3; ++i) sum += errors[i * n + i];
@@ -240,6 +272,23 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   made.rotation_error = error_of_three(n - 6) / model.radius * (180 / pi);
   made.position_error = error_of_three(n - 3);
   return made;
+}
+
+bool is_as_good(const LandmarkFit &simple, const LandmarkFit &general, const LandmarkModel &general_model,
+                const Landmarks &landmarks) {
+  if (!simple.converged) return false;
+  const double seen = seen_noise(general_model, general.squares, general.n_unknowns);
+  const double noise =
+      std::max(seen < exact_share * landmarks.noise ? seen : landmarks.noise, rounding_share * general_model.radius);
+  const auto n_more = static_cast<double>(general.n_unknowns - simple.n_unknowns);
+  return simple.squares - general.squares <= (n_more + surely_more * std::sqrt(2 * n_more)) * noise * noise;
+}
+
+void check_converged(const LandmarkFit &fit, const Landmarks &landmarks) {
+  if (fit.converged) return;
+  const double worst = *std::max_element(fit.residuals.begin(), fit.residuals.end());
+  fail(RIIS_INVALID_ARGUMENT, "the fit to the landmarks does not end; the worst residual is ",
+       rounded(landmarks.scale * worst, 3), ": look for a landmark that is not at its place");
 }
 
 Rotation operator*(const Rotation &a, const Rotation &b) {

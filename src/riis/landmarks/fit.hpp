@@ -67,11 +67,35 @@ struct FittedSize {
   double standard_error = 0;
 };
 
+// A value that depends linearly on the fitted sizes.
+struct LinearValue {
+  struct Term {
+    std::size_t size;
+    double weight;
+  };
+  double constant = 0;
+  std::vector<Term> terms{};
+
+  // `values` contains the values of the sizes.
+  double at(const std::vector<double> &values) const;
+};
+
+// A parameter whose value follows from the fitted sizes.
+struct DerivedSize {
+  std::string name;
+  LinearValue of;
+  // Results:
+  double value = 0;
+  bool determined = false;
+  double standard_error = 0;
+};
+
 // A valve in its own frame, as the fit sees it. Lengths are in centimetres.
 class LandmarkModel {
  public:
   virtual ~LandmarkModel() = default;
   std::vector<FittedSize> sizes;
+  std::vector<DerivedSize> derived;
   // Two sizes whose difference is always drawn to its expected value, because landmarks hardly show it.
   struct Difference {
     std::size_t first, second;
@@ -106,10 +130,21 @@ struct LandmarkFit {
   double noise;                   // the noise from which the standard errors follow, in centimetres
   double rotation_error;          // degrees
   double position_error;          // standard error of the landmarks' mean, in centimetres
+  bool converged;
+  double squares;          // the sum of the landmarks' squared residuals
+  std::size_t n_unknowns;  // sizes that are not held, and the pose
 };
 
 // Changes the model's sizes. Fits from each of the poses with the model's values, and keeps the better result.
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts);
+
+// Returns whether the general model misses the landmarks by less than the simple one only by chance. The sizes of the simple model
+// are some of the general model's.
+bool is_as_good(const LandmarkFit &simple, const LandmarkFit &general, const LandmarkModel &general_model,
+                const Landmarks &landmarks);
+
+// Refuses a fit that has not converged.
+void check_converged(const LandmarkFit &fit, const Landmarks &landmarks);
 
 // Returns the rotation whose columns are unit vectors along x, y and z. `x` is first made perpendicular to z.
 Rotation rotation_to(Vec3 x, Vec3 z);
@@ -122,21 +157,29 @@ inline Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
 double value_of(const Valve &valve, const std::string &name);
 Vec3 vector_of(const Valve &valve, const char *name);
 
+// Says whether the caller holds the parameter of this name.
+using IsHeld = std::function<bool(const std::string &name)>;
+
 struct KindOfLandmarks {
-  std::unique_ptr<LandmarkModel> model;
+  // Models with ever more sizes. The first that the landmarks do not contradict counts, or the last.
+  std::vector<std::unique_ptr<LandmarkModel>> models;
   std::vector<Pose> starts;
   const char *size_name;  // the parameter that stands for the valve's size
   // Sets parameters that are not lengths, and lengths that do not grow with the valve's size. The lengths and the model's sizes
   // have been set. `own` is the template valve. NULL: there is nothing to set.
-  void (*finish)(const Valve &own, Valve &valve);
+  void (*finish)(const Valve &own, Valve &valve) = nullptr;
   // Refuses a fit that leaves something undetermined or that contradicts the landmarks. Empty: no fit is refused.
   std::function<void(const LandmarkModel &fitted, const LandmarkFit &fit, const Landmarks &landmarks)> check{};
   std::int32_t n_as_annulus = 0;  // trigones that count as points of the annulus
 };
 
-// Checks the landmarks and prepares the fit, for the kinds with cusps: trileaflet and aortic.
-KindOfLandmarks cusp_landmarks(const Valve &valve, const Landmarks &landmarks);
+KindOfLandmarks one_model(std::unique_ptr<LandmarkModel> model, std::vector<Pose> starts, const char *size_name);
+
+// Checks the landmarks and prepares the fit, for the kinds with two to four cusps.
+KindOfLandmarks cusp_landmarks(const Valve &valve, const Landmarks &landmarks, const IsHeld &is_held);
 KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks);
+KindOfLandmarks mitral_coapting_landmarks(const Valve &valve, const Landmarks &landmarks);
+KindOfLandmarks tricuspid_landmarks(const Valve &valve, const Landmarks &landmarks);
 KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmarks);
 
 }  // namespace riis

@@ -126,7 +126,7 @@ Spread spread_of(const Landmarks &landmarks, const std::vector<std::size_t> &num
   return spread;
 }
 
-void check_spread(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share) {
+void check_apart(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share) {
   const Spread spread = spread_of(landmarks, numbers);
   for (std::size_t i = 0; i < numbers.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -137,10 +137,19 @@ void check_spread(const Landmarks &landmarks, const std::vector<std::size_t> &nu
              " apart, but two landmarks of this valve must be more than ",
              rounded(landmarks.scale * share * spread.deviation[0], 3), " apart");
     }
+}
+
+void check_not_collinear(const Landmarks &landmarks, const std::vector<std::size_t> &numbers) {
+  const Spread spread = spread_of(landmarks, numbers);
   if (!(spread.deviation[1] > least_width * spread.deviation[0]))
     fail(RIIS_INVALID_ARGUMENT, "the landmarks lie along a line: their standard deviation is ",
          landmarks.scale * spread.deviation[0], " along it and ", rounded(landmarks.scale * spread.deviation[1], 3),
          " beside it; they must not be collinear");
+}
+
+void check_spread(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share) {
+  check_apart(landmarks, numbers, share);
+  check_not_collinear(landmarks, numbers);
 }
 
 }  // namespace riis

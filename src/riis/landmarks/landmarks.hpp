@@ -50,7 +50,11 @@ void check_unit(const Landmarks &landmarks);
 void check_roles(const Landmarks &landmarks, const char *kind, const std::vector<std::int32_t> &roles);
 // Refuses a number of landmarks with this role that is out of range. `most` is 0 if there is no upper limit.
 void check_count(const Landmarks &landmarks, const char *kind, std::int32_t role, std::size_t least, std::size_t most);
-// Refuses two landmarks of the list whose distance is less than a share of their spread, and landmarks along one line.
+// Refuses two landmarks of the list whose distance is less than a share of their spread.
+void check_apart(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share);
+// Refuses landmarks along one line.
+void check_not_collinear(const Landmarks &landmarks, const std::vector<std::size_t> &numbers);
+// Makes both checks.
 void check_spread(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share);
 
 // The principal directions of points about their mean, in descending order of extent, and the standard deviations along them.

@@ -27,12 +27,21 @@ Vec3 vector_of(const Valve &valve, const char *name) {
   return vector_of(values);
 }
 
+KindOfLandmarks one_model(std::unique_ptr<LandmarkModel> model, std::vector<Pose> starts, const char *size_name) {
+  KindOfLandmarks made{{}, std::move(starts), size_name};
+  made.models.push_back(std::move(model));
+  return made;
+}
+
 namespace {
 
-KindOfLandmarks landmarks_of_kind(const Valve &valve, const Landmarks &landmarks) {
+KindOfLandmarks landmarks_of_kind(const Valve &valve, const Landmarks &landmarks, const IsHeld &is_held) {
   const std::string_view kind = valve.kind().name;
-  if (kind == "trileaflet" || kind == "coapting" || kind == "aortic") return cusp_landmarks(valve, landmarks);
+  for (const char *of_cusps : {"trileaflet", "bicuspid", "coapting", "quadricuspid", "aortic"})
+    if (kind == of_cusps) return cusp_landmarks(valve, landmarks, is_held);
   if (kind == "mitral") return mitral_landmarks(valve, landmarks);
+  if (kind == "mitral_coapting") return mitral_coapting_landmarks(valve, landmarks);
+  if (kind == "tricuspid") return tricuspid_landmarks(valve, landmarks);
   if (kind == "bileaflet") return bileaflet_landmarks(valve, landmarks);
   fail(RIIS_INVALID_PARAMETER, "a valve of the kind ", kind, " has no landmarks");
 }
@@ -284,16 +293,31 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
 
 // Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because the others
 // follow from them.
-void check_sizes(const Valve &valve, const std::vector<FittedSize> &sizes) {
+void check_sizes(const Valve &valve, const LandmarkModel &model) {
   try {
     valve.make_patches();
   } catch (const Error &error) {
     std::string given;
-    for (const FittedSize &size : sizes)
-      if (!size.held) given += (given.empty() ? "" : ", ") + size.name + " " + Message(rounded(size.value, 4)).text();
+    const auto add = [&](const auto &size) {
+      given += (given.empty() ? "" : ", ") + size.name + " " + Message(rounded(size.value, 4)).text();
+    };
+    for (const FittedSize &size : model.sizes)
+      if (!size.held) add(size);
+    for (const DerivedSize &size : model.derived) add(size);
     if (given.empty()) throw;
     fail(error.status, "the landmarks give ", given.c_str(), ", and then ", error.message.text());
   }
+}
+
+// Fits the models. Returns the number of the first that the landmarks do not contradict, and its fit.
+std::pair<std::size_t, LandmarkFit> fit_models(const KindOfLandmarks &of_kind, const Landmarks &landmarks) {
+  const std::size_t last = of_kind.models.size() - 1;
+  LandmarkFit general = fit(*of_kind.models[last], landmarks, of_kind.starts);
+  for (std::size_t i = 0; i < last; ++i) {
+    LandmarkFit simple = fit(*of_kind.models[i], landmarks, of_kind.starts);
+    if (is_as_good(simple, general, *of_kind.models[last], landmarks)) return {i, std::move(simple)};
+  }
+  return {last, std::move(general)};
 }
 
 }  // namespace
@@ -301,19 +325,22 @@ void check_sizes(const Valve &valve, const std::vector<FittedSize> &sizes) {
 PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::string_view held) {
   const std::vector<bool> is_held = held_parameters(valve, held);
   check_unit(landmarks);
-  KindOfLandmarks of_kind = landmarks_of_kind(valve, landmarks);
-  LandmarkModel &model = *of_kind.model;
   const auto &specs = valve.kind().parameters;
   const auto position = [&](const std::string &name) {
     const auto named = [&](const ParameterSpec &spec) { return spec.name == name; };
     return static_cast<std::size_t>(std::find_if(specs.begin(), specs.end(), named) - specs.begin());
   };
-  for (FittedSize &size : model.sizes)
-    if (is_held[position(size.name)] || size.held) {
-      size.held = true;
-      size.value = value_of(valve, size.name);
-    }
-  LandmarkFit fitted = fit(model, landmarks, of_kind.starts);
+  const auto is_held_name = [&](const std::string &name) { return static_cast<bool>(is_held[position(name)]); };
+  KindOfLandmarks of_kind = landmarks_of_kind(valve, landmarks, is_held_name);
+  for (const auto &model : of_kind.models)
+    for (FittedSize &size : model->sizes)
+      if (is_held_name(size.name) || size.held) {
+        size.held = true;
+        size.value = value_of(valve, size.name);
+      }
+  auto [chosen, fitted] = fit_models(of_kind, landmarks);
+  const LandmarkModel &model = *of_kind.models[chosen];
+  check_converged(fitted, landmarks);
   if (of_kind.check) of_kind.check(model, fitted, landmarks);
 
   PlacedValve placed{valve, landmarks.scale, {0, 0, 1}, 0, {0, 0, 0}, {}, {}, 0, fitted.rotation_error, 0, {}, {}};
@@ -333,6 +360,7 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
     placed.valve.set(spec.name, spec.n_values, values);
   }
   for (const FittedSize &size : model.sizes) placed.valve.set(size.name, 1, &size.value);
+  for (const DerivedSize &size : model.derived) placed.valve.set(size.name, 1, &size.value);
   if (of_kind.finish) of_kind.finish(valve, placed.valve);
 
   placed.size_state.assign(specs.size(), RIIS_SIZE_KEPT);
@@ -345,13 +373,15 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
       placed.standard_error[i] = std::numeric_limits<double>::infinity();
     }
   }
-  for (const FittedSize &size : model.sizes) {
+  const auto tell = [&](const auto &size) {
     const std::size_t i = position(size.name);
-    if (size.held) continue;
     placed.size_state[i] = size.determined ? RIIS_SIZE_DETERMINED : RIIS_SIZE_UNDETERMINED;
     placed.standard_error[i] = size.standard_error;
-  }
-  check_sizes(placed.valve, model.sizes);
+  };
+  for (const FittedSize &size : model.sizes)
+    if (!size.held) tell(size);
+  for (const DerivedSize &size : model.derived) tell(size);
+  check_sizes(placed.valve, model);
 
   std::vector<Vec3> local;
   for (std::size_t i = 0; i < landmarks.list.size(); ++i)

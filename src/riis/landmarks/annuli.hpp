@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks that landmarks along an annulus and along a housing have in common.
+#pragma once
+
+#include "geometry/vec3.hpp"
+#include "landmarks/landmarks.hpp"
+
+namespace riis {
+
+// Two points of an annulus are in one place if they are at most this share of their spread apart.
+inline constexpr double one_place = 1e-3;
+
+// Returns the cosine of the angle between the flow and a normal. Refuses a flow that is nearly perpendicular to the normal.
+double checked_flow(const Landmarks &landmarks, Vec3 normal, const char *whose);
+
+}  // namespace riis

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Landmarks around the axis of a valve: which of its leaflets a nadir belongs to, and between which leaflets a commissure lies.
+// In: landmarks, some of which name their leaflets. Out: the landmarks in the order of the leaflets.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "landmarks/landmarks.hpp"
+
+namespace riis {
+
+// The leaflets of a kind, counter-clockwise seen from +z.
+struct LeafletsAround {
+  std::vector<std::string> names;  // in the order of leaflet ids
+  const char *seen_along_flow;     // the direction in which they follow each other: "clockwise" if blood flows along +z
+  // The end of a message that refuses landmarks without names, or null if the leaflets need none. Then leaflet 0 is at the first
+  // nadir.
+  const char *why_names;
+
+  std::size_t n() const { return names.size(); }
+  std::size_t next(std::size_t leaflet) const { return (leaflet + 1) % n(); }
+};
+
+// The landmarks of each leaflet.
+struct Order {
+  std::vector<std::size_t> nadir;       // empty for a kind without nadirs
+  std::vector<std::size_t> commissure;  // between a leaflet and the next leaflet
+};
+
+// Refuses ids that no leaflet has, and numbers of ids that do not fit a landmark's role.
+void check_leaflet_ids(const Landmarks &landmarks, const LeafletsAround &leaflets);
+
+// Returns whether the names fit the order around the axis, which points along z.
+bool names_fit(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle);
+
+// Returns the order around the axis. There are as many commissures as leaflets, and as many nadirs or none.
+// Refuses commissures and nadirs that do not alternate, and names that contradict the order.
+Order order_around(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle);
+
+}  // namespace riis
