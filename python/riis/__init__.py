@@ -98,11 +98,12 @@ __version__ = version_string()
 class Leaflet(IntEnum):
     """The leaflets of the parametric valves, as leaflet_id reports them."""
 
-    RIGHT = 0  #: aortic: the right coronary cusp; coapting, trileaflet: the cusp on the x axis
-    LEFT = 1  #: aortic: the left coronary cusp; coapting, trileaflet: at 120 degrees
-    NON_CORONARY = 2  #: aortic; coapting, trileaflet: at -120 degrees
-    ANTERIOR = 0  #: mitral
-    POSTERIOR = 1  #: mitral, all three scallops
+    RIGHT = 0  #: aortic: the right coronary cusp; coapting, trileaflet: cusp 0, on the x axis
+    LEFT = 1  #: aortic: the left coronary cusp; coapting, trileaflet: cusp 1, the next one counter-clockwise
+    NON_CORONARY = 2  #: aortic; coapting, trileaflet: cusp 2. Cusps of bicuspid and quadricuspid valves have only numbers
+    ANTERIOR = 0  #: mitral, mitral_coapting, tricuspid
+    POSTERIOR = 1  #: mitral, with all three scallops; mitral_coapting, tricuspid
+    SEPTAL = 2  #: tricuspid
     POSITIVE = 0  #: bileaflet: the leaflet at x > 0
     NEGATIVE = 1  #: bileaflet: the leaflet at x < 0
     HOUSING = 2  #: bileaflet: the housing's wall
