@@ -86,6 +86,10 @@ def free_edge(valve: Valve, leaflet: int) -> tuple[Reals, Reals]:
     ids, counts = numpy.unique(curves, return_counts=True)
     own = set(ids[counts == 1].tolist())  # a side v = 1 of only one patch of the leaflet is a part of its free edge
     starts = numpy.concatenate([[0], numpy.cumsum(read.degree + 1)])
+
+    def control_of(curve: int) -> Reals:
+        return read.control[starts[read.first_piece[curve]] : starts[read.first_piece[curve + 1]]]
+
     pieces = [
         _points_of(read.control[starts[piece] : starts[piece + 1]])
         for curve in curves[:, 1].tolist() if curve in own
@@ -93,13 +97,12 @@ def free_edge(valve: Valve, leaflet: int) -> tuple[Reals, Reals]:
     ]  # fmt: skip
     chain = _joined(pieces)
     line = numpy.concatenate(chain)
-    # The leaflet itself lies between the commissures, so its middle tells which end comes first.
+    # The attachment lies outside the line between the commissures, and tells which of them comes first.
+    of_leaflet = numpy.flatnonzero((read.leaflet_id == leaflet) & (read.attached >= 0))
+    attachment = numpy.concatenate([control_of(curve) for curve in read.curve_id[of_leaflet, read.attached[of_leaflet]].tolist()])
     ends = 0.5 * (line[0] + line[-1])
-    inner = numpy.concatenate([
-        read.control[starts[read.first_piece[curve]] : starts[read.first_piece[curve + 1]]] for curve in ids.tolist()
-    ]).mean(axis=0) - ends  # fmt: skip
-    last = line[-1] - ends
-    if inner[0] * last[1] - inner[1] * last[0] < 0.0:
+    outward, last = attachment.mean(axis=0) - ends, line[-1] - ends
+    if outward[0] * last[1] - outward[1] * last[0] < 0.0:
         chain = [piece[::-1] for piece in chain[::-1]]
         line = line[::-1]
     length = numpy.concatenate([[0.0], numpy.cumsum(numpy.linalg.norm(numpy.diff(line, axis=0), axis=1))])

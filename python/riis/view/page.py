@@ -34,6 +34,7 @@ from riis.view.model import CYCLES, KINDS, Model
 from riis.view.scene import CELLS, LOOKS, WALLS, Scene, boundary_of, check_of_graphics, colour_of, places_of
 
 N_SLIDERS = 12  # of the whole valve
+N_ALL = N_SLIDERS + sum(N_DETAILS)
 MANY_NODES = 1_000_000  # larger meshes are marked near the valves
 REST = 0.25  # seconds without a move after which the lights and the cut are renewed
 
@@ -100,9 +101,9 @@ class Page(Hand, Details, Heartbeat, saving.Files):
             {"serve": {"riis_view": str(here)}, "scripts": ["riis_view/browser.js"], "styles": ["riis_view/page.css"]}
         )
         template = (here / "page.html").read_text(encoding="utf-8")
-        of_valve, *of_details = numpy.split(numpy.arange(N_SLIDERS + sum(N_DETAILS)), numpy.cumsum([N_SLIDERS, *N_DETAILS[:-1]]))
-        for name, slots in zip(("SLIDERS", "SIZE_SLIDERS", "BUMP_SLIDERS"), (of_valve, *of_details)):
-            template = template.replace("{{" + name + "}}", "".join(rows.SLIDER.format(k=k) for k in slots))
+        slots = iter(range(N_ALL))
+        for name, n in (("SLIDERS", N_SLIDERS), ("SIZE_SLIDERS", N_DETAILS[0]), ("BUMP_SLIDERS", N_DETAILS[1])):
+            template = template.replace("{{" + name + "}}", "".join(rows.SLIDER.format(k=next(slots)) for _ in range(n)))
         first = {
             "trame__title": "riis view", "trame__template_main": template,
             "trame__vuetify3_config": {"theme": {"themes": {"light": {"colors": {"primary": COLOURS[0]}}}}},
@@ -126,12 +127,11 @@ class Page(Hand, Details, Heartbeat, saving.Files):
             ],
             "picture": "", "picture_number": 0,
         }  # fmt: skip
-        slots = range(N_SLIDERS + sum(N_DETAILS))
-        first.update({f"slider_{k}": 0.0 for k in slots})
+        first.update({f"slider_{k}": 0.0 for k in range(N_ALL)})
         self.state.update(first)
         for name in [name for name in dir(self) if name.startswith("_on_")]:
             self.server.trigger("riis_" + name[4:])(self._told(getattr(self, name)))
-        for k in slots:
+        for k in range(N_ALL):
             self.state.change(f"slider_{k}")(self._told(functools.partial(self._slid, k)))
         for name in ("kind", "current", "wall", "cells", "tool", "time", "size", "bump", "bump_place", "panels"):
             self.state.change(name)(self._told(getattr(self, f"_changed_{name}")))
@@ -351,7 +351,8 @@ class Page(Hand, Details, Heartbeat, saving.Files):
             )
             state.is_surface = valve.surface is not None
             state.sliders, state.rows = [], []
-            sliders, table = [rows.half_thickness_of(valve, unit), rows.offset_of(valve)], []
+            sliders: list[dict[str, Any] | None] = [rows.half_thickness_of(valve, unit), rows.offset_of(valve)]
+            table = []
             if valve.surface is None:
                 state.kind = valve.kind
                 values = model.values(state.current)
@@ -364,7 +365,7 @@ class Page(Hand, Details, Heartbeat, saving.Files):
                         sliders.append(rows.slider_of(parameter, float(value), is_set))
                     else:
                         table.append(rows.row_of(parameter, value, is_set))
-            sliders += [None] * (N_SLIDERS - len(sliders)) + self._details()
+            sliders = [*sliders, *[None] * (N_SLIDERS - len(sliders)), *self._details()]
             # The values are not in state.sliders, because trame does not send a list that was changed in place.
             self._slider_values = [float(slider.pop("value")) if slider is not None else 0.0 for slider in sliders]
             for k, value in enumerate(self._slider_values):
