@@ -202,8 +202,10 @@ def _names_of(names: Any, argument: str) -> list[str]:
 def _default_bounds(parameter: Parameter, value: float, size: float) -> tuple[float, float]:
     """Returns the bounds from the table of parameters. The bounds of lengths span many powers of ten, so they are narrowed
     around the value."""
-    if parameter.name.endswith(".sector"):
-        return _SECTORS
+    if parameter.name.endswith(".sector"):  # in a sum of 360 degrees with the start values of the others
+        others = 360.0 - value
+        low, high = (others * sector / (360.0 - sector) for sector in _SECTORS)
+        return max(low, parameter.minimum), min(high, parameter.maximum)
     if parameter.unit != "length":
         return parameter.minimum, parameter.maximum
     low, high = sorted((0.5 * value, 2.0 * value)) if value != 0.0 else (-0.25 * size, 0.25 * size)

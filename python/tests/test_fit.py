@@ -661,7 +661,7 @@ POINTS = numpy.zeros((50, 3))
         (riis.InvalidArgumentError, "points: 0 have a weight", POINTS[:0], {}),
         (riis.InvalidArgumentError, "points: 0 have a weight", POINTS, {"weights": numpy.zeros(50)}),
         (TypeError, "valve: must be a kind or a riis.Valve, not int", POINTS, {"valve": 3}),
-        (riis.InvalidParameterError, "'tricuspid' is not a kind", POINTS, {"valve": "tricuspid"}),
+        (riis.InvalidParameterError, "'pulmonary' is not a kind", POINTS, {"valve": "pulmonary"}),
         (TypeError, "free: must be a list of names, not 'opening'", POINTS, {"free": "opening"}),
         (TypeError, r"free: must be a list of names, not \[3\]", POINTS, {"free": [3]}),
         (riis.InvalidArgumentError, "free: 'height' is not a parameter", POINTS, {"free": ["height"]}),

@@ -235,7 +235,7 @@ def test_refused_placed_valves(tmp_path):
         ("[" * 100_000, "placed.json: is nested deeper than a placed valve can be"),
         ("[]", "placed.json: a placed valve must be an object"),
         ({"valve": 3}, "placed.json: valve: 3 is not a text"),
-        ({"valve": "tricuspid"}, "placed.json: .*tricuspid"),
+        ({"valve": "pulmonary"}, "placed.json: .*pulmonary"),
         ({"unit": "inch"}, 'placed.json: unit: "inch" is none of m, cm, mm'),
         ({"scale": 2}, 'placed.json: a placed valve: "scale" is unknown'),
         ({"rotate": [0, 0, 1]}, "placed.json: rotate: .* has 3 numbers; it takes 4"),

@@ -88,7 +88,7 @@ REFUSED = {
     "z missing": (TypeError, "z: must be a numpy array", lambda o: riis.Mesh(o.reals, o.reals)),
     "update NaN": (riis.InvalidMeshError, "7.*nan", lambda o: riis.Mesh(o.xyz).update(with_nan(o.xyz))),
     # Valves
-    "kind": (riis.InvalidParameterError, "'tricuspid' is not a kind of valve", lambda o: riis.Valve("tricuspid")),
+    "kind": (riis.InvalidParameterError, "'pulmonary' is not a kind of valve", lambda o: riis.Valve("pulmonary")),
     "type of kind": (TypeError, "kind: must be a str, not int", lambda o: riis.Valve(3)),
     "null in kind": (Argument, "kind: contains a null", lambda o: riis.Valve("mit\0ral")),
     "name": (riis.InvalidParameterError, "'height'", lambda o: riis.Valve("mitral", height=1.0)),

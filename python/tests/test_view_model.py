@@ -1145,7 +1145,7 @@ def test_refused_sessions(tmp_path, small):
         (lambda root: root.pop("valves"), "is damaged: KeyError 'valves'"),
         (lambda root: root.update(n_nodes=5), f"is of a mesh with 5 nodes; this one has {len(small[0])}"),
         (lambda root: root.update(unit="inch"), "is damaged: ValueError unit is 'inch'"),
-        (lambda root: root["valves"][0].update(kind="tricuspid"), "kind is 'tricuspid'"),
+        (lambda root: root["valves"][0].update(kind="pulmonary"), "kind is 'pulmonary'"),
         (lambda root: root["valves"][0].update(opening=3.0), "is damaged: opening: is 3.0; it must be from 0 to 1"),
         (lambda root: root["valves"][0].update(half_thickness=-1.0), "is damaged: half_thickness: is -1.0"),
         (lambda root: root["valves"][0].update(scale=0), "is damaged: scale: is 0"),
@@ -1171,7 +1171,7 @@ def test_refused_sessions(tmp_path, small):
 
 
 @pytest.mark.parametrize("change, error, message", [
-    (lambda m: m.add("tricuspid"), riis.InvalidArgumentError, "kind: is 'tricuspid'; it must be one of coapting, trileaflet"),
+    (lambda m: m.add("pulmonary"), riis.InvalidArgumentError, "kind: is 'pulmonary'; it must be one of coapting, bicuspid"),
     (lambda m: m.set(0, "opening", 1.5), riis.InvalidArgumentError, "opening: is 1.5; it must be from 0 to 1"),
     (lambda m: m.set(0, "opening", NAN), riis.InvalidArgumentError, "opening: is nan; it must be a finite number"),
     (lambda m: m.set(0, "gap", -1), riis.InvalidParameterError, "parameter 'gap' is -1; it must be from"),

@@ -44,6 +44,9 @@ FIRST_SIZES = {
 }
 
 
+DESCRIPTIONS = {kind: riis.Valve(kind).parameters for kind in KINDS}
+
+
 class Refused(ValueError):
     """Bad input that riis itself does not see."""
 
@@ -117,12 +120,11 @@ def _times_of_output():
 
 def _parameter_names(kind):
     """Returns the name of the property of each parameter of a kind, except the opening, which all kinds share."""
-    parameters = riis.Valve(kind).parameters
-    return {name: f"{kind}_{name.replace('.', '_')}" for name in parameters if name != "opening"}
+    return {name: f"{kind}_{name.replace('.', '_')}" for name in DESCRIPTIONS[kind] if name != "opening"}
 
 
 def _parameter_property(kind, name, property_name):
-    parameter = riis.Valve(kind).parameters[name]
+    parameter = DESCRIPTIONS[kind][name]
     unit = {"length": ", in centimetres", "degree": ", in degrees", "1": ""}[parameter.unit]
     text = f"{name} of the {kind} valve{unit}: {parameter.description}."
     if parameter.rule:
@@ -184,7 +186,7 @@ PARAMETERS = {kind: _parameter_names(kind) for kind in KINDS}
 
 
 def _default_of(kind, name):
-    default = riis.Valve(kind).parameters[name].default
+    default = DESCRIPTIONS[kind][name].default
     return default if numpy.ndim(default) == 0 else tuple(float(value) for value in default)
 
 

@@ -16,6 +16,7 @@ import numpy
 from numpy.typing import NDArray
 
 from riis._errors import InvalidParameterError
+from riis._records import Attachment
 from riis._riis import Surface, Valve
 from riis.view._valves import (
     ValveState, has_cusps, n_leaflets, plain, refuse, rotation_of, values_that_were_set, vector,
@@ -60,10 +61,10 @@ def annulus_of(state: ValveState) -> Annulus:
     else:
         if "skirt_length" in valve:
             valve["skirt_length"] = 0.0
-        attachment = Surface(valve).attachment
-        ends = attachment.edges.reshape(-1, 3)
-        leaflet = numpy.repeat(attachment.leaflet_id, 2)
-        points = _nadirs(ends, leaflet) if has_cusps(state.kind) else _anterior(ends, leaflet)
+        if has_cusps(state.kind):
+            points = _nadirs(Surface(valve).attachment)
+        else:  # the same triangles for a valve that has grown in proportion
+            points = _anterior(Surface(valve, half_thickness=valve["AP_diameter"] / 30.0).attachment)
     centre, normal, radius = _circle(points)
     return Annulus(points, centre, normal if normal[2] >= 0.0 else -normal, radius)
 
@@ -75,27 +76,31 @@ def _thirds(valve: Valve, radius: str, first: float) -> Reals:
     return numpy.asarray(shift + valve[radius] * numpy.column_stack([numpy.cos(turn), numpy.sin(turn), numpy.zeros(3)]))
 
 
-def _nadirs(ends: Reals, leaflet: Any) -> Reals:
+def _nadirs(attachment: Attachment) -> Reals:
     """Returns the nadir of each of three cusps: the mean of the lowest vertices of its attachment."""
     made = []
     for cusp in range(3):
-        of_cusp = ends[leaflet == cusp]
+        of_cusp = attachment.edges[attachment.leaflet_id == cusp].reshape(-1, 3)
         low = of_cusp[:, 2].min()
         height = float(of_cusp[:, 2].max() - low)
         made.append(of_cusp[of_cusp[:, 2] <= low + 1e-9 * height].mean(axis=0))
     return numpy.array(made)
 
 
-def _anterior(ends: Reals, leaflet: Any) -> Reals:
+def _anterior(attachment: Attachment) -> Reals:
     """Returns the annulus at the middle of the anterior leaflet, and at a third of a turn to each side of it."""
-    middle = (ends.min(axis=0) + ends.max(axis=0)) / 2.0
-    around = numpy.arctan2(ends[:, 1] - middle[1], ends[:, 0] - middle[0])
-    anterior = ends[leaflet == 0].mean(axis=0) - middle
+    edges = attachment.edges
+    middle = (edges.min(axis=(0, 1)) + edges.max(axis=(0, 1))) / 2.0
+    around = numpy.arctan2(edges[:, :, 1] - middle[1], edges[:, :, 0] - middle[0])
+    anterior = edges[attachment.leaflet_id == 0].mean(axis=(0, 1)) - middle
     first = math.atan2(anterior[1], anterior[0])
     made = []
     for turn in (0.0, 2.0 * math.pi / 3.0, -2.0 * math.pi / 3.0):
-        off = numpy.abs(numpy.angle(numpy.exp(1j * (around - first - turn))))
-        made.append(ends[int(numpy.argmin(off))])
+        off = numpy.angle(numpy.exp(1j * (around - first - turn)))
+        # One edge has its ends on both sides of this direction.
+        k = int(numpy.argmax((off.min(axis=1) <= 0.0) & (off.max(axis=1) > 0.0) & (numpy.ptp(off, axis=1) < math.pi)))
+        a, b = off[k]
+        made.append(edges[k, 0] + a / (a - b) * (edges[k, 1] - edges[k, 0]))
     return numpy.array(made)
 
 

@@ -315,10 +315,14 @@ class Model(BumpedValves):
         self._replace(i, ("place", i), **changes)
 
     def flip(self, i: int) -> None:
-        """Turns a valve upside down, by half a turn about its x axis through the middle of its annulus."""
+        """Turns a valve upside down, by half a turn in the plane of its annulus, as nearly as possible about its x axis."""
         state = self._at(i).state
-        matrix = state.matrix @ numpy.diag([1.0, -1.0, -1.0])
-        middle = annulus_of(state).centre if state.surface is None else numpy.zeros(3)
+        middle, about = numpy.zeros(3), numpy.array([1.0, 0.0, 0.0])
+        if state.surface is None:
+            annulus = annulus_of(state)
+            middle, about = annulus.centre, about - annulus.normal[0] * annulus.normal
+            about /= numpy.linalg.norm(about)
+        matrix = state.matrix @ (2.0 * numpy.outer(about, about) - numpy.eye(3))
         origin = numpy.array(state.origin) + state.scale * (state.matrix @ middle - matrix @ middle)
         self._replace(i, ("flip", i), rotation=rotation_of(matrix), origin=vector(origin))
 
