@@ -21,7 +21,9 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 FOLDER = os.path.abspath(sys.argv[1])
 HERE = os.path.dirname(os.path.abspath(__file__))
 PLUGIN = os.path.join(HERE, "..", "..", "src", "paraview", "riis_paraview.py")
-KINDS = ("aortic", "trileaflet", "coapting", "mitral", "bileaflet")
+KINDS = (
+    "aortic", "trileaflet", "coapting", "bicuspid", "quadricuspid", "mitral", "mitral_coapting", "tricuspid", "bileaflet",
+)  # fmt: skip
 UNITS = {"cm": 1.0, "mm": 10.0, "m": 0.01}
 TETRA, VOXEL, HEXAHEDRON, LINE, QUADRATIC_TETRA = 10, 11, 12, 3, 24
 SEED = int(os.environ.get("RIIS_TEST_SEED", random.SystemRandom().randrange(10**9)))
@@ -142,6 +144,8 @@ def parameter_of(kind):
             value = known.default * CHANCE.uniform(0.95, 1.05)
             if value != known.default and known.minimum <= value <= known.maximum:
                 chosen[name] = value
+        if "bump_0.leaflet" in names:
+            chosen |= {"bump_0.leaflet": 1.0, "bump_0.open": CHANCE.uniform(0.3, 0.9)}
         try:
             valve = riis.Valve(kind, opening=opening, **chosen) if all(n.isidentifier() for n in chosen) else None
             if valve is None:

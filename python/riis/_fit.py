@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import operator
 import os
+import re
 import shlex
 import sys
 from collections.abc import Mapping, Sequence
@@ -24,6 +25,7 @@ from riis._riis import Surface, Valve, find_crossings
 
 Reals = NDArray[numpy.float64]
 
+_SECTORS = (50.0, 240.0)  # the range of a cusp's sector, degrees
 _MOVES = ("rotation", "translation", "scale")
 # The number of points that the rough search uses.
 _N_ROUGH = 400
@@ -200,6 +202,10 @@ def _names_of(names: Any, argument: str) -> list[str]:
 def _default_bounds(parameter: Parameter, value: float, size: float) -> tuple[float, float]:
     """Returns the bounds from the table of parameters. The bounds of lengths span many powers of ten, so they are narrowed
     around the value."""
+    if parameter.name.endswith(".sector"):  # in a sum of 360 degrees with the start values of the others
+        others = 360.0 - value
+        low, high = (others * sector / (360.0 - sector) for sector in _SECTORS)
+        return max(low, parameter.minimum), min(high, parameter.maximum)
     if parameter.unit != "length":
         return parameter.minimum, parameter.maximum
     low, high = sorted((0.5 * value, 2.0 * value)) if value != 0.0 else (-0.25 * size, 0.25 * size)
@@ -225,6 +231,8 @@ def _bounds_of(valve: Valve, free: list[str], given: Any, size: float) -> Reals:
                 f"free: '{name}' is not a parameter of a {valve.kind} valve; the parameters are {', '.join(table)}")
         if table[name].n_values != 1:
             raise InvalidArgumentError(f"free: '{name}' has three values; only parameters with one can be free")
+        if re.fullmatch(r"bump_\d+\.(leaflet|commissure)", name):
+            raise InvalidArgumentError(f"free: '{name}' is the whole number of a place, so it cannot be free; set it in the valve")
         low, high = _pair(given[name], name) if name in given else _default_bounds(table[name], valve[name], size)
         if not table[name].minimum <= low < high <= table[name].maximum:
             raise InvalidArgumentError(
@@ -236,6 +244,56 @@ def _bounds_of(valve: Valve, free: list[str], given: Any, size: float) -> Reals:
     if unknown:
         raise InvalidArgumentError(f"bounds: '{unknown[0]}' is not in free")
     return numpy.array(bounds, float).reshape(-1, 2)
+
+
+def _sectors_of(valve: Valve) -> list[str]:
+    return [name for name in valve if name.endswith(".sector")]
+
+
+def _without_last_sector(names: list[str], valve: Valve, bounds: Any) -> list[str]:
+    """Gives the sectors a sum of 360 degrees if one of them is free. Only their ratios count, so if all are free, the last one
+    keeps its value. Returns the names that are then free."""
+    sectors = _sectors_of(valve)
+    free = [name for name in sectors if name in names]
+    if not free:
+        return names
+    total = sum(valve[name] for name in sectors)
+    valve.update({name: 360.0 * valve[name] / total for name in sectors})
+    if len(free) < len(sectors):
+        return names
+    if isinstance(bounds, Mapping) and free[-1] in bounds:
+        raise InvalidArgumentError(f"bounds: all sectors are free, so '{free[-1]}' follows from the others and has no bounds")
+    return [name for name in names if name != free[-1]]
+
+
+def _with_sum_of_360(found: FitResult, names: list[str]) -> FitResult:
+    """Returns the result with sectors whose sum is 360 degrees, and with all names that were free."""
+    sectors = _sectors_of(found.valve)
+    if not set(sectors) & set(names):
+        return found
+
+    def whole(values: Mapping[str, float]) -> dict[str, float]:
+        """Returns these parameters, with the sectors in a sum of 360."""
+        of_all = {name: values.get(name, own[name]) for name in sectors}
+        total = sum(of_all.values())
+        every = {**values, **{name: 360.0 * value / total for name, value in of_all.items()}}
+        return {name: every[name] for name in names}
+
+    own = {name: found.valve[name] for name in sectors}
+    values = numpy.array(list(own.values()))
+    total = values.sum()
+    # The errors of several free sectors count as independent.
+    slopes = 360.0 * (numpy.eye(len(sectors)) - values[:, None] / total) / total
+    errors = numpy.array([found.standard_errors.get(name, 0.0) for name in sectors])
+    of_all = numpy.sqrt((slopes**2 * errors**2).sum(axis=1))
+    standard_errors = {**found.standard_errors, **dict(zip(sectors, of_all.tolist()))}
+    undetermined = set(found.undetermined) | ({sectors[-1]} if set(sectors) & set(found.undetermined) else set())
+    found.valve.update({name: 360.0 * value / total for name, value in own.items()})
+    return replace(
+        found, parameters=whole(found.parameters), standard_errors={name: standard_errors[name] for name in names},
+        undetermined=tuple(name for name in dict.fromkeys([*names, *found.undetermined]) if name in undetermined),
+        rivals=tuple(rival._replace(parameters=whole(rival.parameters)) for rival in found.rivals),
+    )
 
 
 def _placed(start: Any) -> dict[str, Any]:
@@ -309,7 +367,8 @@ def fit(
 
     points     (n, 3) float64; or a Surface or a pyvista.PolyData, whose vertices are taken
     valve      a kind, or a Valve with the start values, which is not changed
-    free       names of the parameters to fit, each with one value; the others stay
+    free       names of the parameters to fit, each with one value; the others stay. Only ratios of the sectors of cusps
+               count, so a result with a free sector has a sum of 360 degrees
     placement  which of rotation, translation and scale to fit
     start      a dict of the start values of scale, rotation_axis, rotation_angle and translation. Without a
                translation, the middle of the valve starts at the middle of the points. Without a scale, a free scale
@@ -364,6 +423,7 @@ def fit(
         if from_start.kind != own.kind:
             raise InvalidArgumentError(f"start: its valve is of the kind {from_start.kind}, but valve is {own.kind}")
         own, given = from_start.copy(), getattr(start, "placement", None)
+    asked, names = names, _without_last_sector(names, own, bounds)
     _placed(given)
     given = _with_unit(unit, given, moves, own.kind)
     place = _placed(given)
@@ -401,7 +461,7 @@ def fit(
     if n_done < n_most and any(doubt.startswith(_OF_ENDS) for doubt in found.doubts):  # the starts may agree on a wrong fit
         ends, n_done = search(rough, pose, x, middle, any_rotation, n_most, n_most, random)
         found = _finish(problem, ends, n_done, stated, len(used), random)
-    return replace(found, unit=unit)
+    return replace(_with_sum_of_360(found, asked), unit=unit)
 
 
 def _extent(points: Reals, weights: Reals) -> float:

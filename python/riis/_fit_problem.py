@@ -76,6 +76,18 @@ def vertex_areas(vertices: Reals, triangles: NDArray[numpy.int64]) -> Reals:
     return numpy.asarray(numpy.bincount(triangles.ravel(), numpy.repeat(third, 3), len(vertices)), numpy.float64)
 
 
+def is_fixed_size(valve: Valve, name: str) -> bool:
+    """Returns whether a parameter is a size that may be wrong in a fit in which it is not free. A size of one cusp or commissure
+    that was not set follows the valve, so it is no size of its own. The sizes of a bump count if the bump has a place."""
+    part, _, size = name.rpartition(".")
+    if part.startswith("bump_"):
+        has_place = valve[f"{part}.leaflet"] >= 0.0 or valve[f"{part}.commissure"] >= 0.0
+        return has_place and size not in ("leaflet", "commissure")
+    if part.startswith(("cusp_", "commissure_")):
+        return valve.is_set(name)
+    return name != "opening"
+
+
 @dataclass(frozen=True)
 class Pose:
     """The placement x -> scale * rotation @ x + move."""
@@ -319,7 +331,7 @@ class Problem:
         self.set_valve(x)
         steps = []
         for name, parameter in self.valve.parameters.items():
-            if name in self.names or parameter.n_values != 1 or name == "opening" or self.valve[name] == 0.0:
+            if name in self.names or parameter.n_values != 1 or self.valve[name] == 0.0 or not is_fixed_size(self.valve, name):
                 continue
             whole = numpy.degrees(1.0) if parameter.unit == "degree" else self.valve[name]
             steps.append((name, _STEP * whole, _STEP))

@@ -181,7 +181,8 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
     def turn() -> None:
         """Turns the best fit by one cusp, and swaps front and back, because a turned valve looks similar."""
         first, orbit = ends[0], ends[0].orbit
-        for angle in numpy.radians((120.0, 240.0, 180.0)):
+        angles = (90.0, 180.0, 270.0) if problem.valve.kind == "quadricuspid" else (120.0, 240.0, 180.0)
+        for angle in numpy.radians(angles):
             rotation = first.pose.rotation @ matrix_of(numpy.array([0.0, 0.0, angle]))
             go_down(Pose(rotation, first.pose.move, first.pose.scale), first.x, orbit)
         turned.add(orbit)

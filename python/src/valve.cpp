@@ -271,14 +271,19 @@ void add_valve(nb::module_ &module) {
   nb::class_<Valve> valve(module, "Valve", nb::sig("class Valve(collections.abc.Mapping[str, typing.Any])"),
                           R"(A parametric valve: its kind and the values of its parameters.
 
-kind is 'aortic' (the paper's three cusps), 'mitral', 'coapting' (three equal cusps with a zone of coaptation),
-'trileaflet' (three equal cusps that close in straight lines) or 'bileaflet' (a mechanical prosthesis).
-Keywords set parameters: Valve('mitral', opening=0.3).
+kind is 'aortic' (the paper's three cusps), 'mitral', 'coapting' (three cusps with a zone of coaptation), 'bicuspid' and
+'quadricuspid' (two and four such cusps), 'mitral_coapting' and 'tricuspid' (leaflets with a zone of coaptation, hung
+from a saddle), 'trileaflet' (three equal cusps that close in straight lines) or 'bileaflet' (a mechanical prosthesis).
+Keywords set parameters: Valve('mitral', opening=0.3), Valve('bicuspid', **{'cusp_0.sector': 150}).
 
 A valve is a mapping from names to values: valve['AP_diameter'] = 3.1 sets a parameter, valve['opening'] reads it,
 dict(valve) has all values. Names cannot be added or removed. A valve can be pickled. Lengths are in centimetres by
 default, angles in degrees. A name such as 'leaflet_angle' of an aortic valve stands for all three cusps and can only
-be set; 'right.leaflet_angle' belongs to one cusp. Rotation, translation, t0_* and t3_* have three values.
+be set; 'right.leaflet_angle' belongs to one cusp. A coapting valve has its own 'effective_height', which
+'cusp_0.effective_height' and so on follow until they are set. Rotation, translation, t0_* and t3_* have three values.
+
+Bumps, 'bump_0' to 'bump_5', are disease at one place of a free edge (docs/theory/bumps.md): valve.update({
+'bump_0.leaflet': 0, 'bump_0.open': 0.3}). Leaflets, commissures and bumps count from 0.
 
 Sizes by a surgeon's names: annulus and stj (diameters) and effective_height, as in
 Valve('trileaflet', annulus=2.4, stj=2.6, effective_height=1.0). Some parameters have a rule: unless they are set, they

@@ -147,7 +147,7 @@ class Browser:
         element.send_keys(str(text) + Keys.ENTER)
 
     def drag_slider(self, name, pixels):
-        thumb = self.find(f"[data-parameter={name}] .v-slider-thumb")
+        thumb = self.find(f"[data-parameter='{name}'] .v-slider-thumb")
         ActionChains(self.driver, duration=40).click_and_hold(thumb).move_by_offset(pixels // 2, 0).move_by_offset(
             pixels - pixels // 2, 0
         ).release().perform()
@@ -256,7 +256,7 @@ def play(browser):
 
 def write_and_reopen(browser, folder, program):
     browser.write("#slider-opening", "0.4")
-    browser.unfold("All parameters")
+    browser.unfold("Sizes of the whole valve")
     browser.write("#parameter-skirt_length, #slider-skirt_length", "0.1")
     browser.rest()
     digest = browser.get("digest")
@@ -362,6 +362,44 @@ def several_valves(browser, folder, program):
     say("the saved view of two valves opens again as it was, with the same picture")
     browser.driver.execute_script("window.trame.state.set('current', 0)")  # the coapting valve again
     browser.wait(lambda: browser.get("kind") == "coapting", "the first valve")
+    browser.rest()
+
+
+def disease(browser):
+    """A bicuspid valve with unequal cusps and a bump, whose place is shown on the free edge."""
+    browser.driver.execute_script("window.trame.state.set('kind', 'bicuspid')")
+    browser.wait(lambda: browser.get("most_bumps") == 6, "a bicuspid valve")
+    browser.rest()
+    browser.unfold("Sizes of single leaflets")
+    browser.rest()
+    browser.drag_slider("cusp_0.sector", 20)
+    browser.rest()
+    assert browser.get("sliders")[12]["changed"] and browser.get("slider_12") > 185.0
+    browser.write("[id='slider-cusp_0.sector']", "200")
+    browser.write("[id='slider-cusp_1.sector']", "160")
+    browser.write("#slider-opening", "1")
+    browser.rest()
+    browser.shot("12-unequal-cusps")
+    healthy, n_marked = browser.get("digest"), browser.get("n_marked")
+    browser.unfold("Disease at one place")
+    browser.press("#add-bump")
+    browser.wait(lambda: browser.get("bump") == 0, "a bump")
+    browser.rest()
+    assert browser.get("n_marked") == n_marked, "a new bump changes the marks"
+    browser.write("[id='slider-bump_0.width']", "0.25")
+    browser.write("[id='slider-bump_0.open']", "0.1")
+    browser.press("#look-top")
+    browser.rest()
+    assert browser.get("digest") != healthy, "a bump changes no mark"
+    browser.shot("12-a-bump")
+    browser.drag_slider("bump_0.u", 30)
+    browser.rest()
+    browser.shot("12-the-bump-moved")
+    browser.press("#remove-bump")
+    browser.rest()
+    assert browser.get("digest") == healthy, "without its bump the valve has other marks"
+    say("a bicuspid valve has sectors and a bump, and without the bump it has its marks again")
+    browser.driver.execute_script("window.trame.state.set('kind', 'coapting')")
     browser.rest()
 
 
@@ -507,6 +545,7 @@ def main(folder, program=None):
         several_valves(browser, folder, program)
         two_browsers(browser, server, folder)
         bad_input(browser, folder)
+        disease(browser)
         complaints = [line["message"] for line in browser.driver.get_log("browser") if line["level"] == "SEVERE"]
         assert not complaints, json.dumps(complaints, indent=2)
         browser.driver.quit()

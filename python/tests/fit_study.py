@@ -31,6 +31,13 @@ KINDS = {
                       {"AP_diameter": 3.3, "ALPM_diameter": 3.6, "anterior_length": 2.3, "opening": 0.3}),
     "bileaflet": Studied({"radius": 0.2}, 1.0, {"radius": 1.2, "opening": 0.3}),
 }
+# Other kinds have a known valve for fit_table.py, and no patients, so that each seed of the study keeps its patient.
+NO_PATIENTS = {
+    "bicuspid": {"root_radius": 1.3, "cusp_0.sector": 160.0, "opening": 0.35},
+    "quadricuspid": {"root_radius": 1.2, "effective_height": 0.95, "opening": 0.35},
+    "mitral_coapting": {"AP_diameter": 2.9, "anterior_length": 2.6, "opening": 0.3},
+    "tricuspid": {"AP_diameter": 3.8, "SL_diameter": 3.1, "opening": 0.3},
+}
 CASES = ("whole", "partial", "partial, said whole", "outliers", "thick", "millimetres", "other shape")
 WHOLE = ("whole", "outliers", "thick", "millimetres")  # the points cover the valve, and its shape is that of the kind
 # A size counts as found if its error is at most three standard errors, or at most these numbers, in cm, degrees and 1.

@@ -9,7 +9,7 @@ import fit_study
 import riis
 
 PLACEMENT = {"rotation_axis": (1.0, 2.0, 3.0), "rotation_angle": 12.0, "translation": (0.2, -0.1, 0.3)}
-VALVES = {kind: studied.known for kind, studied in fit_study.KINDS.items()}
+VALVES = {kind: studied.known for kind, studied in fit_study.KINDS.items()} | fit_study.NO_PATIENTS
 # Noise, number of gaps, fraction of outliers.
 CASES = ((0.0, 0, 0.0), (0.01, 0, 0.0), (0.02, 0, 0.0), (0.05, 0, 0.0), (0.02, 2, 0.05))
 

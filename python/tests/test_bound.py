@@ -13,7 +13,9 @@ import riis
 from riis import _errors
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-KINDS = "aortic", "mitral", "coapting", "trileaflet", "bileaflet"
+KINDS = (
+    "aortic", "mitral", "coapting", "trileaflet", "bileaflet", "bicuspid", "quadricuspid", "mitral_coapting", "tricuspid",
+)  # fmt: skip
 
 
 def test_every_function_is_bound_or_left_out():

@@ -20,6 +20,7 @@ from riis._fit_problem import (
     Pose,
     Problem,
     axis_and_angle,
+    is_fixed_size,
     matrix_of,
     random_rotations,
     weighted_median,
@@ -480,7 +481,46 @@ def test_every_kind_is_studied():
         riis.Valve("none")
     kinds = set(str(refused.value).split("there are: ")[1].split(", "))
     assert set(fit_table.VALVES) == kinds
-    assert set(fit_study.KINDS) == kinds
+    assert set(fit_study.KINDS) | set(fit_study.NO_PATIENTS) == kinds
+
+
+def test_sectors_have_a_sum_of_360():
+    """All sectors free, or all but one, or one of the start values whose sum is not 360: the result is the same valve."""
+    sizes = {"cusp_0.sector": 150.0, "cusp_1.sector": 210.0}
+    true = riis.Valve("bicuspid", opening=0.5, **sizes)
+    points, _ = fit_study.points_on(numpy.random.default_rng(21), riis.Surface(true), 500, None)
+    options = {"start": {"rotation_angle": 0.0, "translation": (0.0, 0.0, 0.0)}, "n_starts": 2, "noise": 0.01}
+    points = points + numpy.random.default_rng(22).normal(0.0, 0.01, points.shape)
+    for start, free in (({}, list(sizes)), ({}, ["cusp_0.sector"]), ({"cusp_0.sector": 80.0, "cusp_1.sector": 80.0},
+                                                                     ["cusp_1.sector"])):
+        found = riis.fit(points, riis.Valve("bicuspid", opening=0.5, **start), free=free, **options)
+        assert list(found.parameters) == free and found.valve["cusp_0.sector"] + found.valve["cusp_1.sector"] == pytest.approx(360.0)
+        for name, value in sizes.items():
+            assert abs(found.valve[name] - value) < 1.5, found.report()
+        for name in free:
+            assert found.parameters[name] == found.valve[name]
+            assert abs(found.parameters[name] - sizes[name]) < 4.0 * found.standard_errors[name] < 4.0
+    assert found.standard_errors == pytest.approx({"cusp_1.sector": found.standard_errors["cusp_1.sector"]})
+
+
+def test_a_bump_is_fitted_at_a_known_place():
+    """How far a cusp opens at one place is found. The other bumps and the cusps' own sizes are no fixed sizes."""
+    place = {"bump_0.leaflet": 1, "bump_0.width": 0.3}
+    true = riis.Valve("coapting", opening=0.9, **place, **{"bump_0.open": 0.4})
+    points, _ = fit_study.points_on(numpy.random.default_rng(23), riis.Surface(true), 600, None)
+    points = points + numpy.random.default_rng(24).normal(0.0, 0.01, points.shape)
+    valve = riis.Valve("coapting", opening=0.9, **place)
+    names = [name for name in valve if is_fixed_size(valve, name)]
+    assert [name for name in names if "." in name] == [f"bump_0.{name}" for name in ("u", "width", "closed", "open")]
+    found = riis.fit(points, valve, free=["bump_0.open"], noise=0.01, n_starts=2,
+                     start={"rotation_angle": 0.0, "translation": (0.0, 0.0, 0.0)})
+    assert abs(found.parameters["bump_0.open"] - 0.4) < 4.0 * found.standard_errors["bump_0.open"] < 0.2, found.report()
+    for name in "bump_0.leaflet", "bump_3.commissure":
+        with pytest.raises(riis.InvalidArgumentError, match=f"free: '{name}' is the whole number of a place"):
+            riis.fit(points, valve, free=[name])
+    sectors = [f"cusp_{k}.sector" for k in range(3)]
+    with pytest.raises(riis.InvalidArgumentError, match="bounds: all sectors are free, so 'cusp_2.sector' follows"):
+        riis.fit(points, valve, free=sectors, bounds={"cusp_2.sector": (100.0, 140.0)})
 
 
 def test_points_on_both_faces_lie_at_half_the_thickness():

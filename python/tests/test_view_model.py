@@ -15,7 +15,8 @@ import tube
 import riis
 from riis.view import model as view
 from riis.view import reading
-from riis.view._valves import matrix_of, rotation_of, turned
+from riis.view._bumps import free_edge
+from riis.view._valves import has_cusps, matrix_of, n_leaflets, rotation_of, turned
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SEED = int(os.environ.get("RIIS_TEST_SEED", "34"))
@@ -45,7 +46,7 @@ def placed_model(mesh, kinds, random, **options):
         model.place(i, random.normal(0.0, 0.2, 3), axis=(0, 0, 1) + random.normal(0.0, 0.3, 3), reference=random.normal(size=3))
         model.set(i, "opening", random.uniform())
         model.set(i, "half_thickness", random.uniform(0.1, 0.25))
-        name = "AP_diameter" if kind == "mitral" else "annulus"
+        name = "annulus" if "annulus" in model.values(i) else "AP_diameter"
         model.set(i, name, random.uniform(0.9, 1.0) * model.values(i)[name])
         model.set(i, "offset", random.choice([0.0, 0.75, -0.5]))
     return model
@@ -284,7 +285,7 @@ def test_clicks_place_the_annulus(kind, unit, random):
     state = model.valves[known]
     clicks = numpy.array(state.origin) + state.scale * at.points @ state.matrix.T
     assert numpy.ptp(numpy.linalg.norm(clicks - clicks.mean(axis=0), axis=1)) < 0.5 * size
-    if kind not in ("mitral", "bileaflet") and random.uniform() < 0.7:
+    if kind in ("aortic", "coapting", "trileaflet") and random.uniform() < 0.7:
         clicks = clicks[[0, 2, 1]]  # the order of the second and the third click is free
     model.place(i, axis=axis + 0.3 * random.normal(size=3))
     model.place_by_clicks(i, clicks)
@@ -358,7 +359,7 @@ def test_undo_is_exact(small, random):
             at += 1
         else:
             if n == 0 or (n < 3 and move == 3):
-                model.add(view.KINDS[random.integers(5)])
+                model.add(view.KINDS[random.integers(len(view.KINDS))])
             elif move == 4 and n > 1:
                 model.remove(int(random.integers(n)))
             elif move == 5:
@@ -391,6 +392,119 @@ def test_a_drag_is_one_step(small):
     model.set(i, "opening", 0.2)  # no change, no step
     model.undo()
     assert model.valves[i].opening == 0.0
+
+
+# ---- Leaflets and bumps ----
+
+WITH_BUMPS = ("bicuspid", "coapting", "quadricuspid", "mitral_coapting", "tricuspid")
+
+
+def test_the_kinds_are_those_of_the_library():
+    with pytest.raises(riis.InvalidParameterError) as refused:
+        riis.Valve("none")
+    assert sorted(view.KINDS) == str(refused.value).split("there are: ")[1].split(", ")
+    with_bumps = [kind for kind in view.KINDS if "bump_0.leaflet" in riis.Valve(kind)]
+    assert sorted(with_bumps) == sorted(WITH_BUMPS)
+    leaflets = {kind: n_leaflets(kind) for kind in view.KINDS}
+    assert leaflets == {"coapting": 3, "bicuspid": 2, "quadricuspid": 4, "trileaflet": 3, "aortic": 3, "mitral": 2,
+                        "mitral_coapting": 2, "tricuspid": 3, "bileaflet": 2}
+    assert {kind for kind in view.KINDS if has_cusps(kind)} == {
+        "coapting", "bicuspid", "quadricuspid", "trileaflet", "aortic"}
+
+
+def free_ends(surface, leaflet):
+    """Returns the edges (n, 2, 3) of a leaflet that only one triangle has, without its attachment."""
+    faces = surface.triangles.vertex_id[surface.triangles.leaflet_id == leaflet]
+    _, place = numpy.unique(surface.vertices.round(9), axis=0, return_inverse=True)
+    sides = numpy.sort(place.reshape(-1)[numpy.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])], axis=1)
+    known, first, count = numpy.unique(sides, axis=0, return_index=True, return_counts=True)
+    held = {tuple(side) for side in numpy.sort(place.reshape(-1)[surface.attachment.vertex_id], axis=1).tolist()}
+    at = numpy.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])[first]
+    alone = [n == 1 and tuple(side) not in held for side, n in zip(known.tolist(), count.tolist())]
+    return surface.vertices[at[alone]]
+
+
+@pytest.mark.parametrize("kind", WITH_BUMPS)
+def test_a_bump_lies_on_the_free_edge(kind, random):
+    """The place of a bump is on the edge of the triangles, and the edge moves most near it."""
+    model = view.Model(numpy.zeros((1, 3)), unit="cm")
+    i = model.add(kind)
+    model.place(i, random.normal(size=3), axis=random.normal(size=3), reference=random.normal(size=3))
+    model.set(i, "triangulation", "fixed")
+    model.set(i, "opening", 0.6)
+    n = n_leaflets(kind)
+    assert model.bumps(i) == [] and model.most_bumps(i) == 6
+    first = numpy.array(model.surface(i).vertices)
+    for leaflet in range(n):
+        number = model.add_bump(i)
+        model.place_bump(i, number, leaflet=leaflet)
+        u = random.choice([1 / 3, 0.5, 2 / 3])  # places of control points
+        for name, value in (("u", u), ("width", 0.3)):
+            model.set(i, f"bump_{number}.{name}", value)
+        assert model.surface(i).closest_points(first).distance.max() < 0.01  # a new bump changes at most triangles
+        place = model.bump_place(i, number)
+        ends = free_ends(model.surface(i), leaflet)
+        for line in (place.point[None], *place.lines):
+            a, b = ends[:, 0], ends[:, 1]
+            t = numpy.einsum("ijk,jk->ij", line[:, None] - a, b - a) / ((b - a) ** 2).sum(axis=1)
+            near = a + t.clip(0.0, 1.0)[:, :, None] * (b - a)
+            assert numpy.linalg.norm(line[:, None] - near, axis=2).min(axis=1).max() < 0.02
+        before = free_edge(model.valves[i].valve(), leaflet)
+        model.set(i, f"bump_{number}.open", 0.5)
+        at, after = numpy.linspace(0.0, 1.0, 201), free_edge(model.valves[i].valve(), leaflet)
+        moved = [[numpy.interp(at, share, line[:, k]) for k in range(3)] for share, line in (before, after)]
+        assert abs(at[numpy.argmax(numpy.linalg.norm(numpy.subtract(*moved), axis=0))] - u) < 0.12
+        model.remove_bump(i, number)
+        assert model.bumps(i) == [] and numpy.array_equal(model.surface(i).vertices, first)
+
+
+@pytest.mark.parametrize("kind", WITH_BUMPS)
+def test_edges_run_counter_clockwise_between_commissures(kind):
+    """The edge of leaflet k ends where that of leaflet k + 1 begins, and the middles of the leaflets turn counter-clockwise."""
+    for opening in (0.0, 0.5, 1.0):
+        valve = riis.Valve(kind, opening=opening)
+        edges = [free_edge(valve, leaflet) for leaflet in range(n_leaflets(kind))]
+        for k, (share, line) in enumerate(edges):
+            assert share[0] == 0.0 and share[-1] == 1.0 and (numpy.diff(share) >= 0.0).all()
+            assert numpy.linalg.norm(line[-1] - edges[(k + 1) % len(edges)][1][0]) < 0.05
+        attached = riis.Surface(valve).attachment
+        middles = numpy.array([attached.edges[attached.leaflet_id == k].mean(axis=(0, 1)) for k in range(len(edges))])
+        turns = numpy.diff(numpy.unwrap(numpy.arctan2(*(middles - middles.mean(axis=0))[:, 1::-1].T)))
+        assert len(edges) == 2 or (turns > 0.0).all()
+
+
+def test_bumps_are_changed_and_refused(small):
+    model = view.Model(*small, unit="cm")
+    i, j = model.add("bicuspid"), model.add("mitral")
+    assert [model.add_bump(i) for _ in range(6)] == list(range(6))
+    with pytest.raises(riis.InvalidArgumentError, match="i: valve 0 has 6 bumps, and no kind has more"):
+        model.add_bump(i)
+    model.place_bump(i, 2, commissure=1)
+    assert model.bumps(i)[2] == (2, -1, 1) and model.values(i)["bump_2.leaflet"] == -1.0
+    assert len(model.bump_place(i, 2).lines) == 2 and len(model.bump_place(i, 1).lines) == 1
+    model.remove_bump(i, 4)
+    assert [bump.number for bump in model.bumps(i)] == [0, 1, 2, 3, 5] and model.add_bump(i) == 4
+    assert model.undo() and model.undo() and model.undo() and model.bumps(i)[2] == (2, 0, -1)
+    before = model.valves
+    for call, text in (
+        (lambda: model.add_bump(j), "only bicuspid, coapting, quadricuspid, mitral_coapting and tricuspid valves have bumps"),
+        (lambda: model.place_bump(i, 0, leaflet=2), "bump_0.leaflet"),
+        (lambda: model.place_bump(i, 0, leaflet=1, commissure=1), "a bump is at one place"),
+        (lambda: model.set(i, "bump_0.lift", 0.1), "name: is 'bump_0.lift'"),
+        (lambda: model.set(i, "bump_0.width", 0.1), "bump_0.width"),
+        (lambda: model.set(i, "cusp_0.sector", 40.0), "sector"),
+        (lambda: model.bump_place(j, 0), "number: is 0; valve 1 has no such bump"),
+    ):
+        with pytest.raises(riis.Error, match=text):
+            call()
+        assert model.valves == before
+    model.set(i, "cusp_0.sector", 150.0)
+    model.set(i, "effective_height", 0.8)
+    assert model.values(i)["cusp_1.effective_height"] == 0.8 and model.values(i)["cusp_1.sector"] == 180.0
+    k = model.add_surface([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[0, 1, 2]])
+    assert model.most_bumps(k) == 0
+    with pytest.raises(riis.InvalidArgumentError, match="i: valve 2 is a surface from a file, which has no bumps"):
+        model.add_bump(k)
 
 
 # ---- Lights ----
@@ -752,11 +866,17 @@ def test_the_program_gives_the_same_bits(tmp_path, small, random):
         model.place(i, random.normal(size=3), axis=(0, 0, 1) + 0.3 * random.normal(size=3), scale=None if number % 2 else 9.7)
         model.set(i, "opening", random.uniform())
         model.set(i, "half_thickness", random.uniform(1.5, 2.0))
-        model.set(i, "AP_diameter" if kind == "mitral" else "annulus", 2.3)
+        name = "annulus" if "annulus" in model.values(i) else "AP_diameter"
+        model.set(i, name, 0.95 * model.values(i)[name])
+        if model.most_bumps(i):
+            model.place_bump(i, 1, commissure=1)
+            model.set(i, "bump_1.open", 0.3)
+        if kind in ("bicuspid", "quadricuspid"):
+            model.set(i, "cusp_1.sector", 1.1 * model.values(i)["cusp_1.sector"])
         if kind != "bileaflet":
             model.set(i, "translation", (0.1, -0.05, random.uniform()))
         model.set(i, "triangulation", "fixed" if number < 3 else "adapted")
-        model.set(i, "offset", (0.0, 0.75, -0.3, 0.5, 0.95)[number])
+        model.set(i, "offset", (0.0, 0.75, -0.3, 0.5, 0.95)[number % 5])
         command = model.command(program=program, output=str(tmp_path / "marked.vtu"))
         done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
@@ -1051,7 +1171,7 @@ def test_refused_sessions(tmp_path, small):
 
 
 @pytest.mark.parametrize("change, error, message", [
-    (lambda m: m.add("pulmonary"), riis.InvalidArgumentError, "kind: is 'pulmonary'; it must be one of coapting, trileaflet"),
+    (lambda m: m.add("pulmonary"), riis.InvalidArgumentError, "kind: is 'pulmonary'; it must be one of coapting, bicuspid"),
     (lambda m: m.set(0, "opening", 1.5), riis.InvalidArgumentError, "opening: is 1.5; it must be from 0 to 1"),
     (lambda m: m.set(0, "opening", NAN), riis.InvalidArgumentError, "opening: is nan; it must be a finite number"),
     (lambda m: m.set(0, "gap", -1), riis.InvalidParameterError, "parameter 'gap' is -1; it must be from"),

@@ -258,6 +258,100 @@ def test_a_page_loses_nothing(tmp_path):
     asyncio.run(use())
 
 
+def test_leaflets_and_bumps_have_sliders(tmp_path):
+    """The page changes one size of all leaflets, and one bump, whose place it draws while its panel is unfolded."""
+    try:
+        scene.check_of_graphics()
+    except RuntimeError as missing:
+        pytest.skip(str(missing))
+    box().save(tmp_path / "box.vtu")
+
+    async def use():
+        page = Page(None, folder=str(tmp_path))
+        await page._read(str(tmp_path / "box.vtu"))
+        state = page.state
+
+        def choose(**chosen):
+            with state:
+                state.update(chosen)
+            for name in chosen:
+                page._told(getattr(page, f"_changed_{name}"))()
+
+        def slots():
+            return {slider["name"]: k for k, slider in enumerate(state.sliders) if slider is not None}
+
+        def slide(name, value):
+            with state:
+                state[f"slider_{slots()[name]}"] = value
+            page._told(page._slid)(slots()[name])
+            page._show_numbers()
+
+        def valve():
+            return page.model.valves[0]
+
+        choose(kind="bicuspid")
+        assert state.size == "cusp sector" and "commissure fusion" in state.sizes and state.most_bumps == 6
+        assert slots()["annulus"] < slots()["cusp_0.sector"] < slots()["cusp_1.sector"] and state.bumps == []
+        assert not any(name.startswith("bump") for name in slots())
+        assert not any("." in row["name"] for row in state.rows) and len(state.rows) < 20
+        slide("cusp_0.sector", 150.0)
+        assert valve().parameters == {"cusp_0.sector": 150.0} and state.sliders[slots()["cusp_0.sector"]]["changed"]
+        page._on_set("cusp_0.sector", None)
+        assert valve().parameters == {}
+        choose(size="commissure height")
+        assert "commissure_1.height" in slots() and "cusp_0.sector" not in slots()
+
+        page._on_add_bump()
+        page._on_add_bump()
+        assert state.bump == 1 and [bump["number"] for bump in state.bumps] == [0, 1]
+        assert [name for name in slots() if name.startswith("bump")] == [f"bump_1.{name}" for name in ("u", "width", "closed", "open")]
+        slide("bump_1.open", 0.25)
+        assert valve().parameters["bump_1.open"] == 0.25
+        titles = {place["value"]: place["title"] for place in state.bump_places}
+        assert titles == {"leaflet 0": "cusp 0", "leaflet 1": "cusp 1", "commissure 0": "between cusp 0 and cusp 1",
+                          "commissure 1": "between cusp 1 and cusp 0"}
+        choose(bump_place="commissure 1")
+        assert page.model.bumps(0)[1] == (1, -1, 1) and "bump_1.u" not in slots()
+        page._refresh()
+        assert "riis bump" not in page.scene._data
+        choose(panels=["bumps"])
+        page._refresh()
+        drawn = numpy.array(page.scene._data["riis bump place"].points)
+        assert numpy.allclose(drawn, page.model.bump_place(0, 1).point, atol=1e-5)
+        assert page.scene._data["riis bump"].n_points == sum(map(len, page.model.bump_place(0, 1).lines))
+        choose(bump=0)
+        page._refresh()
+        assert page.scene._data["riis bump"].n_lines == 1 and "bump_0.u" in slots()
+        page._told(page._on_set)("bump_0.width", "0.01")
+        assert "bump_0.width" in state.message and valve().parameters["bump_0.leaflet"] == 0.0
+
+        text = page._text("command")
+        assert "--set=bump_1.open=0.25" in text and "--set=bump_1.commissure=1.0" in text
+        assert json.loads(page._text("case"))["valves"][0]["parameters"]["bump_1"]["open"] == 0.25
+        assert "'bump_1.open': 0.25" in page._text("python")
+        before = page.model.valves
+        page._on_write("view")
+        page._on_remove_bump()
+        page._on_remove_bump()
+        assert state.bump == -1 and state.bumps == []
+        page._refresh()
+        assert "riis bump" not in page.scene._data
+        await page._reopen(str(tmp_path / "valve.view.json"))
+        assert page.model.valves == before
+
+        choose(kind="tricuspid")
+        page._on_add_bump()
+        assert "bump_0.lift" in slots() and [entry["label"] for entry in state.legend][:3] == [
+            "anterior leaflet", "posterior leaflet", "septal leaflet"]
+        page._on_set("skirt_length", "0.2")
+        skirt = next(entry for entry in state.legend if entry["label"] == "skirt")
+        assert skirt["colour"] == scene.colour_of(0, 3)
+        choose(kind="mitral")
+        assert state.most_bumps == 0 and state.bumps == [] and state.sizes == []
+
+    asyncio.run(use())
+
+
 def test_missing_graphics_name_their_packages(monkeypatch):
     monkeypatch.delenv("VTK_DEFAULT_OPENGL_WINDOW", raising=False)
     monkeypatch.setattr(scene, "_egl_works", lambda: False)

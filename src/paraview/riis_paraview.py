@@ -21,7 +21,10 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyDa
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
-KINDS = ("aortic", "trileaflet", "coapting", "mitral", "bileaflet")
+# State files hold the number of a kind, so a new kind comes last.
+KINDS = (
+    "aortic", "trileaflet", "coapting", "mitral", "bileaflet", "bicuspid", "quadricuspid", "mitral_coapting", "tricuspid",
+)  # fmt: skip
 UNITS = {"cm": 1.0, "mm": 10.0, "m": 0.01}  # lengths in the mesh's unit for each centimetre
 MOTIONS = ("fixed opening", "heartbeat by four times", "cycle from a table")
 INTERPOLATIONS = ("linear", "cubic")
@@ -34,7 +37,14 @@ FIRST_SIZES = {
     "coapting": ("root_radius", "commissure_radius", "effective_height"),
     "mitral": ("AP_diameter", "ALPM_diameter", "anterior_length"),
     "bileaflet": ("radius", "closed_angle", "open_angle"),
+    "bicuspid": ("root_radius", "commissure_radius", "effective_height", "cusp_0.sector", "cusp_1.sector"),
+    "quadricuspid": ("root_radius", "commissure_radius", "effective_height"),
+    "mitral_coapting": ("AP_diameter", "ALPM_diameter", "anterior_length", "posterior_length"),
+    "tricuspid": ("AP_diameter", "SL_diameter", "anterior_length", "posterior_length", "septal_length"),
 }
+
+
+DESCRIPTIONS = {kind: riis.Valve(kind).parameters for kind in KINDS}
 
 
 class Refused(ValueError):
@@ -110,12 +120,11 @@ def _times_of_output():
 
 def _parameter_names(kind):
     """Returns the name of the property of each parameter of a kind, except the opening, which all kinds share."""
-    parameters = riis.Valve(kind).parameters
-    return {name: f"{kind}_{name.replace('.', '_')}" for name in parameters if name != "opening"}
+    return {name: f"{kind}_{name.replace('.', '_')}" for name in DESCRIPTIONS[kind] if name != "opening"}
 
 
 def _parameter_property(kind, name, property_name):
-    parameter = riis.Valve(kind).parameters[name]
+    parameter = DESCRIPTIONS[kind][name]
     unit = {"length": ", in centimetres", "degree": ", in degrees", "1": ""}[parameter.unit]
     text = f"{name} of the {kind} valve{unit}: {parameter.description}."
     if parameter.rule:
@@ -177,7 +186,7 @@ PARAMETERS = {kind: _parameter_names(kind) for kind in KINDS}
 
 
 def _default_of(kind, name):
-    default = riis.Valve(kind).parameters[name].default
+    default = DESCRIPTIONS[kind][name].default
     return default if numpy.ndim(default) == 0 else tuple(float(value) for value in default)
 
 
@@ -221,16 +230,19 @@ def _valve_properties():
         _numbers("Offset", 0.0, "The band of marked nodes steps aside along the normals by this number of half thicknesses, "
                  "above -1 and below 1. 0.75 gives an open valve its full width.", -1.0, 1.0),
         _numbers("Tolerance", 0.05, "The error of the triangles, in half thicknesses.", 1e-6, 1.0, "advanced"),
-        *(_group(kind) for kind in KINDS),
+        *(_groups(kind) for kind in KINDS),
     ]  # fmt: skip
     return "".join(properties)
 
 
-def _group(kind):
-    """Puts the sizes of a kind below a heading."""
-    names = "".join(f'<Property name="{name}"/>' for name in PARAMETERS[kind].values())
-    return f"""<PropertyGroup label="Sizes of the {kind} valve (cm, degrees)">{names}
-      {_shown_if("Kind", KINDS.index(kind))}</PropertyGroup>"""
+def _groups(kind):
+    """Puts the sizes of a kind below a heading, and its bumps below another one."""
+    groups = {"Sizes": [], "Bumps": []}
+    for name, property_name in PARAMETERS[kind].items():
+        groups["Bumps" if name.startswith("bump_") else "Sizes"].append(f'<Property name="{property_name}"/>')
+    hints = _shown_if("Kind", KINDS.index(kind))
+    return "".join(f"""<PropertyGroup label="{title} of the {kind} valve (cm, degrees)">{"".join(names)}
+      {hints}</PropertyGroup>""" for title, names in groups.items() if names)
 
 
 def read_cycle(path):

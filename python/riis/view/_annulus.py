@@ -16,8 +16,11 @@ import numpy
 from numpy.typing import NDArray
 
 from riis._errors import InvalidParameterError
-from riis._riis import Surface
-from riis.view._valves import ValveState, plain, refuse, rotation_of, values_that_were_set, vector
+from riis._records import Attachment
+from riis._riis import Surface, Valve
+from riis.view._valves import (
+    ValveState, has_cusps, n_leaflets, plain, refuse, rotation_of, values_that_were_set, vector,
+)
 
 Reals = NDArray[numpy.float64]
 
@@ -42,48 +45,62 @@ def _circle(points: Reals) -> tuple[Reals, Reals, float]:
     return centre, normal / math.sqrt(square), float(numpy.linalg.norm(points[0] - centre))
 
 
+def _has_three_nadirs(kind: str) -> bool:
+    return has_cusps(kind) and n_leaflets(kind) == 3
+
+
 def annulus_of(state: ValveState) -> Annulus:
     """Returns the circle through three points of the annulus of the closed valve."""
     valve = state.valve()
     assert valve is not None
     valve["opening"] = 0.0
     if state.kind == "bileaflet":
-        # The hinges run along y, so the first point is at an end of them.
-        turn = numpy.radians([90.0, 210.0, 330.0])
-        shift = numpy.array(valve["translation"]) if "translation" in valve else numpy.zeros(3)
-        points = shift + valve["radius"] * numpy.column_stack([numpy.cos(turn), numpy.sin(turn), numpy.zeros(3)])
+        points = _thirds(valve, "radius", 90.0)  # the hinges run along y, so the first point is at an end of them
+    elif has_cusps(state.kind) and not _has_three_nadirs(state.kind):
+        points = _thirds(valve, "root_radius", 0.0)
     else:
         if "skirt_length" in valve:
             valve["skirt_length"] = 0.0
-        attachment = Surface(valve).attachment
-        ends = attachment.edges.reshape(-1, 3)
-        leaflet = numpy.repeat(attachment.leaflet_id, 2)
-        points = _anterior(ends, leaflet) if state.kind == "mitral" else _nadirs(ends, leaflet)
+        if has_cusps(state.kind):
+            points = _nadirs(Surface(valve).attachment)
+        else:  # the same triangles for a valve that has grown in proportion
+            points = _anterior(Surface(valve, half_thickness=valve["AP_diameter"] / 30.0).attachment)
     centre, normal, radius = _circle(points)
     return Annulus(points, centre, normal if normal[2] >= 0.0 else -normal, radius)
 
 
-def _nadirs(ends: Reals, leaflet: Any) -> Reals:
-    """Returns the nadir of each cusp: the mean of the lowest vertices of its attachment."""
+def _thirds(valve: Valve, radius: str, first: float) -> Reals:
+    """Returns three points on the valve's circle, a third of a turn apart. The first lies at this angle in degrees."""
+    turn = numpy.radians(first + numpy.array([0.0, 120.0, 240.0]))
+    shift = numpy.array(valve["translation"]) if "translation" in valve else numpy.zeros(3)
+    return numpy.asarray(shift + valve[radius] * numpy.column_stack([numpy.cos(turn), numpy.sin(turn), numpy.zeros(3)]))
+
+
+def _nadirs(attachment: Attachment) -> Reals:
+    """Returns the nadir of each of three cusps: the mean of the lowest vertices of its attachment."""
     made = []
     for cusp in range(3):
-        of_cusp = ends[leaflet == cusp]
+        of_cusp = attachment.edges[attachment.leaflet_id == cusp].reshape(-1, 3)
         low = of_cusp[:, 2].min()
         height = float(of_cusp[:, 2].max() - low)
         made.append(of_cusp[of_cusp[:, 2] <= low + 1e-9 * height].mean(axis=0))
     return numpy.array(made)
 
 
-def _anterior(ends: Reals, leaflet: Any) -> Reals:
+def _anterior(attachment: Attachment) -> Reals:
     """Returns the annulus at the middle of the anterior leaflet, and at a third of a turn to each side of it."""
-    middle = (ends.min(axis=0) + ends.max(axis=0)) / 2.0
-    around = numpy.arctan2(ends[:, 1] - middle[1], ends[:, 0] - middle[0])
-    anterior = ends[leaflet == 0].mean(axis=0) - middle
+    edges = attachment.edges
+    middle = (edges.min(axis=(0, 1)) + edges.max(axis=(0, 1))) / 2.0
+    around = numpy.arctan2(edges[:, :, 1] - middle[1], edges[:, :, 0] - middle[0])
+    anterior = edges[attachment.leaflet_id == 0].mean(axis=(0, 1)) - middle
     first = math.atan2(anterior[1], anterior[0])
     made = []
     for turn in (0.0, 2.0 * math.pi / 3.0, -2.0 * math.pi / 3.0):
-        off = numpy.abs(numpy.angle(numpy.exp(1j * (around - first - turn))))
-        made.append(ends[int(numpy.argmin(off))])
+        off = numpy.angle(numpy.exp(1j * (around - first - turn)))
+        # One edge has its ends on both sides of this direction.
+        k = int(numpy.argmax((off.min(axis=1) <= 0.0) & (off.max(axis=1) > 0.0) & (numpy.ptp(off, axis=1) < math.pi)))
+        a, b = off[k]
+        made.append(edges[k, 0] + a / (a - b) * (edges[k, 1] - edges[k, 0]))
     return numpy.array(made)
 
 
@@ -129,7 +146,7 @@ def placed_by(state: ValveState, points3: Any) -> dict[str, Any]:
         x = x / numpy.linalg.norm(x)
         frames.append(numpy.column_stack([x, numpy.cross(up, x), up]))
     turn = 0.0
-    if state.kind not in ("mitral", "bileaflet"):
+    if _has_three_nadirs(state.kind):
         turn = _mean_turn(known, frames[0], centre, frames[1], clicks)
     about = numpy.array([[math.cos(turn), -math.sin(turn), 0.0], [math.sin(turn), math.cos(turn), 0.0], [0.0, 0.0, 1.0]])
     matrix = frames[1] @ about @ frames[0].T

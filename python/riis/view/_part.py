@@ -39,10 +39,12 @@ class Part:
     _say: Any
     _need_idle: Callable[[], None]
     _need_model: Callable[[], None]
+    _begin_change: Callable[[], None]
     _valve: Callable[[], Any]
     _reach: Callable[[], float]
     _refresh: Callable[[], None]
     _renew_all: Callable[[], None]
+    _show_numbers: Callable[[], None]
     _show_placement: Callable[[], None]
     _show_orifice: Callable[[], None]
     _touch: Callable[[], None]

@@ -24,19 +24,28 @@ Integers = NDArray[numpy.int32]
 Vector = tuple[float, float, float]
 Value = float | tuple[float, ...]
 
-KINDS = ("coapting", "trileaflet", "aortic", "mitral", "bileaflet")
+KINDS = (
+    "coapting", "bicuspid", "quadricuspid", "trileaflet", "aortic", "mitral", "mitral_coapting", "tricuspid", "bileaflet",
+)  # fmt: skip
 TRIANGULATIONS = ("adapted", "fixed")
 SURFACE = "surface"  # the kind of a surface from a file
 
 # The sizes that matter first. Names that surgeons use, such as annulus, come first in any case.
 _FIRST = {
     "aortic": ("bending_height", "skirt_length"),
+    "bicuspid": ("coaptation_height", "gap", "meeting_shift", "skirt_length"),
     "coapting": ("coaptation_height", "gap", "skirt_length"),
+    "quadricuspid": ("coaptation_height", "gap", "skirt_length"),
     "trileaflet": ("bending_height", "skirt_length"),
     "mitral": ("AP_diameter", "ALPM_diameter", "anterior_length", "posterior_scallop_length1", "posterior_scallop_length2",
                "skirt_length"),
+    "mitral_coapting": ("AP_diameter", "ALPM_diameter", "anterior_length", "posterior_length", "tenting_height", "skirt_length"),
+    "tricuspid": ("AP_diameter", "SL_diameter", "anterior_length", "posterior_length", "septal_length", "tenting_height",
+                  "skirt_length"),
     "bileaflet": ("closed_angle", "open_angle", "ring_height"),
 }
+# Sliders of sizes of a leaflet, a commissure or a bump whose range in the library is wider than any that a hand can use.
+_SLIDERS = {"sector": (50.0, 240.0), "width": (0.2, 1.0), "lift": (-0.5, 1.0)}
 
 
 class Parameter(NamedTuple):
@@ -55,6 +64,16 @@ class Parameter(NamedTuple):
     rule: str  #: the value while the size is not set, such as "0.5 leaflet_height"; "": the default
     other_name: str  #: a surgeon's name of the same size, such as "annulus", which is then a separate entry
     other_factor: float  #: the factor from the parameter's value to the other name's value
+
+    @property
+    def part(self) -> str:
+        """The leaflet, the commissure or the bump of the size, such as "cusp_0"; "": it belongs to the whole valve."""
+        return self.name.rpartition(".")[0]
+
+    @property
+    def size(self) -> str:
+        """The name without the part, such as "sector"."""
+        return self.name.rpartition(".")[2]
 
 
 class Cycle(NamedTuple):
@@ -245,8 +264,28 @@ def check_kind(kind: Any) -> str:
     return str(kind)
 
 
-def _slider(unit: str, least: float, greatest: float, default: Value) -> tuple[float, float]:
+@lru_cache(maxsize=None)
+def n_leaflets(kind: str) -> int:
+    """Returns the number of leaflets of a kind, without a skirt and without a housing."""
+    return int(Valve(kind).read_patches().leaflet_id.max()) + 1
+
+
+@lru_cache(maxsize=None)
+def has_cusps(kind: str) -> bool:
+    """Returns whether the leaflets are cusps, which have an effective height."""
+    return any("effective_height" in (name, known.other_name) for name, known in Valve(kind).parameters.items())
+
+
+def is_atrioventricular(kind: str) -> bool:
+    """Returns whether a valve lets the blood into a ventricle. Its leaflets hang from an annulus."""
+    return kind not in (SURFACE, "bileaflet") and not has_cusps(kind)
+
+
+def _slider(name: str, unit: str, least: float, greatest: float, default: Value) -> tuple[float, float]:
     """Returns the ends of a slider. Lengths range from 0.4 to 2 times the default."""
+    _, dot, size = name.rpartition(".")
+    if dot and size in _SLIDERS:
+        return _SLIDERS[size]
     largest = max(abs(part) for part in default) if isinstance(default, tuple) else abs(default)
     if unit == "length":
         if isinstance(default, tuple) or (least < 0 and largest == 0.0):
@@ -271,7 +310,7 @@ def parameters_of(kind: str) -> tuple[Parameter, ...]:
         if name == "opening":
             continue
         default = plain(known.default)
-        low, high = _slider(known.unit, known.minimum, known.maximum, default)
+        low, high = _slider(name, known.unit, known.minimum, known.maximum, default)
         is_first = name in _FIRST[kind] and not known.other_name
         made = Parameter(name, known.unit, known.minimum, known.maximum, default, known.description, is_first, known.n_values,
                          low, high, known.rule, known.other_name, known.other_factor)
@@ -315,10 +354,10 @@ def values_of(state: ValveState) -> dict[str, Value]:
 def check_name(kind: str, name: str) -> None:
     """Refuses a name that no parameter has."""
     valve = Valve(kind)
-    names = {known.name for known in parameters_of(kind)} | {part.split(".")[-1] for part in valve}
-    if name not in names:
+    sizes = {known.size for known in parameters_of(kind)} | {part.split(".")[-1] for part in valve}
+    if name not in sizes and name not in valve:
         raise UnknownParameterError(
-            f"name: is {name!r}; a {kind} valve has {', '.join(sorted(names))}, and the view has opening, half_thickness, "
+            f"name: is {name!r}; a {kind} valve has {', '.join(sorted(sizes))}, and the view has opening, half_thickness, "
             "offset, resistance, scale and triangulation"
         )
 

@@ -21,7 +21,7 @@ class Hand(Part):
     # sliders and parameters
 
     def _slid(self, k: int) -> None:
-        if self.model is None or k >= len(self.state.sliders):
+        if self.model is None or k >= len(self.state.sliders) or self.state.sliders[k] is None:
             return
         name, value = self.state.sliders[k]["name"], float(self.state[f"slider_{k}"])
         if math.isclose(value, self._slider_values[k], rel_tol=1e-12, abs_tol=1e-12):

@@ -32,15 +32,16 @@ from riis._place import UNITS, PlaceResult, place
 from riis._riis import Marks, Surface, mark, read_resistance
 from riis.view import _outputs
 from riis.view._annulus import annulus_of, placed_by
+from riis.view._bumps import BumpedValves
 from riis.view._cells import Region, WholeMesh
 from riis.view._cycles import CYCLES, cycle_of
-from riis.view._history import Placed, Valves
+from riis.view._history import Placed
 from riis.view._lights import JUDGES, NAMES, Light, Scene, worst
 from riis.view._orifice import outline_of
 from riis.view._valves import (
     KINDS, SURFACE, TRIANGULATIONS, Cycle, Parameter, SurfaceSource, Value, ValveState, above_zero,
-    at_least_zero, check_kind, check_name, check_valve_name, number, parameters_of, point, refuse, rotation_of, share,
-    turned, values_of, values_that_were_set, vector,
+    at_least_zero, check_kind, check_name, check_valve_name, is_atrioventricular, number, parameters_of, point, refuse,
+    rotation_of, share, turned, values_of, values_that_were_set, vector,
 )
 
 __all__ = [
@@ -72,7 +73,7 @@ class Shown(NamedTuple):
     milliseconds: float  #: the time of the last change of the surfaces and of these marks
 
 
-class Model(Valves):
+class Model(BumpedValves):
     """A mesh with valves that can be moved, changed, judged and written.
 
     points   (n, 3): the nodes
@@ -314,19 +315,24 @@ class Model(Valves):
         self._replace(i, ("place", i), **changes)
 
     def flip(self, i: int) -> None:
-        """Turns a valve upside down, by half a turn about its x axis through the middle of its annulus."""
+        """Turns a valve upside down, by half a turn in the plane of its annulus, as nearly as possible about its x axis."""
         state = self._at(i).state
-        matrix = state.matrix @ numpy.diag([1.0, -1.0, -1.0])
-        middle = annulus_of(state).centre if state.surface is None else numpy.zeros(3)
+        middle, about = numpy.zeros(3), numpy.array([1.0, 0.0, 0.0])
+        if state.surface is None:
+            annulus = annulus_of(state)
+            middle, about = annulus.centre, about - annulus.normal[0] * annulus.normal
+            about /= numpy.linalg.norm(about)
+        matrix = state.matrix @ (2.0 * numpy.outer(about, about) - numpy.eye(3))
         origin = numpy.array(state.origin) + state.scale * (state.matrix @ middle - matrix @ middle)
         self._replace(i, ("flip", i), rotation=rotation_of(matrix), origin=vector(origin))
 
     def place_by_clicks(self, i: int, points3: Any) -> None:
         """Places and sizes a valve by three points of the annulus, so that its annulus passes through them.
 
-        The first point determines the turn of the valve. For cusps the points are the nadirs, the lowest points of the
-        attachment. The first nadir belongs to cusp 0, the right cusp of an aortic valve. For a mitral valve the first point is
-        the middle of the anterior leaflet, and the other points are anywhere on the annulus. For a bileaflet valve the first
+        The first point determines the turn of the valve. For three cusps the points are the nadirs, the lowest points of the
+        attachment. The first nadir belongs to cusp 0, the right cusp of an aortic valve. For two or four cusps the first point
+        is the nadir of cusp 0, and for mitral and tricuspid valves it is the middle of the anterior leaflet. The other points
+        are then anywhere on the annulus. For a bileaflet valve the first
         point is at an end of the hinges. The valve's axis keeps its side. ``flip`` turns the axis over. Lengths of the valve
         grow in proportion.
         """
@@ -532,7 +538,7 @@ class Model(Valves):
             for k, state in enumerate(self.valves):
                 if state.surface is not None:
                     continue
-                own = "mitral" if state.kind == "mitral" else "aortic"
+                own = "mitral" if is_atrioventricular(state.kind) else "aortic"
                 source = own if state.cycle is None else state.cycle.source
                 interpolation = getattr(None if state.cycle is None else state.cycle.law, "interpolation", "linear")
                 if k == valve and chosen is not None:

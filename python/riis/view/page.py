@@ -27,12 +27,14 @@ from riis._plot import COLOURS
 from riis.view import guard, reading, rows, saving
 from riis.view._lights import counted
 from riis.view._outputs import read_session
+from riis.view.details import N_DETAILS, Details
 from riis.view.hand import Hand
 from riis.view.heartbeat import Heartbeat
 from riis.view.model import CYCLES, KINDS, Model
 from riis.view.scene import CELLS, LOOKS, WALLS, Scene, boundary_of, check_of_graphics, colour_of, places_of
 
-N_SLIDERS = 12
+N_SLIDERS = 12  # of the whole valve
+N_ALL = N_SLIDERS + sum(N_DETAILS)
 MANY_NODES = 1_000_000  # larger meshes are marked near the valves
 REST = 0.25  # seconds without a move after which the lights and the cut are renewed
 
@@ -40,7 +42,7 @@ REST = 0.25  # seconds without a move after which the lights and the cut are ren
 _SPEEDS = [{"title": name, "value": value} for name, value in (("1/10", 0.1), ("1/4", 0.25), ("1/2", 0.5), ("as in life", 1.0))]
 
 
-class Page(Hand, Heartbeat, saving.Files):
+class Page(Hand, Details, Heartbeat, saving.Files):
     """A server with one model, which all its browsers share.
 
     path    the mesh to read, or None
@@ -99,14 +101,17 @@ class Page(Hand, Heartbeat, saving.Files):
             {"serve": {"riis_view": str(here)}, "scripts": ["riis_view/browser.js"], "styles": ["riis_view/page.css"]}
         )
         template = (here / "page.html").read_text(encoding="utf-8")
-        sliders = "".join(rows.SLIDER.format(k=k) for k in range(N_SLIDERS))
+        slots = iter(range(N_ALL))
+        for name, n in (("SLIDERS", N_SLIDERS), ("SIZE_SLIDERS", N_DETAILS[0]), ("BUMP_SLIDERS", N_DETAILS[1])):
+            template = template.replace("{{" + name + "}}", "".join(rows.SLIDER.format(k=next(slots)) for _ in range(n)))
         first = {
-            "trame__title": "riis view", "trame__template_main": template.replace("{{SLIDERS}}", sliders),
+            "trame__title": "riis view", "trame__template_main": template,
             "trame__vuetify3_config": {"theme": {"themes": {"light": {"colors": {"primary": COLOURS[0]}}}}},
             "path": "", "mesh_text": "no mesh", "marked_text": "", "loaded": False, "progress": None, "progress_text": "",
             "message": "", "message_type": "error", "refusals": 0, "folder": str(self.folder),
             "kinds": list(KINDS), "kind": KINDS[0], "is_surface": False, "valve_names": [], "current": 0,
-            "sliders": [], "rows": [], "panels": [], "placement": [], "tool": "look", "n_clicks": 0,
+            "sliders": [], "rows": [], "panels": [], "sizes": [], "size": "", "bumps": [], "bump": -1, "most_bumps": 0,
+            "bump_places": [], "bump_place": "", "placement": [], "tool": "look", "n_clicks": 0,
             "lights": [], "fresh": False, "at_rest": False, "digest": "", "n_marked": 0, "milliseconds": 0.0,
             "can_undo": False, "can_redo": False, "wall": "cut", "cells": "partly", "legend": [],
             "looks": {name: name.capitalize() for name in LOOKS},
@@ -122,13 +127,13 @@ class Page(Hand, Heartbeat, saving.Files):
             ],
             "picture": "", "picture_number": 0,
         }  # fmt: skip
-        first.update({f"slider_{k}": 0.0 for k in range(N_SLIDERS)})
+        first.update({f"slider_{k}": 0.0 for k in range(N_ALL)})
         self.state.update(first)
         for name in [name for name in dir(self) if name.startswith("_on_")]:
             self.server.trigger("riis_" + name[4:])(self._told(getattr(self, name)))
-        for k in range(N_SLIDERS):
+        for k in range(N_ALL):
             self.state.change(f"slider_{k}")(self._told(functools.partial(self._slid, k)))
-        for name in ("kind", "current", "wall", "cells", "tool", "time"):
+        for name in ("kind", "current", "wall", "cells", "tool", "time", "size", "bump", "bump_place", "panels"):
             self.state.change(name)(self._told(getattr(self, f"_changed_{name}")))
         self.server.controller.on_server_ready.add(self._ready)
 
@@ -346,19 +351,23 @@ class Page(Hand, Heartbeat, saving.Files):
             )
             state.is_surface = valve.surface is not None
             state.sliders, state.rows = [], []
-            sliders, table = [rows.half_thickness_of(valve, unit), rows.offset_of(valve)], []
+            sliders: list[dict[str, Any] | None] = [rows.half_thickness_of(valve, unit), rows.offset_of(valve)]
+            table = []
             if valve.surface is None:
                 state.kind = valve.kind
                 values = model.values(state.current)
                 sliders.insert(0, rows.OPENING | {"value": valve.opening})
                 for parameter in model.parameters(valve.kind):
-                    value = values[parameter.name]
+                    value, is_set = values[parameter.name], parameter.name in valve.parameters
+                    if parameter.part and parameter.n_values == 1:
+                        continue  # among the details
                     if parameter.first and parameter.n_values == 1 and len(sliders) < N_SLIDERS:
-                        sliders.append(rows.slider_of(parameter, float(value)))
+                        sliders.append(rows.slider_of(parameter, float(value), is_set))
                     else:
-                        table.append(rows.row_of(parameter, value, parameter.name in valve.parameters))
+                        table.append(rows.row_of(parameter, value, is_set))
+            sliders = [*sliders, *[None] * (N_SLIDERS - len(sliders)), *self._details()]
             # The values are not in state.sliders, because trame does not send a list that was changed in place.
-            self._slider_values = [float(slider.pop("value")) for slider in sliders]
+            self._slider_values = [float(slider.pop("value")) if slider is not None else 0.0 for slider in sliders]
             for k, value in enumerate(self._slider_values):
                 state[f"slider_{k}"] = value
             state.sliders, state.rows = sliders, table
@@ -369,10 +378,9 @@ class Page(Hand, Heartbeat, saving.Files):
     def _legend(self) -> list[dict[str, str]]:
         legend = []
         for k, valve in enumerate(self.model.valves):
-            names = rows.LEAFLETS.get(valve.kind, ["surface"])
-            if valve.parameters.get("skirt_length", 0.0) != 0.0:
-                names = [*names, "skirt"]
-            legend += [{"label": name, "colour": colour_of(k, j)} for j, name in enumerate(names)]
+            leaflets = numpy.unique(self.model.surface(k).triangles.leaflet_id).tolist()
+            shown = leaflets[:1] if valve.surface is not None else leaflets
+            legend += [{"label": rows.leaflet_name(valve.kind, leaflet), "colour": colour_of(k, leaflet)} for leaflet in shown]
         return legend + [{"label": "marked cells", "colour": "#56b4e9"}, {"label": "partly marked", "colour": "#f0e442"}]
 
     def _renew_all(self) -> None:
@@ -412,6 +420,7 @@ class Page(Hand, Heartbeat, saving.Files):
         elif time.monotonic() - self._orifice_at > 0.25:
             self._show_orifice()
         self.scene.show_lights([])
+        self._show_bump()
         valve = self._valve()
         with self.state as state:
             if state.sliders and state.sliders[0]["name"] == "opening" and self._slider_values[0] != valve.opening:

@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy
 
+from riis.view._valves import SURFACE, n_leaflets
+
 _LIGHT = {
     "good": ("mdi-check-circle", "#009e73"),
     "warn": ("mdi-alert", "#e69f00"),
@@ -17,13 +19,15 @@ _LIGHT = {
 }
 
 SLIDER = """
-      <div class="slider" v-if="sliders.length > {k}" :title="sliders[{k}].description">
+      <div class="slider" v-if="sliders[{k}]" :title="sliders[{k}].description">
         <div class="line"><span class="name">{{{{ sliders[{k}].label }}}}</span>
           <input type="number" step="any" :key="refusals" :id="'slider-' + sliders[{k}].name"
             :value="Number(Number(slider_{k}).toPrecision(4))"
             :min="sliders[{k}].least" :max="sliders[{k}].greatest"
             @change="trigger('riis_set', [sliders[{k}].name, $event.target.value])">
-          <span class="unit">{{{{ sliders[{k}].unit }}}}</span></div>
+          <span class="unit">{{{{ sliders[{k}].unit }}}}</span>
+          <button v-if="sliders[{k}].changed" class="back" title="Back to the default"
+            @click="trigger('riis_set', [sliders[{k}].name, null])">↺</button></div>
         <v-slider v-model="slider_{k}" :min="sliders[{k}].low" :max="sliders[{k}].high" :step="sliders[{k}].step"
           :data-parameter="sliders[{k}].name" hide-details density="compact" color="primary" class="mx-0"
           @start="trigger('riis_hold', [true])" @end="trigger('riis_hold', [false])"></v-slider>
@@ -36,10 +40,20 @@ OPENING = {
 _LABELS = {"annulus": "annulus, diameter", "stj": "sinotubular junction, diameter"}
 _UNITS = {"length": "cm", "degree": "°", "1": ""}
 _CUSPS = ["right cusp", "left cusp", "non-coronary cusp"]
-LEAFLETS = {
-    "aortic": _CUSPS, "coapting": _CUSPS, "trileaflet": _CUSPS, "mitral": ["anterior leaflet", "posterior leaflet"],
-    "bileaflet": ["leaflet at x > 0", "leaflet at x < 0", "housing"],
+_MITRAL = ["anterior leaflet", "posterior leaflet"]
+_LEAFLETS = {
+    "aortic": _CUSPS, "coapting": _CUSPS, "trileaflet": _CUSPS, "mitral": _MITRAL, "mitral_coapting": _MITRAL,
+    "tricuspid": [*_MITRAL, "septal leaflet"], "bileaflet": ["leaflet at x > 0", "leaflet at x < 0"],
 }  # fmt: skip
+
+
+def leaflet_name(kind: str, leaflet: int) -> str:
+    """Returns the name of a part of a surface that has this leaflet_id."""
+    if kind == SURFACE:
+        return "surface"
+    if leaflet >= n_leaflets(kind):
+        return "housing" if kind == "bileaflet" else "skirt"
+    return _LEAFLETS[kind][leaflet] if kind in _LEAFLETS else f"cusp {leaflet}"
 
 
 def half_thickness_of(valve: Any, unit: str) -> dict[str, Any]:
@@ -66,12 +80,12 @@ def offset_of(valve: Any) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def slider_of(parameter: Any, value: float) -> dict[str, Any]:
+def slider_of(parameter: Any, value: float, is_set: bool, label: str = "") -> dict[str, Any]:
     low, high = min(float(parameter.low), value), max(float(parameter.high), value)
     step = 10.0 ** math.floor(math.log10((high - low) / 100)) if high > low else 0.01
     return {
-        "name": parameter.name, "label": _LABELS.get(parameter.name, parameter.name.replace("_", " ")),
-        "unit": _UNITS[parameter.unit],
+        "name": parameter.name, "label": label or _LABELS.get(parameter.name, parameter.name.replace("_", " ")),
+        "changed": is_set, "unit": _UNITS[parameter.unit],
         "least": float(parameter.least), "greatest": float(parameter.greatest), "low": low, "high": high, "step": step,
         "value": value, "description": parameter.description,
     }  # fmt: skip

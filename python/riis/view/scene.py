@@ -20,6 +20,7 @@ from riis._plot import COLOURS, _pyvista, add_scale_bar, coloured, drop_scale_ba
 from riis.view._valves import point, refuse
 
 WALL, PARTLY, LEAK, CROSSING, ORIFICE, HANDLE = "#c9ced6", "#9aa3b2", "#d50000", "#cc00aa", "#111111", "#333333"
+BUMP = "#5e35b1"
 WALLS = ("cut", "clear", "none")
 CELLS = ("partly", "marked", "none")
 LOOKS = ("oblique", "top", "side")
@@ -317,6 +318,21 @@ class Scene:
             data = self._pv.PolyData(numpy.asarray(points, float))
             self._put(
                 "riis points", data, color=LEAK, point_size=14, render_points_as_spheres=True, lighting=False, pickable=False
+            )
+
+    def show_bump(self, lines: Any, point: Any = None) -> None:
+        """Draws the lines (n, 3) of a free edge on which a bump acts, and its place, or nothing."""
+        for name in ("riis bump", "riis bump place"):
+            self._drop(name)
+        if len(lines) > 0:
+            ends = numpy.cumsum([0] + [len(line) for line in lines])
+            rows = [numpy.concatenate([[len(line)], start + numpy.arange(len(line))]) for start, line in zip(ends, lines)]
+            data = self._pv.PolyData(numpy.concatenate(lines), lines=numpy.concatenate(rows))
+            self._put("riis bump", data, color=BUMP, line_width=7, lighting=False, pickable=False)
+        if point is not None:
+            data = self._pv.PolyData(numpy.asarray(point, float).reshape(1, 3))
+            self._put(
+                "riis bump place", data, color=BUMP, point_size=18, render_points_as_spheres=True, lighting=False, pickable=False
             )
 
     def show_handle(self, origin: Any = None, axis: Any = None, length: float = 1.0) -> None:
