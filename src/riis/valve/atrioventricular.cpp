@@ -91,6 +91,9 @@ class Sizes {
   const ParameterValues &values_;
 };
 
+Vec3 level(Vec3 p) { return {p.x, p.y, 0}; }
+Vec3 unit(Vec3 p) { return (1 / length(p)) * p; }
+
 // A place of the annulus, and the horizontal direction inwards.
 struct Hinge {
   Vec3 point, inwards;
@@ -117,6 +120,12 @@ class Annulus {
     }
     // Neighbours have the same commissure, even at the end of a lap.
     leaflets_.back()[n_cells].hinge = leaflets_.front()[0].hinge;
+  }
+
+  // Commissures lead towards the point where all leaflets meet, so that neighbours stay on their sides of one plane.
+  void turn_commissures(Vec3 to) {
+    for (AtPlaces<Place> &leaflet : leaflets_)
+      for (Hinge *hinge : {&leaflet[0].hinge, &leaflet[n_cells].hinge}) hinge->inwards = unit(level(to - hinge->point));
   }
 
   const Hinge &hinge(std::size_t leaflet, std::size_t place) const { return leaflets_[leaflet][place].hinge; }
@@ -149,9 +158,6 @@ struct Leaflet {
   AtPlaces<double> body;      // the lengths of the meridians down to the coaptation line
   AtPlaces<double> whole;     // and down to the free edge
 };
-
-Vec3 level(Vec3 p) { return {p.x, p.y, 0}; }
-Vec3 unit(Vec3 p) { return (1 / length(p)) * p; }
 
 // The control points are those of two cubics, which meet at the middle place. Returns the parts of these between the places.
 std::array<Bezier, n_cells> parts(const AtPlaces<Vec3> &q) {
@@ -196,6 +202,12 @@ Vec3 meeting_point(const Sizes &sizes, const Annulus &annulus) {
   return at;
 }
 
+Annulus annulus_of(const Sizes &sizes) {
+  Annulus annulus(sizes.annulus(), sizes.commissures());
+  annulus.turn_commissures(meeting_point(sizes, annulus));
+  return annulus;
+}
+
 // Closed, a free edge ends at this point of a commissure, and the coaptation line ends above it.
 Vec3 end_of_edge(const Sizes &sizes, const Hinge &hinge) {
   return hinge.hang(sizes.of(commissure_length), sine_cosine_degrees(sizes.of(commissure_angle)));
@@ -218,15 +230,16 @@ double closed_length(const Sizes &sizes, Vec3 hinge, Vec3 on_line) {
 Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, const Bumps &bumps) {
   const Vec3 hinge = annulus.hinge(k, middle).point, meeting = meeting_point(sizes, annulus);
   const Vec3 away = unit(level(hinge) - meeting);
-  // The leaflet keeps half the gap from the lines between the meeting point and its commissures.
-  double least_sine = 1;
-  for (const std::size_t end : {std::size_t{0}, n_cells}) {
-    const Vec3 to = unit(level(end_of_edge(sizes, annulus.hinge(k, end))) - meeting);
-    least_sine = std::min(least_sine, std::abs(away.x * to.y - away.y * to.x));
-  }
-  Vec3 on_line = meeting + 0.5 * sizes.of(gap) / least_sine * away - Vec3{0, 0, sizes.of(tenting_height)};
+  // Three leaflets meet in straight lines to the commissures. Two meet in a smile, which is straight in the middle.
+  const auto along = [&](std::size_t end) -> Vec3 {
+    if (sizes.n_leaflets() == 2) return end == 0 ? Vec3{away.y, -away.x, 0} : Vec3{-away.y, away.x, 0};
+    return unit(level(end_of_edge(sizes, annulus.hinge(k, end))) - meeting);
+  };
+  // The leaflet keeps half the gap from these lines.
+  const double sine = std::min(length(cross(away, along(0))), length(cross(away, along(n_cells))));
+  Vec3 on_line = meeting + 0.5 * sizes.of(gap) / sine * away - Vec3{0, 0, sizes.of(tenting_height)};
   double zone = 0;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < most_steps && dot(level(hinge - on_line), away) > 0; ++step) {
     zone = sizes.length(k) - closed_length(sizes, hinge, on_line);
     const double lacking = least_coaptation * sizes.length(k) - zone;
     if (!(lacking > rounding * sizes.length(k))) break;
@@ -236,11 +249,8 @@ Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k
   const double zone_of_commissure = sizes.of(commissure_coaptation) * sizes.of(commissure_length);
   for (const bool is_behind : {false, true}) {
     const auto place = [&](std::size_t i) { return is_behind ? middle + i : middle - i; };
-    const Vec3 end = end_of_edge(sizes, annulus.hinge(k, place(3))), straight = level(end - on_line);
-    // Three leaflets meet in straight lines. Two meet in a smile, which is straight in the middle.
-    Vec3 along = unit(straight);
-    if (sizes.n_leaflets() == 2) along = is_behind ? Vec3{-away.y, away.x, 0} : Vec3{away.y, -away.x, 0};
-    const Vec3 second = level(on_line) + length(straight) / 3 * along;
+    const Vec3 end = end_of_edge(sizes, annulus.hinge(k, place(3)));
+    const Vec3 second = level(on_line) + distance(level(end), level(on_line)) / 3 * along(place(3));
     const std::array<Vec3, 4> plan{level(on_line), second, mix(second, level(end), 0.5), level(end)};
     for (std::size_t i = 0; i < plan.size(); ++i) {
       const auto at_height = [&](double in_middle, double at_end) {
@@ -287,11 +297,14 @@ Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, 
   return made;
 }
 
+// A leaflet first turns about its hinges, and then becomes straight. So lengths run behind: neighbours would otherwise meet.
+double behind(double share) { return share * share; }
+
 // A vector from a hinge swings from one state to another: the vector is blended, and so is its length.
 Vec3 swung(Vec3 from, Vec3 to, double share) {
   const Vec3 blended = riis::blend(from, to, share);
   const double size = length(blended);
-  return size > 0 ? riis::blend(length(from), length(to), share) / size * blended : blended;
+  return size > 0 ? riis::blend(length(from), length(to), behind(share)) / size * blended : blended;
 }
 
 // Returns the length of the middle meridian, down to the free edge.
@@ -309,7 +322,7 @@ Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double>
     const double share = shares[i];
     for (AtPlaces<Vec3> Leaflet::*points : {&Leaflet::edge, &Leaflet::line, &Leaflet::start})
       (made.*points)[i] = swung((closed.*points)[i], (open.*points)[i], share);
-    made.turn[i] = riis::blend(closed.turn[i], open.turn[i], share);
+    made.turn[i] = riis::blend(closed.turn[i], open.turn[i], behind(share));
   }
   const double stretch = riis::blend(middle_length(closed), middle_length(open), shares[middle]) / middle_length(made);
   for (std::size_t i = 0; i < n_places; ++i) {
@@ -348,7 +361,7 @@ class Motion {
  public:
   Motion(const ValveState &closed, const ValveState &open, std::size_t n_leaflets)
       : closed_(closed.values, n_leaflets), open_(open.values, n_leaflets), has_one_annulus_(&closed == &open) {
-    const Annulus of_closed(closed_.annulus(), closed_.commissures()), of_open(open_.annulus(), open_.commissures());
+    const Annulus of_closed = annulus_of(closed_), of_open = annulus_of(open_);
     const Bumps bumps = closed_.bumps(), bumps_when_open = open_.bumps();
     for (std::size_t k = 0; k < n_leaflets; ++k) {
       closed_leaflets_.push_back(closed_leaflet(closed_, of_closed, k, bumps));
@@ -460,7 +473,7 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
       fail(RIIS_INVALID_PARAMETER, "the shares of the annulus leave ", commissures[k + 1] - commissures[k],
            " to one leaflet; it must be at least ", least_ratio, ": look at ", name_of(flat_ratio),
            " and anterior_ratio");
-  const Annulus annulus(sizes.annulus(), commissures);
+  const Annulus annulus = annulus_of(sizes);
   const Vec3 meeting = meeting_point(sizes, annulus);
   const Bumps bumps = sizes.bumps();
   for (std::size_t k = 0; k < n_leaflets; ++k) {
@@ -476,14 +489,14 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
            ", which must be at most ", most_of_way, " times the distance ", room,
            " from a commissure to the meeting point");
     const Leaflet leaflet = closed_leaflet(sizes, annulus, k, bumps);
+    if (!(std::abs(leaflet.whole[middle] - sizes.length(k)) <= 1e-6 * sizes.length(k)))
+      fail(RIIS_INVALID_PARAMETER, name(k), " is ", sizes.length(k),
+           ", too short for its part of the annulus with tenting_height ", sizes.of(tenting_height));
     const double zone = leaflet.whole[middle] - leaflet.body[middle];
     if (!(zone <= most_coaptation * sizes.length(k)))
       fail(RIIS_INVALID_PARAMETER, name(k), " is ", sizes.length(k), ", of which ", zone,
            " would coapt; that must be at most ", most_coaptation,
            " of the length: the leaflets are too long for the annulus");
-    if (!(std::abs(leaflet.whole[middle] - sizes.length(k)) <= 1e-6 * sizes.length(k)))
-      fail(RIIS_INVALID_PARAMETER, name(k), " is ", sizes.length(k),
-           ", too short for its part of the annulus with tenting_height ", sizes.of(tenting_height));
   }
 }
 
