@@ -232,7 +232,7 @@ def _bounds_of(valve: Valve, free: list[str], given: Any, size: float) -> Reals:
         if table[name].n_values != 1:
             raise InvalidArgumentError(f"free: '{name}' has three values; only parameters with one can be free")
         if re.fullmatch(r"bump_\d+\.(leaflet|commissure)", name):
-            raise InvalidArgumentError(f"free: '{name}' is the whole number of a place, so it cannot be free; set it in the valve")
+            raise InvalidArgumentError(f"free: '{name}' is the whole number of a place, so it cannot be free; set it in valve")
         low, high = _pair(given[name], name) if name in given else _default_bounds(table[name], valve[name], size)
         if not table[name].minimum <= low < high <= table[name].maximum:
             raise InvalidArgumentError(

@@ -33,7 +33,7 @@ KINDS = {
 }
 # Other kinds have a known valve for fit_table.py, and no patients, so that each seed of the study keeps its patient.
 NO_PATIENTS = {
-    "bicuspid": {"root_radius": 1.3, "cusp_0.sector": 160.0, "opening": 0.35},
+    "bicuspid": {"root_radius": 1.3, "cusp_0.sector": 205.0, "cusp_1.sector": 155.0, "opening": 0.35},
     "quadricuspid": {"root_radius": 1.2, "effective_height": 0.95, "opening": 0.35},
     "mitral_coapting": {"AP_diameter": 2.9, "anterior_length": 2.6, "opening": 0.3},
     "tricuspid": {"AP_diameter": 3.8, "SL_diameter": 3.1, "opening": 0.3},

@@ -323,6 +323,7 @@ def test_a_prepared_mesh_uses_clusters(surface, xyz):
     assert riis.mark(surface, mesh).stats.search == "clusters"
 
 
-@pytest.mark.parametrize("kind", ["aortic", "mitral", "coapting", "trileaflet", "bileaflet"])
+@pytest.mark.parametrize("kind", ["aortic", "mitral", "coapting", "trileaflet", "bileaflet", "bicuspid", "quadricuspid",
+                                  "mitral_coapting", "tricuspid"])
 def test_kinds_of_valves_are_marked(kind, mesh):
     assert len(riis.mark(riis.Surface(riis.Valve(kind)), mesh)) > 100

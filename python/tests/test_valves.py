@@ -204,7 +204,8 @@ def test_cusps_have_parameters_of_their_own():
     assert (valve["right.leaflet_angle"], valve["left.leaflet_angle"]) == (30.0, 20.0)
 
 
-@pytest.mark.parametrize("kind", ["aortic", "mitral", "coapting", "trileaflet", "bileaflet"])
+@pytest.mark.parametrize("kind", ["aortic", "mitral", "coapting", "trileaflet", "bileaflet", "bicuspid", "quadricuspid",
+                                  "mitral_coapting", "tricuspid"])
 def test_parameters_describe_the_defaults(kind):
     valve = riis.Valve(kind)
     assert len(valve.parameters) == len(valve)
@@ -213,6 +214,46 @@ def test_parameters_describe_the_defaults(kind):
         value = numpy.atleast_1d(valve[name])
         assert len(value) == parameter.n_values and numpy.array_equal(value, numpy.atleast_1d(parameter.default))
         assert (value >= parameter.minimum).all() and (value <= parameter.maximum).all()
+
+
+def test_cusps_follow_the_valve_until_they_are_set():
+    valve = riis.Valve("bicuspid", effective_height=0.8, **{"cusp_0.sector": 150, "cusp_1.effective_height": 0.75})
+    assert [valve[f"cusp_{k}.effective_height"] for k in range(2)] == [0.8, 0.75]
+    assert valve.parameters["cusp_0.effective_height"].rule == "effective_height"
+    valve["effective_height"] = 0.85
+    assert [valve[f"cusp_{k}.effective_height"] for k in range(2)] == [0.85, 0.75]
+    assert [valve.is_set(f"cusp_{k}.effective_height") for k in range(2)] == [False, True]
+    for other in (valve.copy(), pickle.loads(pickle.dumps(valve))):
+        other["effective_height"] = 0.8
+        assert [other[f"cusp_{k}.effective_height"] for k in range(2)] == [0.8, 0.75]
+    assert valve["cusp_0.sector"] == 150.0 and valve["cusp_1.sector"] == 180.0  # as they were set, not as they are scaled
+    valve.unset("cusp_1.effective_height")
+    assert valve["cusp_1.effective_height"] == 0.85
+    with pytest.raises(riis.UnknownParameterError, match="'bump_0.leaf' is not a parameter of the bicuspid valve; did you mean"):
+        valve["bump_0.leaf"]
+
+
+@pytest.mark.parametrize("kind, leaflets", [("bicuspid", [0, 1]), ("quadricuspid", [0, 1, 2, 3]), ("mitral_coapting", [0, 1]),
+                                            ("tricuspid", [0, 1, 2])])
+def test_leaflets_and_skirts_have_ids(kind, leaflets):
+    """A skirt's id is the largest cusp's and one more, and at least 3."""
+    assert [one.leaflet_id for one in riis.Surface(riis.Valve(kind)).leaflets()] == leaflets
+    with_skirt = riis.Surface(riis.Valve(kind, skirt_length=0.2))
+    assert [one.leaflet_id for one in with_skirt.leaflets()] == [*leaflets, max(3, len(leaflets))]
+    assert riis.Leaflet.SEPTAL == 2 and riis.Leaflet.ANTERIOR == 0 and riis.Leaflet.POSTERIOR == 1
+
+
+def test_a_bump_makes_an_open_valve_narrower():
+    """A cusp that hardly opens, in a valve, its copy and its pickle."""
+    valve = riis.Valve("coapting", opening=1.0)
+    healthy = riis.Surface(valve).orifice().area
+    valve.update({"bump_0.leaflet": 1, "bump_0.width": 1.0, "bump_0.open": 0.35})
+    ill = riis.Surface(valve).orifice().area
+    assert 0.6 * healthy < ill < 0.9 * healthy
+    for other in (valve.copy(), pickle.loads(pickle.dumps(valve))):
+        assert riis.Surface(other).orifice().area == ill
+    valve["bump_0.leaflet"] = -1
+    assert riis.Surface(valve).orifice().area == healthy
 
 
 def test_copies_are_independent():

@@ -461,8 +461,12 @@ def test_a_bump_lies_on_the_free_edge(kind, random):
 @pytest.mark.parametrize("kind", WITH_BUMPS)
 def test_edges_run_counter_clockwise_between_commissures(kind):
     """The edge of leaflet k ends where that of leaflet k + 1 begins, and the middles of the leaflets turn counter-clockwise."""
-    for opening in (0.0, 0.5, 1.0):
-        valve = riis.Valve(kind, opening=opening)
+    unequal = {
+        "bicuspid": {"cusp_0.sector": 225.0, "cusp_1.sector": 135.0}, "coapting": {"cusp_1.sector": 160.0, "stj": 2.7},
+        "quadricuspid": {"cusp_3.sector": 60.0, "stj": 2.7},
+    }  # fmt: skip
+    for opening, sizes in ((0.0, {}), (0.5, {}), (1.0, {}), (0.3, unequal.get(kind, {}))):
+        valve = riis.Valve(kind, opening=opening, **sizes)
         edges = [free_edge(valve, leaflet) for leaflet in range(n_leaflets(kind))]
         for k, (share, line) in enumerate(edges):
             assert share[0] == 0.0 and share[-1] == 1.0 and (numpy.diff(share) >= 0.0).all()

@@ -304,7 +304,8 @@ def test_leaflets_and_bumps_have_sliders(tmp_path):
         page._on_add_bump()
         page._on_add_bump()
         assert state.bump == 1 and [bump["number"] for bump in state.bumps] == [0, 1]
-        assert [name for name in slots() if name.startswith("bump")] == [f"bump_1.{name}" for name in ("u", "width", "closed", "open")]
+        of_bump = [name for name in slots() if name.startswith("bump")]
+        assert of_bump == [f"bump_1.{name}" for name in ("u", "width", "closed", "open")]
         slide("bump_1.open", 0.25)
         assert valve().parameters["bump_1.open"] == 0.25
         titles = {place["value"]: place["title"] for place in state.bump_places}

@@ -97,11 +97,12 @@ def free_edge(valve: Valve, leaflet: int) -> tuple[Reals, Reals]:
     ]  # fmt: skip
     chain = _joined(pieces)
     line = numpy.concatenate(chain)
-    # The attachment lies outside the line between the commissures, and tells which of them comes first.
-    of_leaflet = numpy.flatnonzero((read.leaflet_id == leaflet) & (read.attached >= 0))
-    attachment = numpy.concatenate([control_of(curve) for curve in read.curve_id[of_leaflet, read.attached[of_leaflet]].tolist()])
-    ends = 0.5 * (line[0] + line[-1])
-    outward, last = attachment.mean(axis=0) - ends, line[-1] - ends
+    # Seen from the middle of the valve, the edge ends counter-clockwise of the middle of its attachment.
+    attachments = []
+    for patches in (read.attached >= 0, (read.attached >= 0) & (read.leaflet_id == leaflet)):
+        sides = read.curve_id[patches, read.attached[patches]].tolist()
+        attachments.append(numpy.concatenate([control_of(curve) for curve in sides]).mean(axis=0))
+    outward, last = attachments[1] - attachments[0], line[-1] - attachments[0]
     if outward[0] * last[1] - outward[1] * last[0] < 0.0:
         chain = [piece[::-1] for piece in chain[::-1]]
         line = line[::-1]
@@ -118,15 +119,15 @@ def place_of(valve: Valve, bump: Bump, n: int) -> BumpPlace:
     """Returns the place of a bump in the valve's own frame. n is the number of leaflets."""
     width = float(valve[f"bump_{bump.number}.width"])
 
-    def part(leaflet: int, low: float, high: float) -> Reals:
-        share, line = free_edge(valve, leaflet)
+    def part(edge: tuple[Reals, Reals], low: float, high: float) -> Reals:
         at = numpy.linspace(max(0.0, low), min(1.0, high), _N_POINTS)
-        return numpy.column_stack([numpy.interp(at, share, line[:, k]) for k in range(3)])
+        return numpy.column_stack([numpy.interp(at, edge[0], coordinate) for coordinate in edge[1].T])
 
     if bump.leaflet != _NONE:
-        u = float(valve[f"bump_{bump.number}.u"])
-        return BumpPlace(part(bump.leaflet, u, u)[0], [part(bump.leaflet, u - width, u + width)])
-    lines = [part(bump.commissure, 1.0 - width, 1.0), part((bump.commissure + 1) % n, 0.0, width)]
+        u, edge = float(valve[f"bump_{bump.number}.u"]), free_edge(valve, bump.leaflet)
+        return BumpPlace(part(edge, u, u)[0], [part(edge, u - width, u + width)])
+    before, behind = (free_edge(valve, leaflet % n) for leaflet in (bump.commissure, bump.commissure + 1))
+    lines = [part(before, 1.0 - width, 1.0), part(behind, 0.0, width)]
     return BumpPlace(lines[0][-1], lines)
 
 

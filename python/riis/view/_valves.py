@@ -33,9 +33,9 @@ SURFACE = "surface"  # the kind of a surface from a file
 # The sizes that matter first. Names that surgeons use, such as annulus, come first in any case.
 _FIRST = {
     "aortic": ("bending_height", "skirt_length"),
-    "bicuspid": ("coaptation_height", "gap", "meeting_shift", "skirt_length"),
-    "coapting": ("coaptation_height", "gap", "skirt_length"),
-    "quadricuspid": ("coaptation_height", "gap", "skirt_length"),
+    "bicuspid": ("effective_height", "coaptation_height", "gap", "meeting_shift", "skirt_length"),
+    "coapting": ("effective_height", "coaptation_height", "gap", "skirt_length"),
+    "quadricuspid": ("effective_height", "coaptation_height", "gap", "skirt_length"),
     "trileaflet": ("bending_height", "skirt_length"),
     "mitral": ("AP_diameter", "ALPM_diameter", "anterior_length", "posterior_scallop_length1", "posterior_scallop_length2",
                "skirt_length"),

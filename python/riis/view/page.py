@@ -3,7 +3,7 @@
 
 The page is page.html, a template of Vue. Its variables are the state of this server. browser.js hands the gestures on the
 picture to the functions that begin with _on_. Everything runs on one thread, except that a separate thread reads a mesh.
-hand.py, heartbeat.py and saving.py have the parts of the page that change the valves, play them and write files.
+hand.py, details.py, heartbeat.py and saving.py have the parts of the page that change the valves, play them and write files.
 """
 
 from __future__ import annotations
