@@ -20,7 +20,7 @@ static double cosine(double degrees) { return cos(degrees * acos(-1.0) / 180); }
 /* A number from the normal distribution, by Box and Muller. */
 static double normal(void) { return sqrt(-2 * log(1 - between(0, 1))) * cosine(360 * between(0, 1)); }
 
-enum { most = 64, most_parameters = 64 };
+enum { most = 64, most_parameters = 128 };
 
 /* Landmarks, first in the valve's frame in centimetres, then as riis_place takes them. */
 typedef struct patient {
