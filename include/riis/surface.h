@@ -198,14 +198,14 @@ typedef struct riis_triangles {
   const int64_t *vertex_id;   /* (3, n_triangles): their vertices */
   const int64_t *triangle_id; /* (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve */
   const int32_t *leaflet_id;  /* (n_triangles): RIIS_LEAFLET_*, or the caller's from patches and arrays */
-  const int32_t *patch_id;    /* (n_triangles). From arrays: 0, skirt: 1. From patches: the patch's number, from 0. Aortic,
-                                 coapting, trileaflet: 4 * leaflet, plus 0 bottom, 1 top, 2 and 3 mirrored.
+  const int32_t *patch_id;    /* (n_triangles). From arrays: 0, skirt: 1. From patches: the patch's number, from 0. n cusps:
+                                 4 * leaflet, plus 0 bottom, 1 top, 2 and 3 mirrored, plus 4 * n in a fused part.
                                  Mitral, anterior: 0 triangle at the posteromedial commissure, 1 side, 2 middle,
                                  3 mirrored middle, 4 mirrored side, 5 mirrored triangle. Mitral, posterior: 6 side
                                  scallop, 7 half of the middle scallop, 8 mirrored half, 9 mirrored side scallop.
                                  Bileaflet: 2 * leaflet, plus 0 or 1 for the half; 4 to 7 the ring's quarters.
                                  Skirt: the id of the patch that it continues, plus the number of patch ids
-                                 without the skirt: 10 for mitral, 12 for three cusps */
+                                 without the skirt: 10 for mitral, 12 for three cusps without a fused commissure */
 } riis_triangles;
 /* Gives the triangles of the surface, until its next update or its destruction. */
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,

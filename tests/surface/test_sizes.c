@@ -50,7 +50,7 @@ static riis_valve *copy_of(const riis_valve *valve) {
 
 /* --- The model ---------------------------------------------------------------------------------------------------------- */
 
-enum { max_parameters = 64 };
+enum { max_parameters = 128 };
 
 /* The values that were set, from which the expected values of a valve follow. */
 typedef struct model {

@@ -314,14 +314,13 @@ TEST(fused_parts_stay_as_in_the_closed_valve) {
       CHECK_NEAR(end.q[3].x[c], edge.q[3].x[c], 1e-14);
       CHECK_NEAR(end.q[0].x[c], free_part.q[3].x[c], 1e-14);
     }
+    const cubic before[2] = {side_of(&rest, 4 * n, v1), end};
+    const riis_valve_patches open = patches_of(fused, 1);
     for (int patch = 0; patch < 2; ++patch) {
-      const cubic before = side_of(&rest, 4 * n + patch, v1);
-      const riis_valve_patches open = patches_of(fused, 1);
       const cubic after = side_of(&open, 4 * n + patch, v1);
       for (int k = 0; k < 4; ++k)
         for (int c = 0; c < 3; ++c)
-          CHECK_NEAR(after.q[k].x[c] - before.q[k].x[c], after.q[3].x[c] - before.q[3].x[c], 1e-14);
-      (void)patches_of(fused, 0);
+          CHECK_NEAR(after.q[k].x[c] - before[patch].q[k].x[c], after.q[3].x[c] - before[patch].q[3].x[c], 1e-14);
     }
   }
 }

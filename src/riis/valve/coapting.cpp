@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coapting valves. Their two to four cusps lie side by side in a coaptation zone, and their free edges keep their length while
-// the valve opens (docs/theory/coapting.md).
+// The coapting valves. Their two to four cusps lie side by side in a coaptation zone, and their free edges keep their length
+// while the valve opens (docs/theory/coapting.md).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -244,21 +244,14 @@ Vector<MovingHalf> moving_halves(const CuspNumbers &closed, const CuspNumbers &o
   Vector<MovingHalf> made;
   for (std::size_t side = 0; side < here.size(); ++side) {
     made.push_back({here[side], {}});
-    for (std::size_t part = 0; part < here[side].size(); ++part) {
-      HalfCusp change = rate(before[side][part], after[side][part]);
-      for (Bezier *curve : {&change.leaflet, &change.bending, &change.sinus_below, &change.sinus_above,
-                            &change.symmetry_below, &change.symmetry_above})
-        for (Vec3 &q : curve->control) q = (1 / (to - from)) * q;
-      if (change.sinus_start)
-        for (Vec3 &q : change.sinus_start->control) q = (1 / (to - from)) * q;
-      made.back().rates.push_back(change);
-    }
+    for (std::size_t part = 0; part < here[side].size(); ++part)
+      made.back().rates.push_back(rate(before[side][part], after[side][part], to - from));
   }
   return made;
 }
 
-// Refuses a cusp whose edge is too short to open or hangs too low, and one that folds. Both states are checked, because one set of
-// values defines both.
+// Refuses a cusp whose edge is too short to open or hangs too low, and one that folds. Both states are checked, because one set
+// of values defines both.
 void check_cusp(const ValveValues &values, std::size_t k) {
   const CuspSizes sizes = values.sizes(k, values.has_equal_halves());
   const auto [closed, open] = end_states(sizes, sizes);

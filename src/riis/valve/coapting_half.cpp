@@ -133,8 +133,8 @@ Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double shar
   return Bezier::cubic(first, mixed(1), mix(mixed(2), without_crease, std::min(1.0, (1 - share) / turned_from)), last);
 }
 
-// Gives the part the attachment. One cubic would leave the cylinder in a wide cusp. There an arc leads from the symmetry plane to a
-// second piece, whose start is as high as the middle of the one cubic, and both pieces have one direction where they meet.
+// Gives the part the attachment. One cubic would leave the cylinder in a wide cusp. There an arc leads from the symmetry plane to
+// a second piece, whose start is as high as the middle of the one cubic. Both pieces have one direction where they meet.
 void put_attachment(const HalfNumbers &numbers, const Bezier &one_piece, HalfCusp &part) {
   const Vec3 top = one_piece.last();
   part.sinus_below = one_piece;
@@ -154,8 +154,8 @@ double length_of_sinus(const HalfCusp &part) {
   return (part.sinus_start ? arc_length(*part.sinus_start) : 0) + arc_length(part.sinus_below);
 }
 
-// Returns the least rise of a part. K is the coaptation line, c is its chord, and Y and A are the tangents at the root. At the root, the lower patch has the tangent
-// K - c + (1 - u) Y + u A. The rise is this tangent's height divided by 1 - u and by the
+// Returns the least rise of a part. K is the coaptation line, c is its chord, and Y and A are the tangents at the root. At the
+// root, the lower patch has the tangent K - c + (1 - u) Y + u A. The rise is this tangent's height divided by 1 - u and by the
 // length of Y.
 double rise_of_part(const HalfCusp &part) {
   const Bezier &line = part.bending, &symmetry = part.symmetry_below;

@@ -175,9 +175,14 @@ HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening) {
   return of_each([&](Bezier HalfCusp::*curve) { return blend(closed.*curve, open.*curve, opening); });
 }
 
-HalfCusp rate(const HalfCusp &closed, const HalfCusp &open) {
-  HalfCusp made = of_each([&](Bezier HalfCusp::*curve) { return rate(closed.*curve, open.*curve); });
-  if (closed.sinus_start) made.sinus_start = rate(*closed.sinus_start, *open.sinus_start);
+HalfCusp rate(const HalfCusp &closed, const HalfCusp &open, double apart) {
+  const auto of_curve = [&](const Bezier &from, const Bezier &to) {
+    Bezier made = rate(from, to);
+    for (Vec3 &q : made.control) q = (1 / apart) * q;
+    return made;
+  };
+  HalfCusp made = of_each([&](Bezier HalfCusp::*curve) { return of_curve(closed.*curve, open.*curve); });
+  if (closed.sinus_start) made.sinus_start = of_curve(*closed.sinus_start, *open.sinus_start);
   return made;
 }
 

@@ -44,8 +44,8 @@ struct HalfCusp {
 };
 HalfCusp half_cusp(const CuspShape &shape);
 HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);
-// Returns the derivatives of the control points with respect to the opening.
-HalfCusp rate(const HalfCusp &closed, const HalfCusp &open);
+// Returns the derivatives of the control points with respect to the opening, from two states that are this far apart.
+HalfCusp rate(const HalfCusp &closed, const HalfCusp &open, double apart = 1);
 
 // Refuses curves that extend far away. Values that are each acceptable can together make such curves. Examples are a high
 // power with a long tangent, and a bending curve near the root. `state` and `cusp` begin the message, for example "" and "the

@@ -54,8 +54,8 @@ struct CuspSizes {
   Vector<Side> sides;  // y >= 0 and y < 0, or one side for both
 };
 
-// The part of half a cusp that is fused to the neighbour and stays as in the closed valve: edge and coaptation line, from the free
-// edge's end Q and from the point below it to the commissure.
+// The part of half a cusp that is fused to the neighbour and stays as in the closed valve. The edge leads from the end of the
+// free edge to the commissure, and the coaptation line from the point below this end.
 struct FusedPart {
   Bezier edge, line;
   Vec3 commissure;  // of the closed valve
