@@ -269,6 +269,13 @@ CuspNumbers open_cusp(const ParameterValues &values) {
   return cusp;
 }
 
+// Returns the cubic from `first` to `last` that passes through these points at 1/3 and 2/3.
+Bezier cubic_through(Vec3 first, Vec3 at_third, Vec3 at_two_thirds, Vec3 last) {
+  constexpr double sixth = 1.0 / 6;
+  return Bezier::cubic(first, sixth * (-5 * first + 18 * at_third - 9 * at_two_thirds + 2 * last),
+                       sixth * (2 * first - 9 * at_third + 18 * at_two_thirds - 5 * last), last);
+}
+
 // Along the coaptation line K, the derivative of the lower patch by v is T = K - c + (1 - u) Y + u A, with the chord c of K. Y
 // and A are the end tangents of the symmetry curve and of the attachment, and are as long as these curves.
 struct EndTangents {
