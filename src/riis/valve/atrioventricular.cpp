@@ -158,6 +158,7 @@ struct Leaflet {
   AtPlaces<double> turn;      // the lengths of the meridians' end tangents
   AtPlaces<double> body;      // the lengths of the meridians down to the coaptation line
   AtPlaces<double> whole;     // and down to the free edge
+  AtPlaces<double> lift;      // of the bumps, when closed
 };
 
 // The control points are those of two cubics, which meet at the middle place. Returns the parts of these between the places.
@@ -250,9 +251,9 @@ Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k
   const double zone_of_commissure = sizes.of(commissure_coaptation) * sizes.of(commissure_length);
   for (const bool is_behind : {false, true}) {
     const auto place = [&](std::size_t i) { return is_behind ? middle + i : middle - i; };
-    const Vec3 end = end_of_edge(sizes, annulus.hinge(k, place(3)));
-    const Vec3 second = level(on_line) + distance(level(end), level(on_line)) / 3 * along(place(3));
-    const std::array<Vec3, 4> plan{level(on_line), second, mix(second, level(end), 0.5), level(end)};
+    const Vec3 end = end_of_edge(sizes, annulus.hinge(k, place(3))), first = level(on_line), last = level(end);
+    const Vec3 second = first + distance(first, last) / 3 * along(place(3));
+    const std::array<Vec3, 4> plan{first, second, mix(second, last, 0.5), last};
     for (std::size_t i = 0; i < plan.size(); ++i) {
       const auto at_height = [&](double in_middle, double at_end) {
         return view(plan)[i] + Vec3{0, 0, riis::blend(in_middle, at_end, view(edge_rise)[i])};
@@ -264,14 +265,15 @@ Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k
   const AtPlaces<Vec3> points_of_line = on_parts(parts(line)), points_of_edge = on_parts(parts(edge));
   Leaflet made;
   for (std::size_t i = 0; i < n_places; ++i) {
-    const Vec3 from = annulus.hinge(k, i).point, to = points_of_line[i], lift{0, 0, bumps.at(k, u_of(i)).lift};
+    const Vec3 from = annulus.hinge(k, i).point, to = points_of_line[i];
     const auto [start, end] = closed_tangents(sizes, from, to);
     made.body[i] = closed_length(sizes, from, to);
     made.whole[i] = made.body[i] + distance(to, points_of_edge[i]);
-    made.edge[i] = edge[i] - from + lift;
-    made.line[i] = line[i] - from + lift;
-    made.start[i] = start + lift_of_start * lift;
+    made.edge[i] = edge[i] - from;
+    made.line[i] = line[i] - from;
+    made.start[i] = start;
     made.turn[i] = end.z;
+    made.lift[i] = bumps.at(k, u_of(i)).lift;
   }
   return made;
 }
@@ -313,7 +315,8 @@ double middle_length(const Leaflet &leaflet) {
 }
 
 // Returns the leaflet with every place at a share of its way. Each control point swings about its hinge. Then the leaflet is
-// stretched so that its middle has its length, and by less towards the commissures.
+// stretched so that its middle has its length, and by less towards the commissures. At last
+// bumps lift it along z. So seen along z, lifted leaflets keep as far apart as healthy ones.
 Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double> &shares) {
   Leaflet made = closed;
   for (std::size_t i = 0; i < n_places; ++i) {
@@ -328,6 +331,10 @@ Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double>
     for (AtPlaces<Vec3> Leaflet::*points : {&Leaflet::edge, &Leaflet::line, &Leaflet::start})
       (made.*points)[i] = here * (made.*points)[i];
     made.turn[i] = here * made.turn[i];
+    const double lift = (1 - shares[i]) * closed.lift[i];
+    made.edge[i].z += lift;
+    made.line[i].z += lift;
+    made.start[i].z += lift_of_start * lift;
   }
   return made;
 }
@@ -496,7 +503,7 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
         fail(RIIS_INVALID_PARAMETER, "closed, the coaptation line would lie above the annulus: tenting_height is ",
              sizes.of(tenting_height), ", saddle_height ", sizes.of(saddle_height), ", commissure_coaptation ",
              sizes.of(commissure_coaptation), ", commissure_angle ", sizes.of(commissure_angle));
-      const double lift = bumps.at(k, u_of(i)).lift;
+      const double lift = leaflet.lift[i];
       if (!(std::abs(lift) <= across.size))
         fail(RIIS_INVALID_PARAMETER, "bumps lift the leaflet of ", name(k), " by ", lift, "; that must be at most ",
              across.name, ", which is ", across.size);
