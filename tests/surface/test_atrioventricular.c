@@ -129,6 +129,16 @@ TEST(annulus_stays) {
   }
 }
 
+/* Checks that both surfaces lie on one smooth valve. Their triangles may differ. */
+static void check_same_shape(const riis_surface *a, const riis_surface *b) {
+  const riis_triangles all = triangles_of(a);
+  const double bound = info_of(a).error_bound + info_of(b).error_bound;
+  for (int64_t i = 0; i < all.n_vertices; ++i) {
+    const double *x = all.xyz + 3 * i;
+    CHECK_AT_MOST(fabs(closest_to(b, x[0], x[1], x[2]).distance), bound);
+  }
+}
+
 static void set_random_sizes(random_source *random, riis_valve *valve) {
   int64_t n;
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
@@ -172,7 +182,7 @@ TEST(open_leaflets_have_the_closed_lengths) {
     for (int leaflet = 0; leaflet < n_leaflets[kind]; ++leaflet)
       for (int cell = 0; cell < n_cells; ++cell) {
         const double length = meridian_length(closed, leaflet, cell);
-        CHECK_NEAR(meridian_length(open, leaflet, cell), length, 0.06 * length);
+        CHECK_NEAR(meridian_length(open, leaflet, cell), length, 0.1 * length);
       }
   }
 }
@@ -380,23 +390,17 @@ TEST(lift_raises_the_closed_place) {
   CHECK_NEAR(q[0], p[0], 1e-12);
   CHECK_NEAR(q[1], p[1], 1e-12);
   CHECK_NEAR(q[2], p[2] + 0.4, 1e-12);
-  assert_true(is_same_content(surface_at(valve, 1, 0.02), healthy_open));
+  check_same_shape(surface_at(valve, 1, 0.02), healthy_open);
 }
 
-/* A valve with an open state of its own is the first valve when closed and the second one when open. The annulus moves between. */
+/* A valve with an open state is the first valve when closed and the second one when open. The annulus moves between. */
 TEST(opens_to_another_valves_open_state) {
   riis_valve *valve = new_valve("tricuspid"), *plain = new_valve("tricuspid"), *other = new_valve("tricuspid");
   CHECK_OK(riis_valve_set_scalar(other, "AP_diameter", 4));
   CHECK_OK(riis_valve_set_scalar(other, "anterior_ratio", 0.38));
   CHECK_OK(riis_valve_set_open_state(valve, other));
-  for (int end = 0; end < 2; ++end) {
-    riis_surface *mine = surface_at(valve, end, 0.05), *theirs = surface_at(end ? other : plain, end, 0.05);
-    const riis_triangles all = triangles_of(mine);
-    for (int64_t i = 0; i < all.n_vertices; ++i) {
-      const double *x = all.xyz + 3 * i;
-      CHECK_AT_MOST(fabs(closest_to(theirs, x[0], x[1], x[2]).distance), 2 * info_of(theirs).error_bound);
-    }
-  }
+  for (int end = 0; end < 2; ++end)
+    check_same_shape(surface_at(valve, end, 0.05), surface_at(end ? other : plain, end, 0.05));
   const riis_surface *half = surface_at(valve, 0.5, 0.005);
   riis_surface_info info = info_of(half);
   CHECK_NEAR(info.upper[0] - info.lower[0], 3.9, 1e-3);
@@ -436,11 +440,17 @@ TEST(values_that_do_not_go_together_are_refused) {
   IS_REFUSED("tricuspid", "anterior_length", 6, "the leaflets would meet|anterior_length|SL_diameter");
   IS_REFUSED("mitral_coapting", "posterior_length", 0.3, "the leaflets would meet|AP_diameter, which is 2.7");
   IS_REFUSED("mitral_coapting", "tenting_height", 2.6, "too short|tenting_height 2.6");
+  IS_REFUSED("tricuspid", "commissure_angle", 25, "would lie above the annulus|commissure_coaptation 0.5");
   IS_REFUSED("mitral_coapting", "bump_2.leaflet", 0.5, "bump_2.leaflet is 0.5");
+  riis_valve *lifted = new_valve("tricuspid");
+  set_bump(lifted, 0, "leaflet", 2);
+  set_bump(lifted, 0, "lift", 5);
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "bumps lift the leaflet of posterior_length by |SL_diameter, which is 3.1",
+                riis_surface_create(lifted, NULL, &surface));
   riis_valve *long_leaflets = new_valve("mitral_coapting"), *angle = new_valve("tricuspid");
   CHECK_OK(riis_valve_set_scalar(long_leaflets, "anterior_length", 5.35));
   CHECK_OK(riis_valve_set_scalar(long_leaflets, "posterior_length", 4.7));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "anterior_length is 5.35, of which|too long for the annulus",
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "posterior_length is 4.7, of which|too long for the annulus",
                 riis_surface_create(long_leaflets, NULL, &surface));
   CHECK_OK(riis_valve_set_scalar(angle, "commissure_angle", 20));
   CHECK_OK(riis_valve_set_scalar(angle, "commissure_length", 2));

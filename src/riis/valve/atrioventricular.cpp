@@ -43,10 +43,11 @@ constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
 constexpr double lift_of_start = 0.3;
 // A leaflet that is too short moves back in steps until less than this share of it lacks.
 constexpr int most_steps = 60;
-constexpr double rounding = 1e-12;
-// The sizes must leave so much of a lap to a leaflet, so much of the annulus' depth to its way to the meeting point, and so much of
-// the way from a commissure to it. At most so much of a leaflet coapts.
-constexpr double least_ratio = 0.05, least_way = 0.12, most_of_way = 0.8, most_coaptation = 0.7;
+constexpr double rounding = 1e-12, rounding_of_zone = 1e-6;
+// A leaflet has at least this share of the annulus, and its way to the meeting point this share of the annulus' depth.
+constexpr double least_ratio = 0.05, least_way = 0.12;
+// A commissure takes at most this share of the way to the meeting point, and the zone this share of a leaflet.
+constexpr double most_of_way = 0.8, most_coaptation = 0.7;
 // The rates of the control points are differences over this step of the opening. The rates only determine where vertices are
 // dense.
 constexpr double rate_step = 1e-4;
@@ -54,8 +55,8 @@ constexpr double rate_step = 1e-4;
 // Positions in the list of specs behind the leaflets' own sizes.
 // clang-format off
 enum Parameter : std::size_t {
-  width, depth, flatness, saddle_height, flat_ratio, commissure_length, commissure_angle, commissure_coaptation, tenting_height, gap,
-  belly, turn, open_angle, translation, opening_, skirt_length, first_bump
+  width, depth, flatness, saddle_height, flat_ratio, commissure_length, commissure_angle, commissure_coaptation, tenting_height,
+  gap, belly, turn, open_angle, translation, opening_, skirt_length, first_bump
 };
 // clang-format on
 
@@ -157,6 +158,7 @@ struct Leaflet {
   AtPlaces<double> turn;      // the lengths of the meridians' end tangents
   AtPlaces<double> body;      // the lengths of the meridians down to the coaptation line
   AtPlaces<double> whole;     // and down to the free edge
+  AtPlaces<double> lift;      // of the bumps, when closed
 };
 
 // The control points are those of two cubics, which meet at the middle place. Returns the parts of these between the places.
@@ -238,20 +240,20 @@ Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k
   // The leaflet keeps half the gap from these lines.
   const double sine = std::min(length(cross(away, along(0))), length(cross(away, along(n_cells))));
   Vec3 on_line = meeting + 0.5 * sizes.of(gap) / sine * away - Vec3{0, 0, sizes.of(tenting_height)};
-  double zone = 0;
+  const auto zone_below = [&] { return sizes.length(k) - closed_length(sizes, hinge, on_line); };
   for (int step = 0; step < most_steps && dot(level(hinge - on_line), away) > 0; ++step) {
-    zone = sizes.length(k) - closed_length(sizes, hinge, on_line);
-    const double lacking = least_coaptation * sizes.length(k) - zone;
+    const double lacking = least_coaptation * sizes.length(k) - zone_below();
     if (!(lacking > rounding * sizes.length(k))) break;
     on_line = on_line + lacking * away;
   }
+  const double zone = zone_below();
   AtPlaces<Vec3> line, edge;
   const double zone_of_commissure = sizes.of(commissure_coaptation) * sizes.of(commissure_length);
   for (const bool is_behind : {false, true}) {
     const auto place = [&](std::size_t i) { return is_behind ? middle + i : middle - i; };
-    const Vec3 end = end_of_edge(sizes, annulus.hinge(k, place(3)));
-    const Vec3 second = level(on_line) + distance(level(end), level(on_line)) / 3 * along(place(3));
-    const std::array<Vec3, 4> plan{level(on_line), second, mix(second, level(end), 0.5), level(end)};
+    const Vec3 end = end_of_edge(sizes, annulus.hinge(k, place(3))), first = level(on_line), last = level(end);
+    const Vec3 second = first + distance(first, last) / 3 * along(place(3));
+    const std::array<Vec3, 4> plan{first, second, mix(second, last, 0.5), last};
     for (std::size_t i = 0; i < plan.size(); ++i) {
       const auto at_height = [&](double in_middle, double at_end) {
         return view(plan)[i] + Vec3{0, 0, riis::blend(in_middle, at_end, view(edge_rise)[i])};
@@ -263,14 +265,15 @@ Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k
   const AtPlaces<Vec3> points_of_line = on_parts(parts(line)), points_of_edge = on_parts(parts(edge));
   Leaflet made;
   for (std::size_t i = 0; i < n_places; ++i) {
-    const Vec3 from = annulus.hinge(k, i).point, to = points_of_line[i], lift{0, 0, bumps.at(k, u_of(i)).lift};
+    const Vec3 from = annulus.hinge(k, i).point, to = points_of_line[i];
     const auto [start, end] = closed_tangents(sizes, from, to);
     made.body[i] = closed_length(sizes, from, to);
     made.whole[i] = made.body[i] + distance(to, points_of_edge[i]);
-    made.edge[i] = edge[i] - from + lift;
-    made.line[i] = line[i] - from + lift;
-    made.start[i] = start + lift_of_start * lift;
+    made.edge[i] = edge[i] - from;
+    made.line[i] = line[i] - from;
+    made.start[i] = start;
     made.turn[i] = end.z;
+    made.lift[i] = bumps.at(k, u_of(i)).lift;
   }
   return made;
 }
@@ -280,9 +283,6 @@ Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, 
   const SineCosine down = sine_cosine_degrees(sizes.of(open_angle));
   AtPlaces<Vec3> edge;
   for (std::size_t i = 0; i < n_places; ++i) edge[i] = annulus.hinge(k, i).hang(closed.whole[i], down);
-  const Bezier first = cubic_through(edge[0], edge[1], edge[2], edge[3]);
-  const Bezier second = cubic_through(edge[3], edge[4], edge[5], edge[6]);
-  for (std::size_t i = 1; i < middle; ++i) edge[i] = view(first.control)[i], edge[middle + i] = view(second.control)[i];
   // The edge has no corner in the middle.
   const Vec3 along = unit(edge[middle + 1] - edge[middle - 1]);
   edge[middle - 1] = edge[middle] - distance(edge[middle - 1], edge[middle]) * along;
@@ -315,7 +315,8 @@ double middle_length(const Leaflet &leaflet) {
 }
 
 // Returns the leaflet with every place at a share of its way. Each control point swings about its hinge. Then the leaflet is
-// stretched so that its middle has its length, and by less towards the commissures.
+// stretched so that its middle has its length, and by less towards the commissures. At last
+// bumps lift it along z. So seen along z, lifted leaflets keep as far apart as healthy ones.
 Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double> &shares) {
   Leaflet made = closed;
   for (std::size_t i = 0; i < n_places; ++i) {
@@ -330,6 +331,10 @@ Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double>
     for (AtPlaces<Vec3> Leaflet::*points : {&Leaflet::edge, &Leaflet::line, &Leaflet::start})
       (made.*points)[i] = here * (made.*points)[i];
     made.turn[i] = here * made.turn[i];
+    const double lift = (1 - shares[i]) * closed.lift[i];
+    made.edge[i].z += lift;
+    made.line[i].z += lift;
+    made.start[i].z += lift_of_start * lift;
   }
   return made;
 }
@@ -489,10 +494,20 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
            ", which must be at most ", most_of_way, " times the distance ", room,
            " from a commissure to the meeting point");
     const Leaflet leaflet = closed_leaflet(sizes, annulus, k, bumps);
-    if (!(std::abs(leaflet.whole[middle] - sizes.length(k)) <= 1e-6 * sizes.length(k)))
+    const double zone = sizes.length(k) - leaflet.body[middle];
+    if (!(zone >= (1 - rounding_of_zone) * least_coaptation * sizes.length(k)))
       fail(RIIS_INVALID_PARAMETER, name(k), " is ", sizes.length(k),
            ", too short for its part of the annulus with tenting_height ", sizes.of(tenting_height));
-    const double zone = leaflet.whole[middle] - leaflet.body[middle];
+    for (std::size_t i = 0; i < n_places; ++i) {
+      if (!(leaflet.turn[i] > 0))
+        fail(RIIS_INVALID_PARAMETER, "closed, the coaptation line would lie above the annulus: tenting_height is ",
+             sizes.of(tenting_height), ", saddle_height ", sizes.of(saddle_height), ", commissure_coaptation ",
+             sizes.of(commissure_coaptation), ", commissure_angle ", sizes.of(commissure_angle));
+      const double lift = leaflet.lift[i];
+      if (!(std::abs(lift) <= across.size))
+        fail(RIIS_INVALID_PARAMETER, "bumps lift the leaflet of ", name(k), " by ", lift, "; that must be at most ",
+             across.name, ", which is ", across.size);
+    }
     if (!(zone <= most_coaptation * sizes.length(k)))
       fail(RIIS_INVALID_PARAMETER, name(k), " is ", sizes.length(k), ", of which ", zone,
            " would coapt; that must be at most ", most_coaptation,
@@ -504,7 +519,7 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
 struct KindSizes {
   Vector<ParameterSpec> of_leaflets;
   ParameterSpec width, depth, flat_ratio;
-  double saddle_height, commissure_length;
+  double saddle_height, commissure_length, open_angle;
 };
 
 // clang-format off
@@ -515,7 +530,8 @@ const ValveKind *new_kind(const char *name, KindSizes sizes) {
   const Vector<ParameterSpec> common{
     sizes.width, sizes.depth,
     {"flatness", number, "outline of the annulus: 0 an ellipse, 1 a D", 1, {1}, 0, 1},
-    {"saddle_height", length, "height of the annulus from its lowest to its highest points", 1, {sizes.saddle_height}, 0, longest},
+    {"saddle_height", length, "height of the annulus from its lowest to its highest points",
+     1, {sizes.saddle_height}, 0, longest},
     sizes.flat_ratio,
     {"commissure_length", length, "closed: distance of the free edges' ends from the annulus",
      1, {sizes.commissure_length}, shortest, longest},
@@ -527,7 +543,7 @@ const ValveKind *new_kind(const char *name, KindSizes sizes) {
     {"gap", length, "distance between closed leaflets in the middle of the coaptation zone", 1, {0.03}, shortest, longest},
     {"belly", number, "closed: start tangent of a leaflet, times its horizontal reach", 1, {0.55}, 0.1, 0.9},
     {"turn", number, "closed: end tangent of a leaflet above the coaptation line, times its drop", 1, {0.5}, 0.1, 0.9},
-    {"open_angle", degree, "how open leaflets hang: 0 inwards, 90 straight down", 1, {75}, 30, 90},
+    {"open_angle", degree, "how open leaflets hang: 0 inwards, 90 straight down", 1, {sizes.open_angle}, 30, 90},
     {"translation", length, "shift of the valve", 3, {0, 0, 0}, -longest, longest},
     opening_spec("0 closed to 1 open", 0),
   };
@@ -587,7 +603,8 @@ const ValveKind &mitral_coapting_valve_kind() {
        diameter_spec("AP_diameter", "depth of the annulus, from the posterior to the anterior point", 2.7),
        ratio_spec("anterior_ratio", "share of the annulus that the anterior leaflet takes", 0.41),
        0.6,
-       0.8});
+       0.8,
+       79});
   return kind;
 }
 
@@ -600,7 +617,8 @@ const ValveKind &tricuspid_valve_kind() {
        diameter_spec("SL_diameter", "depth of the annulus, from the septal to the lateral point", 3.1),
        ratio_spec("septal_ratio", "share of the annulus that the septal leaflet takes", 0.34),
        0.4,
-       1.2});
+       1.2,
+       75});
   return kind;
 }
 
