@@ -27,8 +27,6 @@ Reals = NDArray[numpy.float64]
 NAMES = ("unit", "inside", "half_thickness", "crossing", "wall", "sealed")  # in the order in which faults are corrected
 LEVELS = ("bad", "warn", "good", "off")  # the worst first
 
-# Skirts have the leaflet id 3, and the housing 2.
-_N_LEAFLETS = {"aortic": 3, "coapting": 3, "trileaflet": 3, "mitral": 2, "bileaflet": 2}
 _MOST_DRAWN = 300  # crossing pairs that are drawn
 
 _NO_POINTS = numpy.empty((0, 3))
@@ -126,7 +124,7 @@ def unit(scene: Scene) -> Light:
 
 def inside(scene: Scene) -> Light:
     """Judges whether the valve lies in the mesh. A skirt may reach beyond the wall."""
-    samples, area = area_samples(scene.surface, _N_LEAFLETS.get(scene.state.kind, 2**31 - 1))
+    samples, area = area_samples(scene.surface)
     info = scene.surface.info
     wall = scene.region.wall()
     if wall is not None:
@@ -204,8 +202,7 @@ def crossing(scene: Scene) -> Light:
     info = surface.info
     if state.kind == "bileaflet":
         surface = dataclasses.replace(state, parameters={**state.parameters, "ring_height": 0.0}).made_surface()
-    has_cusps = state.kind in ("aortic", "coapting", "trileaflet")
-    depth = 1e-3 if has_cusps else min(1.0, max(1e-6, 2.0 * info.error_bound / info.half_thickness))
+    depth = min(1.0, max(1e-6, info.contact_depth / info.half_thickness))
     found = find_crossings(surface, depth=depth)
     if found.n_pairs == 0:
         return Light("crossing", "good", "no leaflet goes through another", valve=scene.number)
