@@ -294,10 +294,10 @@ nb::tuple judge_sizes(nb::handle sides, const nb::tuple &surface, nb::handle edg
   return nb::make_tuple(is_possible, nb::none());
 }
 
-nb::tuple area_samples(Surface &surface, std::int32_t n_leaflets) {
+nb::tuple area_samples(Surface &surface) {
   const Reading reading(surface.usage, "surface");
   program::AreaSamples samples;
-  call_program("surface", [&] { samples = program::area_samples(surface.handle, n_leaflets); });
+  call_program("surface", [&] { samples = program::area_samples(surface.handle); });
   const std::size_t n = samples.area.size();
   return nb::make_tuple(copy_of(samples.xyz.data(), {n, 3}), copy_of(samples.area.data(), {n}));
 }
@@ -317,11 +317,10 @@ void add_patient(nb::module_ &module) {
                                                                             // the valve
   module.attr("USUAL_HALF_THICKNESS") = program::usual_half_thickness;
   module.attr("MOST_OUTSIDE") = program::most_outside;  // of the leaflets' area, outside a mesh
-  module.def(
-      "area_samples", &area_samples, nb::arg("surface"), nb::arg("n_leaflets"),
-      nb::sig("def area_samples(surface: Surface, n_leaflets: int) -> tuple[numpy.typing.NDArray[numpy.float64], "
-              "numpy.typing.NDArray[numpy.float64]]"),
-      "Returns points on the leaflets below n_leaflets, and the area for which each point stands.");
+  module.def("area_samples", &area_samples, nb::arg("surface"),
+             nb::sig("def area_samples(surface: Surface) -> tuple[numpy.typing.NDArray[numpy.float64], "
+                     "numpy.typing.NDArray[numpy.float64]]"),
+             "Returns points on the leaflets without skirt and housing, and the area for which each point stands.");
   module.def("mesh_sides", &mesh_sides, nb::arg("points").none(),
              nb::sig("def mesh_sides(points: typing.Any) -> tuple[float, float, float]"),
              "Returns the sides of a mesh along its principal axes, the longest first.");

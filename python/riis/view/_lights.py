@@ -124,9 +124,8 @@ def unit(scene: Scene) -> Light:
 
 def inside(scene: Scene) -> Light:
     """Judges whether the valve lies in the mesh. A skirt may reach beyond the wall."""
+    samples, area = area_samples(scene.surface)
     info = scene.surface.info
-    n = n_leaflets(scene.state.kind) if scene.state.surface is None else info.largest_leaflet_id + 1
-    samples, area = area_samples(scene.surface, n)
     wall = scene.region.wall()
     if wall is not None:
         found = wall.closest_points(samples, side=True, point=False, normal=False, triangle_id=False, leaflet_id=False)
@@ -203,8 +202,7 @@ def crossing(scene: Scene) -> Light:
     info = surface.info
     if state.kind == "bileaflet":
         surface = dataclasses.replace(state, parameters={**state.parameters, "ring_height": 0.0}).made_surface()
-    of_cusps = state.surface is None and has_cusps(state.kind)
-    depth = 1e-3 if of_cusps else min(1.0, max(1e-6, 2.0 * info.error_bound / info.half_thickness))
+    depth = min(1.0, max(1e-6, info.contact_depth / info.half_thickness))
     found = find_crossings(surface, depth=depth)
     if found.n_pairs == 0:
         return Light("crossing", "good", "no leaflet goes through another", valve=scene.number)
