@@ -36,9 +36,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 def test_known_valves_are_found_again(kind):
     true = fit_table.VALVES[kind]
     points = fit_table.cloud(kind, 600, 0.01, outliers=0.02)
-    found = riis.fit(points, kind, free=list(true), n_starts=3, start={"rotation_angle": 0.0})
+    n_starts = 6 if kind == "bicuspid" else 3  # two cusps are alike, so starts with other sectors are led astray
+    found = riis.fit(points, kind, free=list(true), n_starts=n_starts, start={"rotation_angle": 0.0})
     assert found.undetermined == () and found.at_bounds == ()
-    assert found.n_agreeing >= 2 and found.n_starts == 3 and 0.0 < found.outliers < 0.06
+    assert found.n_agreeing >= 2 and 3 <= found.n_starts <= n_starts and 0.0 < found.outliers < 0.06
     for name, value in true.items():
         most = 5.0 if name.endswith(".sector") else 0.15
         assert abs(found.parameters[name] - value) < 5.0 * found.standard_errors[name] < most, name
