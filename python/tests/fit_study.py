@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy
 
 import riis
+from riis._fit_problem import is_fixed_size
 
 
 class Studied(NamedTuple):
@@ -120,7 +121,8 @@ def patient(seed):
         others = {}
         if case == "other shape":  # the fit starts from a valve with other fixed sizes
             others = {name: valve[name] * random.uniform(0.95, 1.05) for name, parameter in valve.parameters.items()
-                      if parameter.unit == "length" and parameter.n_values == 1 and name not in true}
+                      if parameter.unit == "length" and parameter.n_values == 1 and name not in true
+                      and is_fixed_size(valve, name)}
         try:
             surface = riis.Surface(riis.Valve(kind, **true, **others), half_thickness=0.05, tolerance=0.01)
             break

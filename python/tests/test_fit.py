@@ -36,9 +36,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 def test_known_valves_are_found_again(kind):
     true = fit_table.VALVES[kind]
     points = fit_table.cloud(kind, 600, 0.01, outliers=0.02)
-    found = riis.fit(points, kind, free=list(true), n_starts=3, start={"rotation_angle": 0.0})
+    n_starts = 6 if kind == "bicuspid" else 3  # two cusps are alike, so starts with other sectors are led astray
+    found = riis.fit(points, kind, free=list(true), n_starts=n_starts, start={"rotation_angle": 0.0})
     assert found.undetermined == () and found.at_bounds == ()
-    assert found.n_agreeing >= 2 and found.n_starts == 3 and 0.0 < found.outliers < 0.06
+    assert found.n_agreeing >= 2 and 3 <= found.n_starts <= n_starts and 0.0 < found.outliers < 0.06
     for name, value in true.items():
         most = 5.0 if name.endswith(".sector") else 0.15
         assert abs(found.parameters[name] - value) < 5.0 * found.standard_errors[name] < most, name
@@ -252,7 +253,8 @@ def problem_of(kind, points, whole=True, thickness=0.0):
     problem = Problem(points, numpy.ones(len(points)), valve, names, bounds, ["rotation", "translation", "scale"], 4.0, whole,
                       FINE, thickness, 0.0)
     problem.begin(Pose(matrix_of(numpy.array([0.1, 0.2, 0.3])), numpy.array([0.1, 0.2, -0.1]), 1.1))
-    return problem, numpy.concatenate([numpy.full(len(names), 0.45), 0.02 * numpy.ones(problem.n - len(names))])
+    middle = [0.45 + 0.02 * name.startswith("cusp_1.") for name in names]  # unequal cusps, because equal ones have one shape
+    return problem, numpy.concatenate([middle, 0.02 * numpy.ones(problem.n - len(names))])
 
 
 @pytest.mark.parametrize("thickness", [0.0, 0.3])
@@ -281,7 +283,8 @@ def test_derivatives_by_fixed_sizes_are_those_of_new_closest_points():
     jacobian, areas = problem.fixed_jacobian(x)
     valve, fixed = problem.valve, []
     for name, parameter in valve.parameters.items():
-        if name not in problem.names and parameter.n_values == 1 and name != "opening" and valve[name] != 0.0:
+        is_own = "." not in name  # the sizes of single cusps follow the valve's, and there is no bump
+        if name not in problem.names and parameter.n_values == 1 and name != "opening" and valve[name] != 0.0 and is_own:
             fixed.append((name, valve[name], numpy.degrees(1.0) if parameter.unit == "degree" else valve[name]))
     assert jacobian.shape == (len(points), len(fixed)) and len(fixed) > 3
     for (name, value, whole), column, area in zip(fixed, jacobian.T, areas):
@@ -491,7 +494,7 @@ def test_sectors_have_a_sum_of_360():
     sizes = {"cusp_0.sector": 150.0, "cusp_1.sector": 210.0}
     true = riis.Valve("bicuspid", opening=0.5, **sizes)
     points, _ = fit_study.points_on(numpy.random.default_rng(21), riis.Surface(true), 500, None)
-    options = {"start": {"rotation_angle": 0.0, "translation": (0.0, 0.0, 0.0)}, "n_starts": 2, "noise": 0.01}
+    options = {"start": {"rotation_angle": 0.0, "translation": (0.0, 0.0, 0.0)}, "n_starts": 1, "noise": 0.01}
     points = points + numpy.random.default_rng(22).normal(0.0, 0.01, points.shape)
     for start, free in (({}, list(sizes)), ({}, ["cusp_0.sector"]), ({"cusp_0.sector": 80.0, "cusp_1.sector": 80.0},
                                                                      ["cusp_1.sector"])):

@@ -296,6 +296,22 @@ def test_clicks_place_the_annulus(kind, unit, random):
         assert numpy.allclose(model.values(i)[name], value, rtol=1e-9, atol=1e-9), name
 
 
+@pytest.mark.parametrize("kind", ["bicuspid", "coapting", "quadricuspid", "trileaflet"])
+def test_the_first_click_is_for_cusp_0(kind):
+    """The annulus passes through the lowest point of each cusp, first through that of cusp 0, also if the cusps are unequal."""
+    model = view.Model(numpy.zeros((1, 3)))
+    i = model.add(kind)
+    model.set(i, "translation", (0.1, -0.2, 0.3))
+    if "cusp_0.sector" in model.values(i):
+        model.set(i, "cusp_0.sector", 1.2 * model.values(i)["cusp_0.sector"])
+    annulus, attached = view.annulus_of(model.valves[i]), model.surface(i).attachment
+    for cusp in range(n_leaflets(kind)):
+        ends = attached.edges[attached.leaflet_id == cusp].reshape(-1, 3)
+        nadir = ends[numpy.argmin(ends[:, 2])]
+        assert abs(numpy.linalg.norm(nadir - annulus.centre) - annulus.radius) < 1e-9 * annulus.radius
+        assert cusp != 0 or numpy.allclose(annulus.points[0], nadir, rtol=0, atol=1e-9)
+
+
 @pytest.mark.parametrize("kind", view.KINDS)
 def test_clicks_anywhere_on_a_circle(kind, random):
     """The circle through any three clicks becomes the annulus. Its axis points to the side of the given axis."""

@@ -20,7 +20,7 @@ from riis._riis import (
     find_passage, judge_sizes,
 )
 from riis.view._cells import Region, WholeMesh
-from riis.view._valves import ValveState, has_cusps, n_leaflets
+from riis.view._valves import ValveState
 
 Reals = NDArray[numpy.float64]
 
