@@ -343,7 +343,7 @@ def test_leaflets_and_bumps_have_sliders(tmp_path):
         choose(kind="tricuspid")
         page._on_add_bump()
         assert "bump_0.lift" in slots() and [entry["label"] for entry in state.legend][:3] == [
-            "anterior leaflet", "posterior leaflet", "septal leaflet"]
+            "anterior leaflet", "septal leaflet", "posterior leaflet"]
         page._on_set("skirt_length", "0.2")
         skirt = next(entry for entry in state.legend if entry["label"] == "skirt")
         assert skirt["colour"] == scene.colour_of(0, 3)
