@@ -663,17 +663,17 @@ TEST(a_moving_annulus_has_its_velocities) {
   static const struct {
     const char *name;
     double largest, rms;
-  } with_warp[] = {{"trileaflet", 0.006, 0.0008}, {"coapting", 0.009, 0.002}, {"aortic", 0.008, 0.0015},
-                   {"mitral", 0.006, 0.0025},     {"tricuspid", 0.02, 0.004}, {"mitral_coapting", 0.02, 0.004}};
+  } with_warp[4] = {
+      {"trileaflet", 0.006, 0.0008}, {"coapting", 0.009, 0.002}, {"aortic", 0.008, 0.0015}, {"mitral", 0.006, 0.0025}};
   static const struct {
     int kind;
     uint64_t state;
   } hard[] = {{1, 55}, {3, 4}};
-  enum { n_hard = sizeof hard / sizeof *hard, n_warped = sizeof with_warp / sizeof *with_warp };
-  for (int trial = 0; trial < n_hard + trials_of(36); ++trial) {
+  enum { n_hard = sizeof hard / sizeof *hard };
+  for (int trial = 0; trial < n_hard + trials_of(24); ++trial) {
     const random_source kept = rng;
-    const int owned_before = n_owned(), is_hard = trial < n_hard, is_fixed = !is_hard && (trial - n_hard) / n_warped;
-    const int kind = is_hard ? hard[trial].kind : (trial - n_hard) % n_warped;
+    const int owned_before = n_owned(), is_hard = trial < n_hard, is_fixed = !is_hard && (trial - n_hard) / 4;
+    const int kind = is_hard ? hard[trial].kind : (trial - n_hard) % 4;
     const char *name = with_warp[kind].name;
     if (is_hard) rng.state = hard[trial].state;
     const riis_surface_options options =
