@@ -106,8 +106,8 @@ RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, i
  * The result minimises the sum of squared distances between the landmarks and their places on the closed valve
  * (docs/theory/landmarks.md). Cusps of a bicuspid, coapting or quadricuspid valve get sectors of their own, with a sum of
  * 360 degrees, if the landmarks show that they differ by more than the noise. So do the heights of the commissures, and
- * commissure_height is then their mean. Otherwise sectors and proportions of heights stay. Rotations and leaflet angles of an aortic valve follow from the landmarks. If a
- * leaflet_power would make its cusps overlap, it is lowered.
+ * commissure_height is then their mean. Otherwise sectors and proportions of heights stay. Rotations and leaflet angles of
+ * an aortic valve follow from the landmarks. If a leaflet_power would make its cusps overlap, it is lowered.
  * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear, mirrored, or too
  * large or small for a heart valve at this scale, and if they do not show the flow; the message names them. The axis of a
  * tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus' normal. A mitral valve must satisfy three

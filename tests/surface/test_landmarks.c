@@ -727,8 +727,8 @@ TEST(test_noisy_mitral) {
 
 /* ---- Saddles: tricuspid, mitral_coapting ---- */
 
-/* An annulus of four cubics, and the places of the commissures on it. The flat side is at -y for a tricuspid valve, and at +y for a
- * mitral_coapting valve. */
+/* An annulus of four cubics, and the places of the commissures on it. The flat side is at -y for a tricuspid valve, and at +y for
+ * a mitral_coapting valve. */
 typedef struct saddle {
   bool is_mitral;
   double width, depth, flatness, height, flat_ratio, anterior_ratio;
