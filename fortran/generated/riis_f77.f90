@@ -5112,10 +5112,10 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), in mesh units.
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
   integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the cusp of a nadir or attachment point, then
-                                                          !! -1; the two cusps of a commissure, in any order. -1 and -1: not
-                                                          !! known. For an aortic valve, the known cusps must determine the
-                                                          !! names of all. Without names, the first nadir lies on cusp 0 of
-                                                          !! three equal cusps.
+                                                          !! -1; the two leaflets of a commissure, in any order. -1 and -1: not
+                                                          !! known. For an aortic or tricuspid valve, the known leaflets must
+                                                          !! determine the names of all. For other kinds without names, the
+                                                          !! first nadir lies on cusp 0.
   real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for
                                                           !! metres. Must be set.
   real(c_double), intent(in) :: noise                     !< The scatter of the landmarks: the standard deviation of each

@@ -17,20 +17,24 @@ extern "C" {
 
 /* The anatomy that a landmark marks, on the closed valve. */
 enum {
-  RIIS_LANDMARK_COMMISSURE = 0,     /* three cusps: the top of the attachment between two of them; exactly 3 */
-  RIIS_LANDMARK_NADIR = 1,          /* three cusps: the lowest point of a cusp's attachment; exactly 3 */
-  RIIS_LANDMARK_COAPTATION = 2,     /* three cusps: where the closed cusps meet; at most 1. The valve's axis
+  RIIS_LANDMARK_COMMISSURE = 0,     /* cusps: the top of the attachment between two of them; as many as cusps.
+                                       tricuspid: the annulus between two leaflets; exactly 3 */
+  RIIS_LANDMARK_NADIR = 1,          /* cusps: the lowest point of a cusp's attachment; as many as cusps */
+  RIIS_LANDMARK_COAPTATION = 2,     /* cusps: where the closed cusps meet; at most 1. The valve's axis
                                        passes through it; its height is not used */
-  RIIS_LANDMARK_ANNULUS = 3,        /* mitral: a point of the annulus; 4 or more, in their order around it.
-                                       bileaflet: a point of the housing's circle at mid-height; 3 or more */
-  RIIS_LANDMARK_ANTERIOR_HORN = 4,  /* mitral: the annulus at the middle of the anterior leaflet; exactly 1 */
+  RIIS_LANDMARK_ANNULUS = 3,        /* mitral, mitral_coapting, tricuspid: a point of the annulus; 4 or more, in their
+                                       order around it. bileaflet: a point of the housing's circle at mid-height; 3 or
+                                       more */
+  RIIS_LANDMARK_ANTERIOR_HORN = 4,  /* mitral: the annulus at the middle of the anterior leaflet; exactly 1.
+                                       mitral_coapting: the same, and also the next horn and the commissures; without
+                                       this horn, both commissures and the flow are needed */
   RIIS_LANDMARK_POSTERIOR_HORN = 5, /* mitral: the annulus at the middle of the posterior leaflet; at most 1 */
   RIIS_LANDMARK_TRIGONE = 6,        /* mitral: the annulus at an end of IT_distance; at most 2. Trigones behind the
                                        anterior horn count as points of the annulus (riis_placement.n_as_annulus) */
   RIIS_LANDMARK_POSTEROMEDIAL = 7,  /* mitral: the annulus at the posteromedial commissure; at most 1 */
   RIIS_LANDMARK_ANTEROLATERAL = 8,  /* mitral: the annulus at the anterolateral commissure; at most 1 */
   RIIS_LANDMARK_HINGE = 9,          /* bileaflet: an end of a leaflet's hinge line; 2 of one leaflet, or 4 */
-  RIIS_LANDMARK_ATTACHMENT = 10     /* three cusps: a further point of the attachment; at most 900. The sizes and the
+  RIIS_LANDMARK_ATTACHMENT = 10     /* cusps: a further point of the attachment; at most 900. The sizes and the
                                        placement do not depend on it: it is for a warp, by riis_placement_arrays.place */
 };
 /* Landmarks of a patient, in the caller's arrays. */
@@ -40,15 +44,17 @@ typedef struct riis_landmarks {
   const void *x, *y, *z;     /* (n_landmarks) by stride, in mesh units */
   int64_t stride;            /* of x, y and z. Default 1 */
   const int32_t *role;       /* (n_landmarks): RIIS_LANDMARK_* */
-  const int32_t *leaflet_id; /* (2, n_landmarks): the cusp of a nadir or attachment point, then -1; the two cusps of a
-                                commissure, in any order. -1 and -1: not known. NULL: all -1. For an aortic valve, the
-                                known cusps must determine the names of all. Without names, the first nadir lies on cusp 0
-                                of three equal cusps */
+  const int32_t *leaflet_id; /* (2, n_landmarks): the cusp of a nadir or attachment point, then -1; the two leaflets of a
+                                commissure, in any order. -1 and -1: not known. NULL: all -1. For an aortic or tricuspid
+                                valve, the known leaflets must determine the names of all. For other kinds without names,
+                                the first nadir lies on cusp 0 */
   double scale;              /* mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for metres. Must be set */
   double noise;              /* the scatter of the landmarks: the standard deviation of each coordinate, mesh units, >= 0.
                                 Default RIIS_AUTO: 0.03 * scale */
   double flow[3];            /* the direction of flow, of any length; default 0: not known. bileaflet: must be set.
-                                mitral: needed unless both commissures or the horns show the atrium's side */
+                                mitral: needed unless both commissures or the horns show the atrium's side.
+                                mitral_coapting: needed unless the anterior horn and both commissures are given.
+                                tricuspid: needed unless the leaflets of two commissures are known */
   int32_t real_bits;         /* of x, y and z */
   int32_t reserved;          /* 0 */
 } riis_landmarks;
@@ -98,11 +104,14 @@ RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, i
  *   held    names of parameters that keep the valve's values, between blanks or commas; "": none
  *   arrays  its arrays are written; NULL: not wanted
  * The result minimises the sum of squared distances between the landmarks and their places on the closed valve
- * (docs/theory/landmarks.md). Rotations and leaflet angles of an aortic valve follow from the landmarks. If a
- * leaflet_power would make its cusps overlap, it is lowered.
+ * (docs/theory/landmarks.md). Cusps of a bicuspid, coapting or quadricuspid valve get sectors of their own, with a sum of
+ * 360 degrees, if the landmarks show that they differ by more than the noise. So do the heights of the commissures, and
+ * commissure_height is then their mean. Otherwise sectors and proportions of heights stay. Rotations and leaflet angles of
+ * an aortic valve follow from the landmarks. If a leaflet_power would make its cusps overlap, it is lowered.
  * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear, mirrored, or too
- * large or small for a heart valve at this scale, and if they do not show the flow; the message names them. A mitral
- * valve must also satisfy three conditions:
+ * large or small for a heart valve at this scale, and if they do not show the flow; the message names them. The axis of a
+ * tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus' normal. A mitral valve must satisfy three
+ * conditions:
  * - The posterior horn and the trigones are on their own sides of the annulus.
  * - The axis of the fitted valve is at most 20 degrees from the annulus' normal.
  * - The fitted AP_diameter agrees with the depth that the horns or the annulus show. The difference may be a twelfth of

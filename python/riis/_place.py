@@ -79,7 +79,8 @@ def place(
     unit       of the landmarks; needed for a mapping. For a file it is the unit of the result, to which the landmarks are
                converted
     axes       of the mesh. If a file has the other axes, its landmarks are turned by half a turn about z
-    flow       (3,), the direction of flow; needed for bileaflet valves, and for mitral valves without commissures and saddle
+    flow       (3,), the direction of flow; needed for bileaflet valves, for mitral valves without commissures and saddle, for
+               mitral_coapting valves without commissures and horn, and for tricuspid valves without names of leaflets
     noise      standard deviation of each coordinate, in the unit; default 0.3 mm
     held       names of parameters that keep the valve's values
     warp       "exact" warps the valve to the landmarks, and "smoothed" as near to them as their noise allows

@@ -500,6 +500,56 @@ static const char *json_of_points(int n, const char *const *labels, double (*poi
   return scratch_path("points.json");
 }
 
+/* Two cusps of 150 and 210 degrees. The report leaves out the sizes of a cusp that follow the valve's. */
+TEST(cusps_of_any_number_have_names) {
+  static const char *const labels[4] = {"nadir_cusp_0", "commissure_1", "nadir_cusp_1", "commissure_2"};
+  double points[4][3];
+  for (int i = 0; i < 4; ++i) {
+    const double angle = (double[]){0, 75, 180, 285}[i] * acos(-1.0) / 180;
+    points[i][0] = 13 * cos(angle), points[i][1] = 13 * sin(angle), points[i][2] = i % 2 ? 18 : 0;
+  }
+  const char *path = json_of_points(4, labels, points);
+  RUN_FINE("place", path, "--valve", "bicuspid", "--output", "-");
+  const char *const first = strstr(program_out, "\"cusp_0\""), *const second = strstr(program_out, "\"cusp_1\"");
+  assert_true(first && second);
+  if (fabs(json_number(first, "sector") - 150) > 1e-6 || fabs(json_number(second, "sector") - 210) > 1e-6 ||
+      fabs(json_number(program_out, "commissure_height") - 1.8) > 1e-9)
+    fail_msg("other sizes: %s", program_out);
+  RUN_FINE("place", path, "--valve", "bicuspid");
+  assert_non_null(strstr(program_out, "\ncusp_1.sector "));
+  assert_null(strstr(program_out, "cusp_1.effective_height"));
+  assert_null(strstr(program_out, "commissure_0.height"));
+  RUN_FINE("place", path, "--valve", "bicuspid", "--foam", "-");
+  assert_non_null(strstr(program_out, "    cusp_0.sector "));
+  assert_null(strstr(program_out, "effective_height 0.8\n    cusp"));
+  RUN_REFUSED(1, "it has the commissure 2 times; the quadricuspid valve needs 4", "place", path, "--valve",
+              "quadricuspid");
+}
+
+TEST(tricuspid_leaflets_have_names) {
+  enum { n = 15 };
+  static const char *const commissures[3] = {"commissure_anterior_septal", "commissure_posterior_septal",
+                                             "commissure_anterior_posterior"};
+  static const double degrees[3] = {215, 325, 75};
+  char annulus[12][16];
+  const char *labels[n];
+  double points[n][3];
+  for (int i = 0; i < n; ++i) {
+    if (i < 12) snprintf(annulus[i], sizeof annulus[i], "annulus_%d", i);
+    labels[i] = i < 12 ? annulus[i] : commissures[i - 12];
+    const double angle = (i < 12 ? 30 * i : degrees[i - 12]) * acos(-1.0) / 180;
+    points[i][0] = 19 * cos(angle), points[i][1] = 15 * sin(angle), points[i][2] = -2 * cos(2 * angle);
+  }
+  const char *path = json_of_points(n, labels, points);
+  RUN_FINE("place", path, "--valve", "tricuspid");
+  assert_non_null(strstr(program_out, "\nSL_diameter "));
+  RUN_FINE("place", path, "--valve", "tricuspid", "--set", "anterior_length=2.6", "--output", "-");
+  if (fabs(json_number(program_out, "AP_diameter") - 3.8) > 0.1 ||
+      fabs(json_number(program_out, "anterior_length") - 2.6) > 0)
+    fail_msg("other sizes: %s", program_out);
+  RUN_REFUSED(1, "but they must follow counter-clockwise", "place", path, "--valve", "tricuspid", "--flow", "0,0,1");
+}
+
 /* These are the usual faults at a person's first try. */
 TEST(wrong_landmarks_are_refused) {
   double points[6][3];

@@ -200,9 +200,13 @@ opening and skirt_length.
 coapting    3 commissures and 3 nadirs, with names as above or as lists: "nadir": [[1,2,3], ...]; perhaps coaptation, and
             for a warp up to 900 points of the attachment, as attachment_1 or, with the cusp, attachment_left_1
 trileaflet  the same
-aortic      the same; the names must say which cusp is which
+bicuspid    the same with 2 of each, quadricuspid with 4; cusps have names as in nadir_cusp_0
+aortic      the same as coapting; the names must say which cusp is which
 mitral      "annulus": 4 points or more in their order around it, anterior_horn; perhaps posterior_horn, 2 trigone,
             posteromedial_commissure and anterolateral_commissure. 16 annulus points determine the sizes, 8 do not
+mitral_coapting  the same without trigone; both commissures and the flow may stand for the anterior horn
+tricuspid   "annulus": 4 points or more in their order around it; commissure_anterior_septal, commissure_posterior_septal and
+            commissure_anterior_posterior
 bileaflet   "annulus": 3 points or more of the housing's circle, 2 or 4 "hinge" ends, and the flow
 Other keys: "flow": [x,y,z], or the points flow_from and flow_to; "noise"; "parameters", sizes in cm that are known.
 In 3D Slicer, labels are the names, as in annulus-1. A CSV has lines NAME,X,Y,Z, and must state # unit = mm and # axes = LPS.

@@ -117,12 +117,12 @@ class CuspModel : public LandmarkModel {
   void add(std::size_t landmark, const std::vector<Vec3> &local, Vec3 place, std::vector<Offset> &out) const {
     out.push_back({landmark, local[landmark] - shift_ - place});
   }
-  // The closed cusps meet on the axis. The height of this point varies between people so much that it says little about the
-  // sizes.
-  void add_coaptation(const std::vector<Vec3> &local, std::vector<Offset> &out) const {
+  // The closed cusps meet at x on the x axis, which is 0 but for two cusps. The height of this point varies between people so
+  // much that it says little about the sizes.
+  void add_coaptation(const std::vector<Vec3> &local, double x, std::vector<Offset> &out) const {
     for (const std::size_t i : coaptation_) {
       const Vec3 p = local[i] - shift_;
-      out.push_back({i, {p.x, p.y, 0}});
+      out.push_back({i, {p.x - x, p.y, 0}});
     }
   }
 
@@ -146,6 +146,7 @@ class CirclesModel : public CuspModel {
   enum Size { radius_, commissure_radius, n_common };
   using CuspModel::CuspModel;
   std::vector<LinearValue> sectors, heights;  // of each cusp, and of the commissure behind it
+  double meeting_shift = 0;
   void offsets(const std::vector<double> &values, const std::vector<Vec3> &local,
                std::vector<Offset> &out) const override {
     std::vector<double> degrees;
@@ -157,7 +158,7 @@ class CirclesModel : public CuspModel {
       add(order_.commissure[cusp], local,
           turned(values[commissure_radius], middles[cusp] + 0.5 * degrees[cusp], heights[cusp].at(values)), out);
     }
-    add_coaptation(local, out);
+    add_coaptation(local, meeting_shift * values[commissure_radius], out);
   }
 };
 
@@ -179,7 +180,7 @@ class AorticModel : public CuspModel {
       add(order_.commissure[cusp], local, turned(values[end_radius + cusp], at[cusp] + half[cusp], h), out);
       add(order_.commissure[cusp], local, turned(values[end_radius + after], at[after] - half[after], h), out);
     }
-    add_coaptation(local, out);
+    add_coaptation(local, 0, out);
   }
 };
 
@@ -267,6 +268,7 @@ class CircleSizes {
     const double R = mean_radius(landmarks_, axes_.order.nadir, axes_),
                  Rc = mean_radius(landmarks_, axes_.order.commissure, axes_);
     made->radius = R;
+    if (n() == 2) made->meeting_shift = value_of(valve_, "meeting_shift");
     const double grown = R / value_of(valve_, names_.radius);
     const auto add = [&](const std::string &name, double start) {
       made->sizes.push_back(length_size(name, start, grown * value_of(valve_, name), R));

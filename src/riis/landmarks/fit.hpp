@@ -138,8 +138,8 @@ struct LandmarkFit {
 // Changes the model's sizes. Fits from each of the poses with the model's values, and keeps the better result.
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts);
 
-// Returns whether the general model misses the landmarks by less than the simple one only by chance. The sizes of the simple model
-// are some of the general model's.
+// Returns whether the general model misses the landmarks by less than the simple one only by chance. The sizes of the simple
+// model are some of the general model's.
 bool is_as_good(const LandmarkFit &simple, const LandmarkFit &general, const LandmarkModel &general_model,
                 const Landmarks &landmarks);
 

@@ -75,10 +75,11 @@ std::vector<bool> held_parameters(const Valve &valve, std::string_view held) {
   return is_held;
 }
 
-bool grows(const ParameterSpec &spec) {
-  const std::string_view name = spec.name, length = spec.unit, shift = "translation";
+bool grows(const ParameterSpec &spec, const std::array<double, 3> &values) {
+  const std::string_view name = spec.name, length = spec.unit, shift = "translation", bump = "bump_";
   const bool is_shift = name.size() >= shift.size() && name.substr(name.size() - shift.size()) == shift;
-  return length == "length" && !is_shift;
+  const bool is_flat_bump = name.substr(0, bump.size()) == bump && values[0] == 0;
+  return length == "length" && !is_shift && !is_flat_bump;
 }
 
 // Returns the axis and the angle in degrees, 0 to 180.
@@ -352,12 +353,11 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
     if (size.name == of_kind.size_name) size_now = size.value;
   const double grown = size_now / value_of(valve, of_kind.size_name);
   // Lengths that follow from others by a rule of the valve grow with those lengths.
-  for (const ParameterSpec &spec : specs) {
-    if (!grows(spec) || (spec.rule.text && !valve.is_set(spec.name))) continue;
-    double values[3] = {0, 0, 0};
-    valve.get(spec.name, spec.n_values, values);
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    std::array<double, 3> values = valve.values()[i];
+    if (!grows(specs[i], values) || (specs[i].rule.text && !valve.is_set(specs[i].name))) continue;
     for (double &value : values) value *= grown;
-    placed.valve.set(spec.name, spec.n_values, values);
+    placed.valve.set(specs[i].name, specs[i].n_values, values.data());
   }
   for (const FittedSize &size : model.sizes) placed.valve.set(size.name, 1, &size.value);
   for (const DerivedSize &size : model.derived) placed.valve.set(size.name, 1, &size.value);
@@ -368,7 +368,7 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
   for (std::size_t i = 0; i < specs.size(); ++i) {
     if (is_held[i]) {
       placed.valve.set(specs[i].name, specs[i].n_values, valve.values()[i].data());
-    } else if (grows(specs[i]) || valve.values()[i] != placed.valve.values()[i]) {
+    } else if (grows(specs[i], valve.values()[i]) || valve.values()[i] != placed.valve.values()[i]) {
       placed.size_state[i] = RIIS_SIZE_TIED;
       placed.standard_error[i] = std::numeric_limits<double>::infinity();
     }
