@@ -144,8 +144,10 @@ static riis_valve *reordered(const riis_valve *valve, int n_leaflets, int shift,
     riis_parameter parameter;
     CHECK_OK(riis_valve_get_parameter(valve, id, &parameter, sizeof parameter));
     const char *name = parameter.name, *dot = strchr(name, '.');
-    if (parameter.n_values != 1 || !dot) continue;
+    if (parameter.n_values != 1) continue;
     double value = get(valve, name);
+    if (strcmp(name, "meeting_shift") == 0 && shift) CHECK_OK(riis_valve_set_scalar(made, name, -value));
+    if (!dot) continue;
     const int is_bump = strncmp(name, "bump_", 5) == 0;
     const int is_commissure = strncmp(is_bump ? dot + 1 : name, "commissure", 10) == 0;
     int number = is_bump ? (int)value : atoi(strchr(name, '_') + 1);
@@ -252,6 +254,7 @@ TEST(equal_values_make_equal_valves) {
 TEST(velocities_are_differences) {
   riis_surface_options fixed = surface_options();
   fixed.triangulation = RIIS_TRIANGULATION_FIXED;
+  double worst = 0;
   for (int row = 0; row < n_studied; ++row) {
     const int owned_before = n_owned();
     const studied *of = &all_studied[row];
@@ -276,9 +279,10 @@ TEST(velocities_are_differences) {
     }
     printf("%s %s: velocities up to %.2f differ by %.2g\n", of->kind, of->settings, fastest, off);
     assert_true(fastest > 0.05);
-    CHECK_AT_MOST(off, 1e-9 * fastest);
+    worst = fmax(worst, off / fastest);
     free_owned_after(owned_before);
   }
+  CHECK_AT_MOST(worst, 1e-9);
 }
 
 TEST(a_warp_to_the_same_places_changes_nothing) {
