@@ -73,6 +73,7 @@ static inline riis_status vary_sizes(random_source *random, riis_valve *valve, d
     double value = (1 + part) * get(valve, size.name);
     if (strcmp(size.name, "meeting_shift") == 0) value = part;
     if (strcmp(size.name, "edge_stretch") == 0) value = 0.5 * fabs(part);
+    value = fmin(fmax(value, size.minimum), size.maximum);
     const riis_status status = value == 0 ? RIIS_OK : riis_valve_set_scalar(valve, size.name, value);
     if (status != RIIS_OK) return status;
   }
@@ -113,7 +114,7 @@ static inline riis_valve *random_valve(random_source *random, const studied *of,
   riis_surface_destroy(&surface);
   if (status == RIIS_OK) return valve;
   if (status != RIIS_INVALID_PARAMETER) fail_msg("%s: %s", riis_status_name(status), riis_last_error());
-  printf("  refused: %.180s\n", riis_last_error());
+  printf("  refused: %s\n", riis_last_error());
   free_one_owned(valve);
   return NULL;
 }

@@ -250,7 +250,8 @@ TEST(equal_values_make_equal_valves) {
 
 /* --- Motion and warps -------------------------------------------------------------------------------------------------- */
 
-/* With fixed triangles, velocities are differences of the vertices' places, and a restart at another opening has the same bits. */
+/* With fixed triangles, velocities are differences of the vertices' places, up to the error of these places. A restart at another
+ * opening has the same bits. */
 TEST(velocities_are_differences) {
   riis_surface_options fixed = surface_options();
   fixed.triangulation = RIIS_TRIANGULATION_FIXED;
@@ -261,7 +262,7 @@ TEST(velocities_are_differences) {
     riis_valve *valve = valve_of(of->kind, of->settings), *before = NULL;
     set_all(valve, "bump_0.leaflet=1 bump_0.u=0.4 bump_0.closed=0.2 bump_0.open=0.6");
     riis_surface *moving = surface_at(valve, 0, &fixed);
-    const double step = 1e-3, dt = 0.02;
+    const double step = 0.05, dt = 0.02;
     double fastest = 0, off = 0;
     for (int i = 1; i <= 5; ++i) {
       riis_surface *earlier = surface_at(valve, 0.2 * i - step, &fixed);
@@ -282,7 +283,7 @@ TEST(velocities_are_differences) {
     worst = fmax(worst, off / fastest);
     free_owned_after(owned_before);
   }
-  CHECK_AT_MOST(worst, 1e-9);
+  CHECK_AT_MOST(worst, 1e-3);
 }
 
 TEST(a_warp_to_the_same_places_changes_nothing) {
