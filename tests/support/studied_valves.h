@@ -86,29 +86,37 @@ static inline void set_bump(riis_valve *valve, int bump, const char *name, doubl
   set_numbered(valve, "bump_", bump, last, value);
 }
 
-/* Sets one to three bumps at random places, and fuses about half of the commissures of cusps. Each change of a bump is made or
- * not, so that many valves have one disease only. */
-static inline void make_sick(random_source *random, riis_valve *valve, const studied *of) {
-  for (int k = 0; k < of->n_leaflets && of->has_cusps; ++k)
+/* What is wrong with a valve. */
+typedef enum sickness { healthy, fused, with_bumps, n_sicknesses } sickness;
+static const char *const names_of_sicknesses[n_sicknesses] = {"healthy", "fused", "with bumps"};
+
+/* Fuses about half of the commissures. */
+static inline void fuse(random_source *random, riis_valve *valve, const studied *of) {
+  for (int k = 0; k < of->n_leaflets; ++k)
     if (random_bits(random) % 2) set_numbered(valve, "commissure_", k, ".fusion", random_between(random, 0, 0.6));
+}
+
+/* Sets one to three bumps at random places. Each change of a bump is made or not, so that many valves have one disease only. */
+static inline void add_bumps(random_source *random, riis_valve *valve, const studied *of) {
   for (int i = (int)(random_bits(random) % 3); i >= 0; --i) {
-    set_bump(valve, i, random_bits(random) % 3 ? "leaflet" : "commissure",
-             (int)random_between(random, 0, of->n_leaflets));
+    const int at_commissure = random_bits(random) % 3 == 0;
+    set_bump(valve, i, at_commissure ? "commissure" : "leaflet", (int)random_between(random, 0, of->n_leaflets));
     set_bump(valve, i, "u", random_between(random, 0, 1));
     set_bump(valve, i, "width", random_between(random, 0.2, 1));
     if (random_bits(random) % 2) set_bump(valve, i, "open", random_between(random, 0, 1));
     if (random_bits(random) % 2) set_bump(valve, i, "closed", random_between(random, 0, 0.5));
-    if (random_bits(random) % 2 && !of->has_cusps) set_bump(valve, i, "lift", random_between(random, -0.5, 1));
+    if (!of->has_cusps && random_bits(random) % 2) set_bump(valve, i, "lift", random_between(random, -0.5, 1));
   }
 }
 
 /* Makes a valve of random sizes. Returns NULL if the library refuses them. */
-static inline riis_valve *random_valve(random_source *random, const studied *of, double spread, int is_sick) {
+static inline riis_valve *random_valve(random_source *random, const studied *of, double spread, sickness has) {
   riis_valve *valve = valve_of(of->kind, of->settings);
   riis_surface *surface = NULL;
   riis_status status = vary_sizes(random, valve, spread);
   if (status == RIIS_OK) {
-    if (is_sick) make_sick(random, valve, of);
+    if (has == fused) fuse(random, valve, of);
+    if (has == with_bumps) add_bumps(random, valve, of);
     status = riis_surface_create(valve, NULL, &surface);
   }
   riis_surface_destroy(&surface);

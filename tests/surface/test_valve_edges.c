@@ -79,15 +79,16 @@ static void lengths_of_edges(riis_valve *valve, double *lengths) {
   free_one_owned(sides);
 }
 
-/* The free edge keeps its length, fused or not, unless it stretches. The longest chord of a closed edge is a bound from below. */
+/* The free edge keeps its length, fused or not, unless it stretches. */
 TEST(free_edges_keep_their_length) {
   double worst = 0;
-  for (int trial = 0; trial < trials(24, 300); ++trial) {
-    const int owned_before = n_owned(), is_sick = trial / n_studied % 3 == 2;
+  for (int trial = 0; trial < trials(3 * n_studied, 40 * n_studied); ++trial) {
+    const int owned_before = n_owned();
+    const sickness has = (sickness)(trial / n_studied % n_sicknesses);
     const studied *of = &all_studied[trial % n_studied];
-    riis_valve *valve = of->has_cusps ? random_valve(&rng, of, 0.1, is_sick) : NULL;
+    riis_valve *valve = of->has_cusps ? random_valve(&rng, of, 0.1, has) : NULL;
     if (!valve) continue;
-    if (is_sick) CHECK_OK(riis_valve_set_scalar(valve, "edge_stretch", 0));
+    if (has == fused) CHECK_OK(riis_valve_set_scalar(valve, "edge_stretch", 0)); /* the fused part does not stretch */
     double closed[max_leaflets], now[max_leaflets];
     lengths_of_edges(valve, closed);
     for (int i = 0; i <= 8; ++i) {
@@ -143,7 +144,6 @@ static const orifices all_orifices[] = {
     {"coapting", FUSED("0.2", "0.85"), {-1, -1, -1, -1, 3.49}},
     {"coapting", FUSED("0.4", "0.85"), {-1, -1, -1, -1, 1.79}},
     {"coapting", FUSED("0.5", "0.85"), {-1, -1, -1, -1, 1.15}},
-    {"coapting", FUSED("0", "0.3"), {-1, -1, -1, -1, 1.27}},
     {"coapting", FUSED("0.2", "0.3"), {-1, -1, -1, -1, 0.91}},
     {"coapting", FUSED("0.4", "0.3"), {-1, -1, -1, -1, 0.78}},
     {"bicuspid", FUSED_PAIR("0.3"), {-1, -1, -1, -1, 1.21}},

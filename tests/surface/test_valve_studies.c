@@ -43,39 +43,39 @@ static double at_most(double share, int n) {
   return n * share + (is_long_test() ? 0 : 3 * sqrt(n * share * (1 - share)));
 }
 
-/* A row of the study is a kind with its sectors. Its sets are healthy and sick in turn. */
-static void study(double spread, double most_crossing, double most_refused) {
+/* A row of the study is a kind with its sectors. Leaflets around a saddle do not fuse. */
+static void study(double spread, double most_refused) {
+  static const double most_crossing[2][n_sicknesses] = {{0, 0, 0}, {0.01, 0.01, 0.02}};
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));
   own(crossings);
-  int n_refused[2] = {0, 0}, n_accepted[2] = {0, 0}, n_crossing[2] = {0, 0};
-  for (int row = 0; row < n_studied; ++row)
-    for (int is_sick = 0; is_sick < 2; ++is_sick) {
+  for (sickness has = healthy; has < n_sicknesses; ++has) {
+    int n_accepted = 0, n_refused = 0, n_crossing = 0;
+    for (int row = 0; row < n_studied; ++row) {
       const studied *of = &all_studied[row];
+      if (has == fused && !of->has_cusps) continue;
       /* With two spreads these are at least 20 sets of each kind: kinds with cusps have two rows. */
-      const int n = trials(of->has_cusps ? 3 : 5, 300);
+      const int n = trials(of->has_cusps ? 2 : 5, 300);
       int accepted = 0, refused = 0, crossing = 0;
       while (accepted < n && refused <= 2 * n + 10) {
         const int owned_before = n_owned();
-        riis_valve *valve = random_valve(&rng, of, spread, is_sick);
+        riis_valve *valve = random_valve(&rng, of, spread, has);
         *(valve ? &accepted : &refused) += 1;
         if (valve) crossing += crosses(valve, crossings);
         free_owned_after(owned_before);
       }
       printf("%s %s, sizes +-%.0f %%, %s: %d of %d sets cross, %d refused\n", of->kind, of->settings, 100 * spread,
-             is_sick ? "sick" : "healthy", crossing, accepted, refused);
-      n_accepted[is_sick] += accepted, n_refused[is_sick] += refused, n_crossing[is_sick] += crossing;
+             names_of_sicknesses[has], crossing, accepted, refused);
+      n_accepted += accepted, n_refused += refused, n_crossing += crossing;
     }
-  for (int is_sick = 0; is_sick < 2; ++is_sick) {
-    const double share = is_sick ? 2 * most_crossing : most_crossing;
-    CHECK_AT_MOST(n_crossing[is_sick], at_most(share, n_accepted[is_sick]));
-    CHECK_AT_MOST(n_refused[is_sick], at_most(most_refused, n_accepted[is_sick] + n_refused[is_sick]));
+    CHECK_AT_MOST(n_crossing, at_most(most_crossing[spread > 0.1][has], n_accepted));
+    CHECK_AT_MOST(n_refused, at_most(most_refused, n_accepted + n_refused));
   }
 }
 
 TEST(random_valves_do_not_cross) {
-  study(0.1, 0, 0.1);
-  study(0.2, 0.01, 0.35);
+  study(0.1, 0.1);
+  study(0.2, 0.35);
 }
 
 /* --- Sealing ----------------------------------------------------------------------------------------------------------- */
@@ -191,15 +191,15 @@ static double farthest(const riis_surface *from, const double *side, const riis_
 
 TEST(reordered_leaflets_make_the_same_valve) {
   double worst = 0;
-  for (int trial = 0; trial < trials(4 * n_studied, 20 * n_studied); ++trial) {
+  for (int trial = 0; trial < trials(6 * n_studied, 30 * n_studied); ++trial) {
     const int owned_before = n_owned(), is_mirrored = trial / n_studied % 2;
     const studied *of = &all_studied[trial % n_studied];
     /* The leaflets around a saddle differ. Those of a mitral valve are their own mirror images. */
-    riis_valve *valve = of->has_cusps                        ? random_valve(&rng, of, 0.1, trial / n_studied / 2 % 2)
+    riis_valve *valve = of->has_cusps ? random_valve(&rng, of, 0.1, (sickness)(trial / n_studied / 2 % n_sicknesses))
                         : of->n_leaflets == 2 && is_mirrored ? valve_of(of->kind, of->settings)
                                                              : NULL;
     if (!valve) continue;
-    if (!of->has_cusps) make_sick(&rng, valve, of);
+    if (!of->has_cusps) add_bumps(&rng, valve, of);
     const int shift = is_mirrored ? 0 : 1 + (int)between(0, of->n_leaflets - 1);
     riis_valve *other = reordered(valve, of->n_leaflets, shift, is_mirrored);
     riis_surface_options turned = surface_options();
@@ -255,7 +255,7 @@ TEST(equal_values_make_equal_valves) {
 TEST(velocities_are_differences) {
   riis_surface_options fixed = surface_options();
   fixed.triangulation = RIIS_TRIANGULATION_FIXED;
-  double worst = 0;
+  fixed.tolerance = 0.01;
   for (int row = 0; row < n_studied; ++row) {
     const int owned_before = n_owned();
     const studied *of = &all_studied[row];
@@ -263,7 +263,7 @@ TEST(velocities_are_differences) {
     set_all(valve, "bump_0.leaflet=1 bump_0.u=0.4 bump_0.closed=0.2 bump_0.open=0.6");
     riis_surface *moving = surface_at(valve, 0, &fixed);
     const double step = 0.05, dt = 0.02;
-    double fastest = 0, off = 0;
+    double farthest_moved = 0, off = 0, bound = 0;
     for (int i = 1; i <= 5; ++i) {
       riis_surface *earlier = surface_at(valve, 0.2 * i - step, &fixed);
       CHECK_OK(riis_valve_copy(valve, &before));
@@ -274,16 +274,17 @@ TEST(velocities_are_differences) {
       const riis_triangles p = triangles_of(earlier), q = triangles_of(now);
       const double *velocity = velocity_of(moving);
       for (int64_t k = 0; k < 3 * q.n_vertices; ++k) {
-        fastest = fmax(fastest, fabs(velocity[k]));
-        off = fmax(off, fabs(velocity[k] - (q.xyz[k] - p.xyz[k]) / dt));
+        farthest_moved = fmax(farthest_moved, fabs(dt * velocity[k]));
+        off = fmax(off, fabs(dt * velocity[k] - (q.xyz[k] - p.xyz[k])));
       }
+      bound = fmax(bound, info_of(earlier).error_bound + info_of(now).error_bound);
     }
-    printf("%s %s: velocities up to %.2f differ by %.2g\n", of->kind, of->settings, fastest, off);
-    assert_true(fastest > 0.05);
-    worst = fmax(worst, off / fastest);
+    printf("%s %s: in a step of 1/20 vertices move by up to %.3f, velocities miss up to %.2g of it\n", of->kind,
+           of->settings, farthest_moved, off);
+    assert_true(farthest_moved > 20 * bound);
+    CHECK_AT_MOST(off, bound);
     free_owned_after(owned_before);
   }
-  CHECK_AT_MOST(worst, 1e-3);
 }
 
 TEST(a_warp_to_the_same_places_changes_nothing) {
