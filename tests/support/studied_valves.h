@@ -105,7 +105,8 @@ static inline void add_bumps(random_source *random, riis_valve *valve, const stu
     set_bump(valve, i, "width", random_between(random, 0.2, 1));
     if (random_bits(random) % 2) set_bump(valve, i, "open", random_between(random, 0, 1));
     if (random_bits(random) % 2) set_bump(valve, i, "closed", random_between(random, 0, 0.5));
-    if (!of->has_cusps && random_bits(random) % 2) set_bump(valve, i, "lift", random_between(random, -0.5, 1));
+    if (!of->has_cusps && !at_commissure && random_bits(random) % 2)
+      set_bump(valve, i, "lift", random_between(random, -0.5, 1));
   }
 }
 
