@@ -72,7 +72,7 @@ static inline riis_status vary_sizes(random_source *random, riis_valve *valve, d
     const double part = spread * random_between(random, -1, 1) * (strchr(size.name, '.') && *size.rule ? 0.3 : 1);
     double value = (1 + part) * get(valve, size.name);
     if (strcmp(size.name, "meeting_shift") == 0) value = part;
-    if (strcmp(size.name, "edge_stretch") == 0) value = 0.5 * fabs(part);
+    if (strcmp(size.name, "edge_stretch") == 0 && value == 0) value = 0.5 * fabs(part);
     value = fmin(fmax(value, size.minimum), size.maximum);
     const riis_status status = value == 0 ? RIIS_OK : riis_valve_set_scalar(valve, size.name, value);
     if (status != RIIS_OK) return status;

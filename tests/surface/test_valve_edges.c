@@ -170,6 +170,8 @@ TEST(orifices_are_those_of_the_prototype) {
       CHECK_OK(riis_surface_get_orifice(surface, NULL, &orifice, sizeof orifice));
       printf(" %.2f, %.2f for %.2f;", area, orifice.area, of->area[i]);
       off = fmax(off, fabs(area - of->area[i]));
+      /* The library's outline is the attachment, which differs from the disc by the commissures' expansion. */
+      CHECK_NEAR(orifice.area, area, 0.05 * of->area[4]);
     }
     printf(" off by %.1f %% of the open one\n", 100 * off / of->area[4]);
     CHECK_AT_MOST(off, 0.02 * of->area[4] + 0.005); /* the table is rounded */
