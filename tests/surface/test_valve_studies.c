@@ -296,7 +296,7 @@ TEST(velocities_are_differences) {
       bound = fmax(bound, 2 * info_of(moving).error_bound);
     }
     assert_true(is_same_content(moving, new_surface(valve, &fixed)));
-    printf("%s %s: in a step of 1/5 vertices move by up to %.3f, velocities miss up to %.2g of it\n", of->kind,
+    printf("%s %s: in a step of 1/5 vertices move by up to %.3f, velocities miss it by up to %.2g\n", of->kind,
            of->settings, farthest_moved, off);
     assert_true(farthest_moved > 10 * bound);
     CHECK_AT_MOST(off, bound);
