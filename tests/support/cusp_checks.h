@@ -131,21 +131,21 @@ static inline double check_opening(riis_valve *valve, double radius, const doubl
   return orifice;
 }
 
-/* The nodes of a grid in a cylinder around the axis. */
+/* The nodes of a grid around the axis. */
 enum { n_across = 67, n_up = 76, n_nodes = n_across * n_across * n_up };
 
-/* Marks the nodes near the surface in a cylinder of height 3, then fills from below over all 26 neighbours. Returns whether the
- * fill reaches the top. */
-static inline int leaks_through(riis_valve *valve, double radius, double bottom, double half_thickness) {
+/* Returns the place of a node of the grid beside the axis, from -radius to radius. */
+static inline double grid_place(int i, double radius) { return radius * (2.0 * i / (n_across - 1) - 1); }
+
+/* Marks the nodes near the surface in a grid of height 3, then fills from below over all 26 neighbours. The nodes at the places
+ * (n_across, n_across) of `is_wall` are closed. Returns whether the fill reaches the top. */
+static inline int leaks_between(const riis_surface *surface, const uint8_t *is_wall, double radius, double bottom) {
   double *nodes = own(malloc(3 * n_nodes * sizeof *nodes));
   uint8_t *is_closed = own(malloc(n_nodes * sizeof *is_closed));
   int32_t *queue = own(malloc(n_nodes * sizeof *queue));
-  riis_surface_options options = surface_options();
-  options.half_thickness = half_thickness;
-  riis_surface *surface = new_surface(valve, &options);
-  for (int64_t i = 0; i < n_nodes; ++i) {
-    nodes[3 * i] = radius * (2.0 * (double)(i % n_across) / (n_across - 1) - 1);
-    nodes[3 * i + 1] = radius * (2.0 * (double)(i / n_across % n_across) / (n_across - 1) - 1);
+  for (int32_t i = 0; i < n_nodes; ++i) {
+    nodes[3 * i] = grid_place(i % n_across, radius);
+    nodes[3 * i + 1] = grid_place(i / n_across % n_across, radius);
     nodes[3 * i + 2] = bottom + 3.0 * (double)(i / n_across / n_across) / (n_up - 1);
   }
   riis_mesh *mesh = mesh_of(n_nodes, nodes);
@@ -156,9 +156,8 @@ static inline int leaks_through(riis_valve *valve, double radius, double bottom,
   CHECK_OK(dense_of(result, n_nodes, 1e30, is_closed, NULL, NULL, NULL));
   free_one_owned(result);
   free_one_owned(mesh);
-  free_one_owned(surface);
   for (int64_t i = 0; i < n_nodes; ++i)
-    if (hypot(nodes[3 * i], nodes[3 * i + 1]) > radius) is_closed[i] = 1;
+    if (is_wall[i % (n_across * n_across)]) is_closed[i] = 1;
   int64_t n = 0;
   for (int32_t i = 0; i < n_across * n_across; ++i)
     if (!is_closed[i]) is_closed[i] = 1, queue[n++] = i;
@@ -177,6 +176,19 @@ static inline int leaks_through(riis_valve *valve, double radius, double bottom,
   free_one_owned(queue);
   free_one_owned(is_closed);
   free_one_owned(nodes);
+  return leaks;
+}
+
+/* Fills a cylinder around the axis. */
+static inline int leaks_through(riis_valve *valve, double radius, double bottom, double half_thickness) {
+  uint8_t is_wall[n_across * n_across];
+  riis_surface_options options = surface_options();
+  options.half_thickness = half_thickness;
+  for (int i = 0; i < n_across * n_across; ++i)
+    is_wall[i] = hypot(grid_place(i % n_across, radius), grid_place(i / n_across, radius)) > radius;
+  riis_surface *surface = new_surface(valve, &options);
+  const int leaks = leaks_between(surface, is_wall, radius, bottom);
+  free_one_owned(surface);
   return leaks;
 }
 
