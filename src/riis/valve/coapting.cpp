@@ -12,7 +12,7 @@
 #include "common/array_view.hpp"
 #include "geometry/placement.hpp"
 #include "valve/bumps.hpp"
-#include "valve/coaptation_line.hpp"
+#include "valve/coapting_half.hpp"
 #include "valve/cusp.hpp"
 #include "valve/cusp_numbers.hpp"
 #include "valve/valve.hpp"
@@ -185,6 +185,8 @@ class ValveValues {
       const double from_middle = (1 - made.fusion) * static_cast<double>(i) / 6;
       view(made.local)[i] = bumps_.at(k, is_first ? 0.5 + from_middle : 0.5 - from_middle);
     }
+    // A fused edge ends beside the commissure and moves with it.
+    made.local.back() = bumps_.at(k, is_first ? 1 : 0);
     return made;
   }
 
@@ -217,27 +219,6 @@ CuspSizes ValveValues::sizes(std::size_t k) const {
   return made;
 }
 
-// Returns the curves of half a cusp whose free edge hangs this deep below its end.
-HalfCusp half_cusp(const HalfNumbers &numbers, double depth, double low) {
-  const Vec3 top = numbers.commissure;
-  const auto on_edge = [&](std::size_t i) {
-    return Vec3{view(numbers.edge_x)[i], view(numbers.edge_y)[i], numbers.edge_top - depth * view(numbers.sag)[i]};
-  };
-  HalfCusp half;
-  half.leaflet = Bezier::cubic(on_edge(0), on_edge(1), on_edge(2), top);
-  const Vec3 middle{half.leaflet.first().x + numbers.band_lean, 0, (1 - numbers.band) * low};
-  const Vec3 up = half.leaflet.first() - middle;
-  half.symmetry_below = symmetry_curve(numbers, middle, up);
-  half.symmetry_above = Bezier::line(middle, half.leaflet.first());
-  const double R = numbers.root_radius;
-  half.sinus_below =
-      Bezier::cubic({R, 0, 0}, {R, numbers.attachment_width, 0}, top - Vec3{0, 0, numbers.attachment_drop}, top);
-  half.sinus_above = Bezier::point(top);
-  const EndTangents tangents{(arc_length(half.symmetry_below) / length(up)) * up, {0, 0, arc_length(half.sinus_below)}};
-  half.bending = smoothed(first_coaptation_line(half.leaflet, middle, tangents), half.leaflet, tangents);
-  return half;
-}
-
 // Returns the parts of each half of a cusp.
 Vector<Vector<HalfCusp>> halves_of(const CuspNumbers &cusp) {
   const double depth = edge_depth(cusp), low = cusp.front().edge_top - depth;
@@ -248,7 +229,7 @@ Vector<Vector<HalfCusp>> halves_of(const CuspNumbers &cusp) {
          ", above the root: look at commissure_height, effective_height, and those of the open state");
   Vector<Vector<HalfCusp>> halves;
   for (const HalfNumbers &half : cusp)
-    halves.push_back({half_cusp(half, depth + (half.edge_top - cusp.front().edge_top), low)});
+    halves.push_back(coapting_half(half, depth + (half.edge_top - cusp.front().edge_top), low));
   return halves;
 }
 
@@ -271,34 +252,11 @@ Vector<MovingHalf> moving_halves(const CuspNumbers &closed, const CuspNumbers &o
   return made;
 }
 
-// Returns the least rise of the leaflet at the root, as a share of the length of its symmetry curve. K is the coaptation line, c
-// is its chord, and Y and A are the tangents at the root. At the root, the lower patch has the tangent K - c + (1 - u) Y + u A.
-// The rise is this tangent's height divided by 1 - u. If the rise is negative somewhere, the leaflet dips below its attachment
-// and folds.
-double rise_at_root(const HalfCusp &half) {
-  const Bezier &line = half.bending, &symmetry = half.symmetry_below;
-  const Vec3 start = symmetry.control[1] - symmetry.control[0];
-  const double of_symmetry = start.z / length(start), symmetry_length = arc_length(symmetry);
-  static constexpr std::array<double, 5> shares{0.5, 0.6, 0.7, 0.8, 0.9};
-  const double line_length = arc_length(line);
-  Vector<double> behind;
-  for (const double u : shares) behind.push_back(u * line_length);
-  std::array<double, shares.size()> t{};
-  parameters_at_lengths(line, line_length, behind, t.data());
-  double least = of_symmetry;
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    const double u = view(shares)[i];
-    const double sag = mix(line.first(), line.last(), u).z - evaluate(line, view(t)[i]).z;
-    least = std::min(least, of_symmetry - sag / ((1 - u) * symmetry_length));
-  }
-  return least;
-}
-
 // Refuses a cusp whose edge is too short to open or hangs too low, and one that folds. Both states are checked, because one set of
 // values defines both.
 void check_cusp(const ValveValues &values, std::size_t k) {
   const CuspSizes sizes = values.sizes(k);
-  const CuspNumbers closed = closed_cusp(sizes), open = open_cusp(sizes);
+  const auto [closed, open] = end_states(sizes, sizes);
   const bool is_half = closed.size() == 1;
   const std::string of_cusp = is_half ? "" : " of cusp " + std::to_string(k);
   const double least_length = least_edge_length(open);
@@ -309,7 +267,7 @@ void check_cusp(const ValveValues &values, std::size_t k) {
          least_length, " long, but ", is_half ? "half a" : "the", " closed one is ", edge_length,
          " long, too short to open so far: look at effective_height, commissure_height, open_radius_ratio, "
          "commissure_expansion");
-  if (sizes.keeps_ratio) {
+  if (sizes.keeps_ratio && is_half) {
     // The middle of the edge is at least as far from a commissure as the symmetry plane is. So it never hangs deeper than this.
     const double away = sizes.sector.sine * sizes.commissure_radius;
     const double low = values.of_commissure(k, height) - std::sqrt(edge_length * edge_length - away * away);
@@ -321,7 +279,7 @@ void check_cusp(const ValveValues &values, std::size_t k) {
   }
   for (const double opening : openings_of_folds)
     for (const Vector<HalfCusp> &half : halves_of(blend(closed, open, opening)))
-      if (!(rise_at_root(half.front()) >= least_rise))
+      if (!(rise_at_root(half) >= least_rise))
         fail(RIIS_INVALID_PARAMETER, "a cusp would fold beside its attachment at opening ", opening,
              ", because its free edge hangs deep beside its height: edge_rise is ", sizes.edge_rise,
              ", effective_height ", sizes.effective_height, ", commissure_height ", values[commissure_height],
@@ -369,7 +327,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   const ValveValues from(closed.values, n_cusps), to(open.values, n_cusps);
   const Vec3 shift = riis::blend(vector_of(closed.values[translation]), vector_of(open.values[translation]), opening);
   const auto halves = [&](std::size_t k) {
-    return moving_halves(closed_cusp(from.sizes(k)), open_cusp(to.sizes(k)), opening);
+    const auto [start, end] = end_states(from.sizes(k), to.sizes(k));
+    return moving_halves(start, end, opening);
   };
   PatchSet set;
   if (from.has_equal_halves()) {

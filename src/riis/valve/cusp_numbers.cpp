@@ -7,6 +7,7 @@
 
 #include "common/array_view.hpp"
 #include "geometry/placement.hpp"
+#include "valve/coapting_half.hpp"
 #include "valve/valve.hpp"
 
 namespace riis {
@@ -43,13 +44,43 @@ HalfNumbers blend(const HalfNumbers &a, const HalfNumbers &b, double opening) {
           mixed(a.band_lean, b.band_lean),
           riis::blend(a.belly_x, b.belly_x, early),
           mixed(a.belly_rise, b.belly_rise),
-          mixed(a.band_start, b.band_start)};
+          mixed(a.band_start, b.band_start),
+          a.fused};
+}
+
+// Mixes the places of two states, with a share for each control point of the free edge. The middle's share holds for all numbers
+// of the symmetry plane, and the commissure has its own. `made` keeps its other numbers.
+void mix_places(const HalfNumbers &closed, const HalfNumbers &open, const std::array<double, 4> &shares,
+                HalfNumbers &made) {
+  for (auto list : {&HalfNumbers::edge_x, &HalfNumbers::edge_y, &HalfNumbers::sag})
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      view(made.*list)[i] = riis::blend(view(closed.*list)[i], view(open.*list)[i], view(shares)[i]);
+  for (auto number : {&HalfNumbers::band, &HalfNumbers::band_lean, &HalfNumbers::belly_x, &HalfNumbers::belly_rise,
+                      &HalfNumbers::band_start})
+    made.*number = riis::blend(closed.*number, open.*number, shares.front());
+  made.commissure = riis::blend(closed.commissure, open.commissure, shares.back());
 }
 
 // The start tangent of an attachment of one cubic, in radii, whose middle lies on the cylinder.
 double tangent_on_cylinder(double sine, double cosine) {
   const double middle = (1 + cosine) / 2;
   return 8.0 / 3 * (std::sqrt(1 - middle * middle) - sine / 2);
+}
+
+// Splits the closed half in a part that opens and a fused part. The middle of its edge is at the height `low`.
+void fuse(HalfNumbers &half, double fusion, double low) {
+  const HalfCusp whole = coapting_half(half, half.edge_top - low, low).front();
+  const auto [free, fused] = split(whole.leaflet, 1 - fusion);
+  const double free_length = arc_length(free), share = free_length / (free_length + arc_length(fused));
+  const double line_length = arc_length(whole.bending);
+  const auto lines = split(whole.bending, parameter_at_length(whole.bending, line_length, share * line_length));
+  half.edge_top = free.last().z;
+  for (std::size_t i = 0; i < half.sag.size(); ++i) {
+    const Vec3 q = view(free.control)[i];
+    view(half.edge_x)[i] = q.x, view(half.edge_y)[i] = q.y;
+    view(half.sag)[i] = (half.edge_top - q.z) / (half.edge_top - low);
+  }
+  half.fused = FusedPart{fused, lines.second, half.commissure, share};
 }
 
 HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
@@ -79,30 +110,39 @@ HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
                    R - tangent * cosine,
                    tangent * sine / z_k,
                    0.5};
-  half.edge_length = EdgeLength(half).at(h - h_e).length;
+  if (side.fusion > 0) fuse(half, side.fusion, h_e);
+  half.edge_length = EdgeLength(half).at(half.edge_top - h_e).length;
   return half;
 }
 
 // Returns the closed numbers with the open free edge. The edge is round, like an arc of a circle seen along the axis. An edge
-// that is too short for an arc leaves the commissure the straighter, the less it opens.
-HalfNumbers with_open_edge(const CuspSizes &sizes, const HalfNumbers &closed, double ratio) {
+// that is too short for an arc leaves the commissure the straighter, the less it opens. A fused edge is shorter than the arc, and
+// its straight direction leads to the inner control point at the middle.
+HalfNumbers with_open_edge(const CuspSizes &sizes, const CuspSizes::Side &side, const HalfNumbers &closed,
+                           double ratio) {
   const HalfSector &sector = sizes.sector;
   HalfNumbers half = closed;
   half.commissure = {(1 + sizes.commissure_expansion) * closed.commissure.x,
                      (1 + sizes.commissure_expansion) * closed.commissure.y, closed.commissure.z};
-  const double x_in = ratio * sizes.commissure_radius, reach = sector.arc_reach * sizes.commissure_radius;
+  Vec3 end = half.commissure;
+  if (closed.fused) end = closed.fused->edge.first() + (half.commissure - closed.commissure);
+  const double free = 1 - side.fusion;
+  const double x_in = ratio * sizes.commissure_radius, reach = free * sector.arc_reach * sizes.commissure_radius;
   const double rise = (ratio - sector.cosine) / (1 - sector.cosine);
-  const double roundness = sizes.keeps_ratio ? 1 : std::clamp(rise / round_from, 0.0, 1.0);
-  const double to_x = roundness * sector.sine, to_y = -(roundness * sector.cosine + (1 - roundness));
-  half.edge_x = {x_in, x_in, half.commissure.x + to_x * reach, half.commissure.x};
-  half.edge_y = {0, reach, half.commissure.y + to_y * reach, half.commissure.y};
+  const double roundness = sizes.keeps_ratio ? 1 : free * std::clamp(rise / round_from, 0.0, 1.0);
+  const Vec3 arc{sector.sine, -sector.cosine, 0}, chord{x_in - end.x, reach - end.y, 0};
+  const Vec3 straight = closed.fused ? (1 / length(chord)) * chord : Vec3{0, -1, 0};
+  const Vec3 to = mix(straight, arc, roundness);
+  half.edge_x = {x_in, x_in, end.x + to.x * reach, end.x};
+  half.edge_y = {0, reach, end.y + to.y * reach, end.y};
   half.sag = {1, 1, open_sag, 0};
   return half;
 }
 
 CuspNumbers with_open_edges(const CuspSizes &sizes, const CuspNumbers &closed, double ratio) {
   CuspNumbers made;
-  for (const HalfNumbers &half : closed) made.push_back(with_open_edge(sizes, half, ratio));
+  for (std::size_t i = 0; i < closed.size(); ++i)
+    made.push_back(with_open_edge(sizes, sizes.sides[i], closed[i], ratio));
   return made;
 }
 
@@ -123,6 +163,32 @@ double reached_ratio(const CuspSizes &sizes, const CuspNumbers &closed) {
     (fits(middle) ? low : high) = middle;
   }
   return low;
+}
+
+CuspNumbers closed_cusp(const CuspSizes &sizes) {
+  CuspNumbers made;
+  for (const CuspSizes::Side &side : sizes.sides) made.push_back(closed_half(sizes, side));
+  return made;
+}
+
+// The symmetry curve is straight, and the coaptation zone has the same share of its length as in the closed state.
+CuspNumbers open_cusp(const CuspSizes &sizes) {
+  const CuspNumbers closed = closed_cusp(sizes);
+  const double ratio = reached_ratio(sizes, closed);
+  const double R = sizes.root_radius, h_e = sizes.effective_height, h_co = sizes.coaptation_height;
+  const double x_in = ratio * sizes.commissure_radius;
+  const Vec3 middle{closed.front().edge_x[0], 0, h_e - h_co};
+  const double below = arc_length(symmetry_curve(closed.front(), middle, {0, 0, 1}));
+  const double below_share = below / (below + h_co);
+  CuspNumbers made = with_open_edges(sizes, closed, ratio);
+  for (HalfNumbers &half : made) {
+    half.edge_length = (1 + sizes.edge_stretch) * half.edge_length;
+    half.band = 1 - below_share;
+    half.band_lean = (1 - below_share) * (R - x_in);
+    half.belly_x = R + (x_in - R) * below_share / 3;
+    half.belly_rise = half.band_start = 1.0 / 3;
+  }
+  return made;
 }
 
 }  // namespace
@@ -204,28 +270,17 @@ Bezier symmetry_curve(const HalfNumbers &half, Vec3 end, Vec3 up) {
                        end - (half.band_start * end.z / up.z) * up, end);
 }
 
-CuspNumbers closed_cusp(const CuspSizes &sizes) {
-  CuspNumbers made;
-  for (const CuspSizes::Side &side : sizes.sides) made.push_back(closed_half(sizes, side));
-  return made;
-}
-
-// The symmetry curve is straight, and the coaptation zone has the same share of its length as in the closed state.
-CuspNumbers open_cusp(const CuspSizes &sizes) {
-  const CuspNumbers closed = closed_cusp(sizes);
-  const double ratio = reached_ratio(sizes, closed);
-  const double R = sizes.root_radius, h_e = sizes.effective_height, h_co = sizes.coaptation_height;
-  const double x_in = ratio * sizes.commissure_radius;
-  const Vec3 middle{closed.front().edge_x[0], 0, h_e - h_co};
-  const double below = arc_length(symmetry_curve(closed.front(), middle, {0, 0, 1}));
-  const double below_share = below / (below + h_co);
-  CuspNumbers made = with_open_edges(sizes, closed, ratio);
-  for (HalfNumbers &half : made) {
-    half.edge_length = (1 + sizes.edge_stretch) * half.edge_length;
-    half.band = 1 - below_share;
-    half.band_lean = (1 - below_share) * (R - x_in);
-    half.belly_x = R + (x_in - R) * below_share / 3;
-    half.belly_rise = half.band_start = 1.0 / 3;
+EndStates end_states(const CuspSizes &closed, const CuspSizes &open) {
+  const CuspNumbers from = closed_cusp(closed), to = open_cusp(open);
+  EndStates made{from, to};
+  for (std::size_t side = 0; side < from.size(); ++side) {
+    std::array<double, 4> at_start{}, at_end{};
+    for (std::size_t i = 0; i < at_start.size(); ++i) {
+      view(at_start)[i] = view(closed.sides[side].local)[i].closed;
+      view(at_end)[i] = view(open.sides[side].local)[i].open;
+    }
+    mix_places(from[side], to[side], at_start, made.closed[side]);
+    mix_places(from[side], to[side], at_end, made.open[side]);
   }
   return made;
 }

@@ -110,7 +110,11 @@ double least_edge_length(const CuspNumbers &cusp);
 // free edge.
 Bezier symmetry_curve(const HalfNumbers &half, Vec3 end, Vec3 up);
 
-CuspNumbers closed_cusp(const CuspSizes &sizes);
-CuspNumbers open_cusp(const CuspSizes &sizes);
+// The states between which a cusp moves: its closed and its open state or, at a bump, states between these.
+struct EndStates {
+  CuspNumbers closed, open;
+};
+// The closed state comes from the first sizes, and the open state from the second.
+EndStates end_states(const CuspSizes &closed, const CuspSizes &open);
 
 }  // namespace riis

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The curves of half a coapting cusp (docs/theory/coapting.md).
+// In: its numbers, and how deep its free edge hangs. Out: its curves, without a crease along the coaptation line.
+#pragma once
+
+#include "base/recycled.hpp"
+#include "valve/cusp.hpp"
+#include "valve/cusp_numbers.hpp"
+
+namespace riis {
+
+// The middle of the free edge hangs `depth` below the edge's end, at the height `low`. Both are given, because the height is the
+// same to the last bit for both halves of a cusp. Returns one part or, if the half is fused, the free and the fused part.
+Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double low);
+
+// Returns the least rise of the leaflet at the root, as a share of the rise of a leaflet that has everywhere the length of the
+// symmetry curve and no sag. If it is negative somewhere, the leaflet dips below its attachment and folds.
+double rise_at_root(const Vector<HalfCusp> &parts);
+
+}  // namespace riis
