@@ -42,6 +42,8 @@ constexpr double least_height = 0.05;
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
 // At the root, the leaflet must rise by this share of the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;
+// Fused commissures must leave an open orifice of this share of the area inside the commissures.
+constexpr double least_orifice = 0.06;
 // The rates of the control points are differences over this step of the opening. The rates only determine where vertices are
 // dense.
 constexpr double rate_step = 1e-4;
@@ -175,7 +177,8 @@ class ValveValues {
   }
   bool has_equal_halves() const { return has_equal_cusps() && !bumps_.any(); }
 
-  CuspSizes sizes(std::size_t k) const;
+  // The sizes of cusp k for both of its sides, or for the one side whose images make equal cusps.
+  CuspSizes sizes(std::size_t k, bool has_equal_halves) const;
 
  private:
   CuspSizes::Side side(std::size_t k, bool is_first) const {
@@ -196,7 +199,7 @@ class ValveValues {
   Vector<double> sectors_;
 };
 
-CuspSizes ValveValues::sizes(std::size_t k) const {
+CuspSizes ValveValues::sizes(std::size_t k, bool has_equal_halves) const {
   const auto value = [&](Parameter parameter) { return (*this)[parameter]; };
   CuspSizes made{half_sector(sectors_[k]),
                  value(root_radius),
@@ -215,7 +218,7 @@ CuspSizes ValveValues::sizes(std::size_t k) const {
                  (k == 0 ? 1 : -1) * meeting_shift() * value(commissure_radius),
                  n_cusps_ == 3 && has_equal_cusps() && of_commissure(0, fusion) == 0,
                  {side(k, true)}};
-  if (!has_equal_halves()) made.sides.push_back(side(k, false));
+  if (!has_equal_halves) made.sides.push_back(side(k, false));
   return made;
 }
 
@@ -246,6 +249,8 @@ Vector<MovingHalf> moving_halves(const CuspNumbers &closed, const CuspNumbers &o
       for (Bezier *curve : {&change.leaflet, &change.bending, &change.sinus_below, &change.sinus_above,
                             &change.symmetry_below, &change.symmetry_above})
         for (Vec3 &q : curve->control) q = (1 / (to - from)) * q;
+      if (change.sinus_start)
+        for (Vec3 &q : change.sinus_start->control) q = (1 / (to - from)) * q;
       made.back().rates.push_back(change);
     }
   }
@@ -255,16 +260,20 @@ Vector<MovingHalf> moving_halves(const CuspNumbers &closed, const CuspNumbers &o
 // Refuses a cusp whose edge is too short to open or hangs too low, and one that folds. Both states are checked, because one set of
 // values defines both.
 void check_cusp(const ValveValues &values, std::size_t k) {
-  const CuspSizes sizes = values.sizes(k);
+  const CuspSizes sizes = values.sizes(k, values.has_equal_halves());
   const auto [closed, open] = end_states(sizes, sizes);
+  // Equal cusps have no names in messages. Names are made only if a check fails.
   const bool is_half = closed.size() == 1;
-  const std::string of_cusp = is_half ? "" : " of cusp " + std::to_string(k);
+  const auto name = [&](const char *of_equal, const char *before, std::size_t number, const char *behind) {
+    return is_half ? std::string(of_equal) : before + std::to_string(number) + behind;
+  };
   const double least_length = least_edge_length(open);
   double edge_length = 0;
   for (const HalfNumbers &half : open) edge_length += half.edge_length;
   if (!(least_length <= most_of_edge * edge_length))
-    fail(RIIS_INVALID_PARAMETER, is_half ? "half an" : "the", " open free edge", of_cusp.c_str(), " is at least ",
-         least_length, " long, but ", is_half ? "half a" : "the", " closed one is ", edge_length,
+    fail(RIIS_INVALID_PARAMETER, name("half an open free edge", "the open free edge of cusp ", k, "").c_str(),
+         " is at least ", least_length, " long, but ", is_half ? "half a closed one" : "the closed one", " is ",
+         edge_length,
          " long, too short to open so far: look at effective_height, commissure_height, open_radius_ratio, "
          "commissure_expansion");
   if (sizes.keeps_ratio && is_half) {
@@ -277,13 +286,33 @@ void check_cusp(const ValveValues &values, std::size_t k) {
            " times root_radius, which is ", sizes.root_radius,
            ", above the root: look at commissure_height, effective_height");
   }
-  for (const double opening : openings_of_folds)
-    for (const Vector<HalfCusp> &half : halves_of(blend(closed, open, opening)))
+  for (const double at : openings_of_folds)
+    for (const Vector<HalfCusp> &half : halves_of(blend(closed, open, at)))
       if (!(rise_at_root(half) >= least_rise))
-        fail(RIIS_INVALID_PARAMETER, "a cusp would fold beside its attachment at opening ", opening,
-             ", because its free edge hangs deep beside its height: edge_rise is ", sizes.edge_rise,
-             ", effective_height ", sizes.effective_height, ", commissure_height ", values[commissure_height],
+        fail(RIIS_INVALID_PARAMETER, name("a cusp", "cusp ", k, "").c_str(),
+             " would fold beside its attachment at opening ", at,
+             ", because its free edge hangs deep beside its height: edge_rise is ", sizes.edge_rise, ", ",
+             name("effective_height", "cusp_", k, ".effective_height").c_str(), " ", sizes.effective_height, ", ",
+             name("commissure_height", "commissure_", k, ".height").c_str(), " ", values.of_commissure(k, height),
              "; higher values help");
+}
+
+// Refuses fused commissures that leave no orifice.
+void check_fusion(const ValveValues &values) {
+  std::size_t largest = 0;
+  for (std::size_t k = 1; k < values.n_cusps(); ++k)
+    if (values.of_commissure(k, fusion) > values.of_commissure(largest, fusion)) largest = k;
+  const double Rc = values[commissure_radius], least = least_orifice * pi * Rc * Rc;
+  if (values.of_commissure(largest, fusion) == 0) return;
+  double area = 0;
+  for (std::size_t k = 0; k < values.n_cusps(); ++k) {
+    const CuspSizes sizes = values.sizes(k, false);
+    area += area_inside(end_states(sizes, sizes).open);
+  }
+  if (!(area >= least))
+    fail(RIIS_INVALID_PARAMETER, "commissure_", largest, ".fusion is ", values.of_commissure(largest, fusion),
+         ", and the open valve has an orifice of only ", area, "; it must be at least ", least, ", ", least_orifice,
+         " pi commissure_radius^2: less fusion or a larger open_radius_ratio helps");
 }
 
 void check_sizes(const ValveValues &values, const ParameterValues &list) {
@@ -320,18 +349,33 @@ void check_values(const ParameterValues &list) {
   check_sizes(values, list);
   const std::size_t n_different = values.has_equal_halves() ? 1 : n_cusps;
   for (std::size_t k = 0; k < n_different; ++k) check_cusp(values, k);
+  check_fusion(values);
+}
+
+// An open state has other sizes than the closed valve, but not other cusps.
+void check_same_cusps(const ValveValues &closed, const ValveValues &open) {
+  for (std::size_t k = 0; k < closed.n_cusps(); ++k) {
+    if (closed.sectors()[k] != open.sectors()[k])
+      fail(RIIS_INVALID_PARAMETER, "in the open state: the sector of cusp ", k, " is ", open.sectors()[k],
+           " degrees, but ", closed.sectors()[k], " in the closed valve; both must be equal");
+    if (closed.of_commissure(k, fusion) != open.of_commissure(k, fusion))
+      fail(RIIS_INVALID_PARAMETER, "in the open state: commissure_", k, ".fusion is ", open.of_commissure(k, fusion),
+           ", but ", closed.of_commissure(k, fusion), " in the closed valve; both must be equal");
+  }
 }
 
 template <std::size_t n_cusps>
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
   const ValveValues from(closed.values, n_cusps), to(open.values, n_cusps);
   const Vec3 shift = riis::blend(vector_of(closed.values[translation]), vector_of(open.values[translation]), opening);
+  check_same_cusps(from, to);
+  const bool has_equal_halves = from.has_equal_halves() && to.has_equal_halves();
   const auto halves = [&](std::size_t k) {
-    const auto [start, end] = end_states(from.sizes(k), to.sizes(k));
+    const auto [start, end] = end_states(from.sizes(k, has_equal_halves), to.sizes(k, has_equal_halves));
     return moving_halves(start, end, opening);
   };
   PatchSet set;
-  if (from.has_equal_halves()) {
+  if (has_equal_halves) {
     add_cusps(set, halves(0).front(), equal_places(n_cusps, shift));
     // The cusps meet only at the commissures, where the side u1 of the top patch is one point.
     sew_equal_cusps(set, top_patch(set) - 1, SeamPlace::corner);

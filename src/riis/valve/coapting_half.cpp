@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "common/array_view.hpp"
@@ -16,6 +17,9 @@ namespace {
 constexpr int n_crease_steps = 2;
 constexpr std::size_t n_crease_spans = 8;
 constexpr double crease_stiffness = 0.03;
+
+// From this share of the edge on, the fused part is wide enough for a line that arrives at the coaptation line without a crease.
+constexpr double turned_from = 0.3;
 
 // Along the coaptation line K, the derivative of the lower patch by v is T = K - c + (1 - u) Y + u A, with the chord c of K. Y
 // and A are the end tangents of the symmetry curve and of the attachment, and are as long as these curves.
@@ -115,17 +119,40 @@ Bezier moved(Bezier curve, Vec3 by) {
   return curve;
 }
 
-// Returns the curve between the free and the fused part below the coaptation line. It is a mixture of the symmetry curve and the
-// attachment, and it arrives in the direction of the zone's edge S, so that the leaflet has no crease there.
+// Returns the curve between the free and the fused part below the coaptation line, a mixture of the symmetry curve and the
+// attachment. It arrives in the direction of the zone's edge S, so that the leaflet has no crease there. The narrower the fused
+// part, the less the curve is turned: otherwise it would leave this part and cross the attachment.
 Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double share, const Bezier &S) {
   const Vec3 first = half.symmetry_below.first(), last = S.first();
   const Vec3 off = last - mix(half.symmetry_below.last(), attachment.last(), share);
   const auto mixed = [&](std::size_t i) {
     return mix(view(half.symmetry_below.control)[i], view(attachment.control)[i], share) +
-           (static_cast<double>(i) / 3) * off;
+           (static_cast<double>(i * i) / 9) * off;
   };
   const Vec3 up = S.last() - last;
-  return Bezier::cubic(first, mixed(1), last - (distance(mixed(2), last) / length(up)) * up, last);
+  const Vec3 without_crease = last - (distance(mixed(2), last) / length(up)) * up;
+  return Bezier::cubic(first, mixed(1), mix(mixed(2), without_crease, std::min(1.0, (1 - share) / turned_from)), last);
+}
+
+// Gives the part the attachment. One cubic would leave the cylinder in a wide cusp. There an arc leads from the symmetry plane to a
+// second piece, whose start is as high as the middle of the one cubic, and both pieces have one direction where they meet.
+void put_attachment(const HalfNumbers &numbers, const Bezier &one_piece, HalfCusp &part) {
+  const Vec3 top = one_piece.last();
+  part.sinus_below = one_piece;
+  part.sinus_above = Bezier::point(top);
+  if (!numbers.attachment_arc) return;
+  const auto &[sine, cosine, reach] = *numbers.attachment_arc;
+  const double R = numbers.root_radius, width = numbers.attachment_width, drop = numbers.attachment_drop;
+  const double height = evaluate(one_piece, 0.5).z, share = height / top.z;
+  const double radius = (1 - share) * R + share * std::hypot(top.x, top.y);
+  const Vec3 joint{radius * cosine, radius * sine, height};
+  const Vec3 along{-sine * width, cosine * width, (2 * top.z - drop) / 8};
+  part.sinus_start = Bezier::cubic(one_piece.first(), {R, reach * width, 0}, joint - reach * along, joint);
+  part.sinus_below = Bezier::cubic(joint, joint + along, top - Vec3{0, 0, drop / 2}, top);
+}
+
+double length_of_sinus(const HalfCusp &part) {
+  return (part.sinus_start ? arc_length(*part.sinus_start) : 0) + arc_length(part.sinus_below);
 }
 
 // Returns the least rise of a part. K is the coaptation line, c is its chord, and Y and A are the tangents at the root. At the root, the lower patch has the tangent
@@ -138,7 +165,7 @@ double rise_of_part(const HalfCusp &part) {
     return along.z / length(along);
   };
   const double of_symmetry = start(symmetry), symmetry_length = arc_length(symmetry);
-  const double of_other_side = start(part.sinus_below) * arc_length(part.sinus_below);
+  const double of_other_side = start(part.sinus_start.value_or(part.sinus_below)) * length_of_sinus(part);
   static constexpr std::array<double, 5> shares{0.5, 0.6, 0.7, 0.8, 0.9};
   const double line_length = arc_length(line);
   Vector<double> behind;
@@ -173,9 +200,8 @@ Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double 
       Bezier::cubic({R, 0, 0}, {R, numbers.attachment_width, 0}, top - Vec3{0, 0, numbers.attachment_drop}, top);
   const Vec3 end_of_symmetry = (arc_length(half.symmetry_below) / length(up)) * up;
   if (!numbers.fused) {
-    half.sinus_below = attachment;
-    half.sinus_above = Bezier::point(top);
-    const EndTangents tangents{end_of_symmetry, {0, 0, arc_length(half.sinus_below)}};
+    put_attachment(numbers, attachment, half);
+    const EndTangents tangents{end_of_symmetry, {0, 0, length_of_sinus(half)}};
     half.bending = smoothed(first_coaptation_line(half.leaflet, middle, tangents), half.leaflet, tangents);
     return {half};
   }
@@ -186,8 +212,7 @@ Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double 
   const Vec3 end = fused.bending.first(), up_there = fused.leaflet.first() - end;
   half.sinus_above = fused.symmetry_above = Bezier::line(end, fused.leaflet.first());
   half.sinus_below = fused.symmetry_below = parting_curve(half, attachment, numbers.fused->share, fused.symmetry_above);
-  fused.sinus_below = attachment;
-  fused.sinus_above = Bezier::point(top);
+  put_attachment(numbers, attachment, fused);
   const auto point = [&](double u) { return evaluate(half.leaflet, u) - mix(up, up_there, u); };
   const EndTangents tangents{end_of_symmetry, (arc_length(half.sinus_below) / length(up_there)) * up_there};
   half.bending = smoothed(cubic_through(middle, point(1.0 / 3), point(2.0 / 3), end), half.leaflet, tangents);

@@ -53,6 +53,12 @@ Side add(PatchSet &set, const Bezier &curve, const Bezier &rate) {
   return set.add(curve);
 }
 
+Side add_sinus_below(PatchSet &set, const HalfCusp &part, const HalfCusp &rate) {
+  if (!part.sinus_start) return add(set, part.sinus_below, rate.sinus_below);
+  set.rates.push_back({*rate.sinus_start, rate.sinus_below});
+  return set.add(Curve({*part.sinus_start, part.sinus_below}));
+}
+
 // The sides at which both halves of a cusp meet.
 struct SymmetrySides {
   Side root, below, above;
@@ -74,7 +80,7 @@ void add_parts(PatchSet &set, const MovingHalf &half, const SymmetrySides &middl
     const auto add_one = [&](Bezier HalfCusp::*curve) { return add(set, half.parts[i].*curve, half.rates[i].*curve); };
     const Side bending = add_one(&HalfCusp::bending), leaflet = add_one(&HalfCusp::leaflet);
     const bool is_last = i + 1 == half.parts.size();
-    const Side below = add_one(&HalfCusp::sinus_below);
+    const Side below = add_sinus_below(set, half.parts[i], half.rates[i]);
     const Side above = is_last && commissure ? *commissure : add_one(&HalfCusp::sinus_above);
     const AttachedSide attached = is_last ? AttachedSide::u1 : AttachedSide::none;
     const auto number = static_cast<std::int32_t>(i);
@@ -93,8 +99,10 @@ MovingHalf turned(const MovingHalf &half, const PatchImage &image) {
   };
   const auto turn_all = [&](const Vector<HalfCusp> &parts) {
     Vector<HalfCusp> made;
-    for (const HalfCusp &part : parts)
+    for (const HalfCusp &part : parts) {
       made.push_back(of_each([&](Bezier HalfCusp::*curve) { return turn(part.*curve); }));
+      if (part.sinus_start) made.back().sinus_start = turn(*part.sinus_start);
+    }
     return made;
   };
   return {turn_all(half.parts), turn_all(half.rates)};
@@ -168,7 +176,9 @@ HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening) {
 }
 
 HalfCusp rate(const HalfCusp &closed, const HalfCusp &open) {
-  return of_each([&](Bezier HalfCusp::*curve) { return rate(closed.*curve, open.*curve); });
+  HalfCusp made = of_each([&](Bezier HalfCusp::*curve) { return rate(closed.*curve, open.*curve); });
+  if (closed.sinus_start) made.sinus_start = rate(*closed.sinus_start, *open.sinus_start);
+  return made;
 }
 
 void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state, const char *cusp, const char *also) {

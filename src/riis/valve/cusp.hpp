@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "geometry/bezier.hpp"
 #include "valve/patches.hpp"
@@ -39,6 +40,7 @@ CuspShape open_shape(const CuspShape &closed, const CuspOpening &opening);
 // aorta.
 struct HalfCusp {
   Bezier leaflet, bending, sinus_below, sinus_above, symmetry_below, symmetry_above;
+  std::optional<Bezier> sinus_start = {};  // a piece of the attachment before sinus_below
 };
 HalfCusp half_cusp(const CuspShape &shape);
 HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);

@@ -19,6 +19,11 @@ constexpr double open_sag = 1.0 / 3;
 constexpr double used_of_edge = 0.97;
 // The open edge leaves the commissure round, as an arc of a circle does, if it reaches this share of the arc's height.
 constexpr double round_from = 0.7;
+// Equal cusps of three are always round. The less the cosine of half a sector differs from theirs, the more round is the edge of
+// another cusp, up to this difference.
+constexpr double not_of_three = 0.22;
+// The attachment of a cusp with a wider sector, in degrees, has two pieces, because one cubic would leave the cylinder.
+constexpr double most_of_one_piece = 210;
 
 std::array<double, 4> blend(const std::array<double, 4> &from, const std::array<double, 4> &to, double share) {
   std::array<double, 4> made{};
@@ -45,6 +50,7 @@ HalfNumbers blend(const HalfNumbers &a, const HalfNumbers &b, double opening) {
           riis::blend(a.belly_x, b.belly_x, early),
           mixed(a.belly_rise, b.belly_rise),
           mixed(a.band_start, b.band_start),
+          a.attachment_arc,
           a.fused};
 }
 
@@ -61,19 +67,35 @@ void mix_places(const HalfNumbers &closed, const HalfNumbers &open, const std::a
   made.commissure = riis::blend(closed.commissure, open.commissure, shares.back());
 }
 
+// Returns the distance of the inner control points from the ends of a cubic that approximates an arc, in radii.
+double arc_reach(double degrees) {
+  const auto [sine, cosine] = sine_cosine_degrees(degrees / 4);
+  return 4.0 / 3.0 * sine / cosine;
+}
+
 // The start tangent of an attachment of one cubic, in radii, whose middle lies on the cylinder.
 double tangent_on_cylinder(double sine, double cosine) {
   const double middle = (1 + cosine) / 2;
   return 8.0 / 3 * (std::sqrt(1 - middle * middle) - sine / 2);
 }
 
-// Splits the closed half in a part that opens and a fused part. The middle of its edge is at the height `low`.
+// Returns the parameter at which y of a curve has this value. It ascends along the curve.
+double parameter_at_y(const Bezier &curve, double y) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (evaluate(curve, middle).y < y ? low : high) = middle;
+  }
+  return low;
+}
+
+// Splits the closed half in a part that opens and a fused part. The middle of its edge is at the height `low`. Both parts meet in
+// a vertical line of the zone.
 void fuse(HalfNumbers &half, double fusion, double low) {
   const HalfCusp whole = coapting_half(half, half.edge_top - low, low).front();
   const auto [free, fused] = split(whole.leaflet, 1 - fusion);
   const double free_length = arc_length(free), share = free_length / (free_length + arc_length(fused));
-  const double line_length = arc_length(whole.bending);
-  const auto lines = split(whole.bending, parameter_at_length(whole.bending, line_length, share * line_length));
+  const auto lines = split(whole.bending, parameter_at_y(whole.bending, free.last().y));
   half.edge_top = free.last().z;
   for (std::size_t i = 0; i < half.sag.size(); ++i) {
     const Vec3 q = view(free.control)[i];
@@ -109,7 +131,8 @@ HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
                    0,
                    R - tangent * cosine,
                    tangent * sine / z_k,
-                   0.5};
+                   0.5,
+                   sizes.sector.arc};
   if (side.fusion > 0) fuse(half, side.fusion, h_e);
   half.edge_length = EdgeLength(half).at(half.edge_top - h_e).length;
   return half;
@@ -129,7 +152,9 @@ HalfNumbers with_open_edge(const CuspSizes &sizes, const CuspSizes::Side &side, 
   const double free = 1 - side.fusion;
   const double x_in = ratio * sizes.commissure_radius, reach = free * sector.arc_reach * sizes.commissure_radius;
   const double rise = (ratio - sector.cosine) / (1 - sector.cosine);
-  const double roundness = sizes.keeps_ratio ? 1 : free * std::clamp(rise / round_from, 0.0, 1.0);
+  const double as_of_three = closed.fused ? 0 : std::max(0.0, 1 - std::abs(sector.cosine - 0.5) / not_of_three);
+  const double roundness =
+      sizes.keeps_ratio ? 1 : free * std::max(as_of_three, std::clamp(rise / round_from, 0.0, 1.0));
   const Vec3 arc{sector.sine, -sector.cosine, 0}, chord{x_in - end.x, reach - end.y, 0};
   const Vec3 straight = closed.fused ? (1 / length(chord)) * chord : Vec3{0, -1, 0};
   const Vec3 to = mix(straight, arc, roundness);
@@ -195,11 +220,19 @@ CuspNumbers open_cusp(const CuspSizes &sizes) {
 
 HalfSector half_sector(double sector_degrees) {
   // The rounded root gives equal cusps of a valve of three the bits that they have always had.
-  if (sector_degrees == 120) return {std::sqrt(0.75), 0.5, 4.0 / 3.0 * (2 - std::sqrt(3.0)), 1};
+  const double sine_60 = std::sqrt(0.75), on_cylinder_60 = tangent_on_cylinder(sine_60, 0.5);
+  if (sector_degrees == 120) return {sine_60, 0.5, 4.0 / 3.0 * (2 - std::sqrt(3.0)), 1, std::nullopt};
   const auto [sine, cosine] = sine_cosine_degrees(sector_degrees / 2);
-  const auto [quarter_sine, quarter_cosine] = sine_cosine_degrees(sector_degrees / 8);
-  return {sine, cosine, 4.0 / 3.0 * quarter_sine / quarter_cosine,
-          tangent_on_cylinder(sine, cosine) / tangent_on_cylinder(std::sqrt(0.75), 0.5)};
+  HalfSector made{sine, cosine, arc_reach(sector_degrees / 2), tangent_on_cylinder(sine, cosine) / on_cylinder_60,
+                  std::nullopt};
+  if (sector_degrees > most_of_one_piece) {
+    const double angle =
+        sector_degrees / 2 - 60;  // the second piece is the attachment of a cusp with a sector of 120 degrees
+    const auto [arc_sine, arc_cosine] = sine_cosine_degrees(angle);
+    made.attachment_factor = 1;
+    made.arc = AttachmentArc{arc_sine, arc_cosine, arc_reach(angle) / on_cylinder_60};
+  }
+  return made;
 }
 
 CuspNumbers blend(const CuspNumbers &a, const CuspNumbers &b, double opening) {
@@ -262,6 +295,17 @@ double least_edge_length(const CuspNumbers &cusp) {
   double lower_end = cusp.front().edge_top, sum = 0;
   for (const HalfNumbers &half : cusp) lower_end = std::min(lower_end, half.edge_top);
   for (const HalfNumbers &half : cusp) sum += EdgeLength(half).at(half.edge_top - lower_end).length;
+  return sum;
+}
+
+double area_inside(const CuspNumbers &cusp) {
+  double sum = 0;
+  for (const HalfNumbers &half : cusp) {
+    Bezier edge = Bezier::point({0, 0, 0});
+    edge.degree = 3;
+    for (std::size_t i = 0; i < 4; ++i) edge.control[i] = {half.edge_x[i], half.edge_y[i], 0};
+    for (const auto &[at, weight] : gauss_4) sum += weight / 2 * cross(evaluate(edge, at), derivative(edge, at)).z;
+  }
   return sum;
 }
 

@@ -22,12 +22,19 @@ inline constexpr std::array<Abscissa, 4> gauss_4{{{0.06943184420297371239, 0.173
                                                   {0.66999052179242813240, 0.32607257743127307131},
                                                   {0.93056815579702628761, 0.17392742256872692869}}};
 
+// The first piece of the attachment of a wide cusp: an arc of this angle from the symmetry plane.
+struct AttachmentArc {
+  double sine, cosine;
+  double reach;  // the length of its end tangents, divided by the second piece's start tangent
+};
+
 // Half of a cusp's sector: the angle theta from its symmetry plane to a commissure.
 struct HalfSector {
   double sine, cosine;
   double
       arc_reach;  // the distance of the inner control points from the ends of a cubic that approximates an arc of theta, in radii
   double attachment_factor;  // factor of the attachment's start tangent, which keeps its middle on the cylinder
+  std::optional<AttachmentArc> arc;
 };
 HalfSector half_sector(double sector_degrees);
 
@@ -60,7 +67,7 @@ struct FusedPart {
 struct HalfNumbers {
   double root_radius;
   Vec3 commissure;
-  double attachment_width, attachment_drop;  // the lengths of the attachment's end tangents
+  double attachment_width, attachment_drop;  // the lengths of the attachment's end tangents, or of its second piece's
   std::array<double, 4> edge_x, edge_y;      // the free edge, seen along the axis
   std::array<double, 4> sag;                 // how far control points of the free edge hang, as shares of the sag
   double edge_top;                           // height of the free edge's end
@@ -70,6 +77,7 @@ struct HalfNumbers {
   double belly_x;     // x of the first inner control point of the symmetry curve
   double belly_rise;  // height of that point, as a share of the height of the coaptation line's middle
   double band_start;  // height from the second inner control point to the coaptation line, as the same share
+  std::optional<AttachmentArc> attachment_arc = {};
   std::optional<FusedPart> fused = {};
 };
 
@@ -105,6 +113,9 @@ class EdgeLength {
 double edge_depth(const CuspNumbers &cusp);
 // Returns the length of the free edge if its middle is no lower than the lower one of its ends.
 double least_edge_length(const CuspNumbers &cusp);
+
+// Returns the area between the free edge and the axis, seen along the axis, of all halves.
+double area_inside(const CuspNumbers &cusp);
 
 // Returns the lower part of the symmetry curve. It ends at `end`. Its direction there is `up`, the vector from `end` to the
 // free edge.
