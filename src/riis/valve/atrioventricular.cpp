@@ -25,19 +25,25 @@ namespace {
 // meridian. A free edge and a coaptation line are two cubics each, so they have as many control points.
 constexpr std::size_t n_places = 7, middle = 3, n_cells = n_places - 1;
 template <class Value>
-using AtPlaces = std::array<Value, n_places>;
+struct AtPlaces {
+  std::array<Value, n_places> values{};
+
+  Value &operator[](std::size_t place) { return view(values)[place]; }
+  const Value &operator[](std::size_t place) const { return view(values)[place]; }
+};
 constexpr double u_of(std::size_t place) { return static_cast<double>(place) / n_cells; }
 
 // The coaptation zone is at least this share of a leaflet. A leaflet that is too short for it stays back from its neighbours.
 constexpr double least_coaptation = 0.05;
-// A meridian's first inner control point lies below the annulus by this share of the drop to the coaptation line.
+// A closed meridian's first inner control point lies below the annulus by this share of the drop to the coaptation line.
 constexpr double first_drop = 0.2;
-// At a commissure: the rise of that point in lengths of the commissure, and the end tangent in lengths of the meridian.
-constexpr double commissure_rise = 0.15, commissure_turn = 0.3;
-// The inner control point by the commissure has this share of the way in height.
-constexpr double edge_rise = 0.6;
+// The heights of a closed free edge's control points from the middle to a commissure, as shares of the rise between these.
+constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
 // A bump's lift acts on a meridian's first inner control point by this share.
 constexpr double lift_of_start = 0.3;
+// A leaflet that is too short moves back in steps until less than this share of it lacks.
+constexpr int most_steps = 60;
+constexpr double rounding = 1e-12;
 // The sizes must leave so much of a lap to a leaflet, so much of the annulus' depth to its way to the meeting point, and so much of
 // the way from a commissure to it. At most so much of a leaflet coapts.
 constexpr double least_ratio = 0.05, least_way = 0.12, most_of_way = 0.8, most_coaptation = 0.7;
@@ -61,7 +67,6 @@ class Sizes {
 
   static std::size_t position(Parameter parameter, std::size_t n_leaflets) { return 2 * n_leaflets - 2 + parameter; }
   std::size_t n_leaflets() const { return n_leaflets_; }
-  std::size_t next(std::size_t leaflet) const { return (leaflet + 1) % n_leaflets_; }
   const std::array<double, 3> &values_of(Parameter parameter) const {
     return values_[position(parameter, n_leaflets_)];
   }
@@ -107,16 +112,16 @@ class Annulus {
         const double u = riis::blend(commissures[leaflet], commissures[leaflet + 1], u_of(i));
         const PointOnSpan where = laps_.on_span(0.5 * (u + 1));
         const auto [point, along] = laps_.with_tangent(where);
-        view(leaflets_[leaflet])[i] = {where, {point, 1 / std::hypot(along.x, along.y) * Vec3{-along.y, along.x, 0}}};
+        leaflets_[leaflet][i] = {where, {point, 1 / std::hypot(along.x, along.y) * Vec3{-along.y, along.x, 0}}};
       }
     }
     // Neighbours have the same commissure, even at the end of a lap.
     leaflets_.back()[n_cells].hinge = leaflets_.front()[0].hinge;
   }
 
-  const Hinge &hinge(std::size_t leaflet, std::size_t place) const { return view(leaflets_[leaflet])[place].hinge; }
+  const Hinge &hinge(std::size_t leaflet, std::size_t place) const { return leaflets_[leaflet][place].hinge; }
   Curve between_places(std::size_t leaflet, std::size_t place) const {
-    const auto &from = view(leaflets_[leaflet])[place], &to = view(leaflets_[leaflet])[place + 1];
+    const auto &from = leaflets_[leaflet][place], &to = leaflets_[leaflet][place + 1];
     return Curve(laps_.spans_between(from.where, to.where)).through(from.hinge.point, to.hinge.point);
   }
 
@@ -148,27 +153,22 @@ struct Leaflet {
 Vec3 level(Vec3 p) { return {p.x, p.y, 0}; }
 Vec3 unit(Vec3 p) { return (1 / length(p)) * p; }
 
-// Two cubics that meet at the middle place.
-std::array<Bezier, 2> halves(const AtPlaces<Vec3> &q) {
-  return {Bezier::cubic(q[0], q[1], q[2], q[3]), Bezier::cubic(q[3], q[4], q[5], q[6])};
-}
-// Returns the parts of both cubics between the places.
+// The control points are those of two cubics, which meet at the middle place. Returns the parts of these between the places.
 std::array<Bezier, n_cells> parts(const AtPlaces<Vec3> &q) {
-  const auto [first, second] = halves(q);
-  const auto [a, rest_of_first] = split(first, 1.0 / 3);
-  const auto [b, c] = split(rest_of_first, 0.5);
-  const auto [d, rest_of_second] = split(second, 1.0 / 3);
-  const auto [e, f] = split(rest_of_second, 0.5);
-  return {a, b, c, d, e, f};
+  const auto [first, rest] = split(Bezier::cubic(q[0], q[1], q[2], q[3]), 1.0 / 3);
+  const auto [fourth, rest_behind] = split(Bezier::cubic(q[3], q[4], q[5], q[6]), 1.0 / 3);
+  const auto [second, third] = split(rest, 0.5);
+  const auto [fifth, sixth] = split(rest_behind, 0.5);
+  return {first, second, third, fourth, fifth, sixth};
 }
 AtPlaces<Vec3> on_parts(const std::array<Bezier, n_cells> &parts) {
   AtPlaces<Vec3> points;
-  for (std::size_t i = 0; i < n_cells; ++i) view(points)[i] = view(parts)[i].first();
-  points.back() = parts.back().last();
+  for (std::size_t i = 0; i < n_cells; ++i) points[i] = view(parts)[i].first();
+  points[n_cells] = parts.back().last();
   return points;
 }
 
-// A meridian arrives at the coaptation line in the direction of the zone.
+// A moving meridian arrives at the coaptation line in the direction of the zone.
 Bezier meridian(Vec3 hinge, Vec3 start, double turn, Vec3 on_line, Vec3 on_edge) {
   return Bezier::cubic(hinge, hinge + start, on_line + turn * unit(on_line - on_edge), on_line);
 }
@@ -196,126 +196,93 @@ Vec3 meeting_point(const Sizes &sizes, const Annulus &annulus) {
   return at;
 }
 
-// Closed leaflets of the same valve, side by side in the zone.
-class ClosedLeaflets {
- public:
-  ClosedLeaflets(const Sizes &sizes, const Annulus &annulus)
-      : sizes_(sizes),
-        annulus_(annulus),
-        meeting_(meeting_point(sizes, annulus)),
-        down_(sine_cosine_degrees(sizes.of(commissure_angle))),
-        commissure_zone_(sizes.of(commissure_coaptation) * sizes.of(commissure_length)) {}
+// Closed, a free edge ends at this point of a commissure, and the coaptation line ends above it.
+Vec3 end_of_edge(const Sizes &sizes, const Hinge &hinge) {
+  return hinge.hang(sizes.of(commissure_length), sine_cosine_degrees(sizes.of(commissure_angle)));
+}
 
-  Vec3 meeting() const { return meeting_; }
-
-  Leaflet leaflet(std::size_t k, const Bumps &bumps) const {
-    const Hinge &hinge = annulus_.hinge(k, middle);
-    const Vec3 away = unit(level(hinge.point) - meeting_), low{0, 0, -sizes_.of(tenting_height)};
-    // The leaflet is at least half the gap away from the lines to the commissures.
-    double least_sine = 1;
-    for (const std::size_t end : {std::size_t{0}, n_cells}) {
-      const Vec3 to = unit(level(commissure(k, end)) - meeting_);
-      least_sine = std::min(least_sine, std::abs(away.x * to.y - away.y * to.x));
-    }
-    Vec3 on_line = meeting_ + 0.5 * sizes_.of(gap) / least_sine * away + low;
-    double zone = 0;
-    for (int step = 0; step < 60; ++step) {
-      zone = sizes_.length(k) - arc_length(middle_meridian(hinge.point, on_line));
-      const double lacking = least_coaptation * sizes_.length(k) - zone;
-      if (!(lacking > 1e-12 * sizes_.length(k))) break;
-      on_line = on_line + lacking * away;
-    }
-    AtPlaces<Vec3> line{}, edge{};
-    for (const std::size_t end : {std::size_t{0}, n_cells}) {
-      const Vec3 last = commissure(k, end), flat = level(last);
-      const Vec3 straight = flat - level(on_line);
-      // Two leaflets meet in a smile, which is horizontal in the middle. Three meet in straight lines.
-      Vec3 along = unit(straight);
-      if (sizes_.n_leaflets() == 2) {
-        along = Vec3{-away.y, away.x, 0};
-        if (dot(along, straight) < 0) along = -along;
-      }
-      const Vec3 first = level(on_line) + length(straight) / 3 * along, second = mix(flat, first, 0.5);
-      const auto put = [&](AtPlaces<Vec3> &to, double from_z, double to_z) {
-        const auto at = [&](std::size_t i) -> Vec3 & { return view(to)[end == 0 ? middle - i : middle + i]; };
-        at(0) = level(on_line) + Vec3{0, 0, from_z};
-        at(1) = first + Vec3{0, 0, from_z};
-        at(2) = second + Vec3{0, 0, riis::blend(from_z, to_z, edge_rise)};
-        at(3) = flat + Vec3{0, 0, to_z};
-      };
-      put(line, on_line.z, last.z + commissure_zone_);
-      put(edge, on_line.z - zone, last.z);
-    }
-    return from_control_points(k, line, edge, bumps);
-  }
-
- private:
-  // Returns the end of the free edge at a commissure.
-  Vec3 commissure(std::size_t leaflet, std::size_t place) const {
-    return annulus_.hinge(leaflet, place).hang(sizes_.of(commissure_length), down_);
-  }
-
-  Vec3 start(Vec3 hinge, Vec3 on_line) const {
-    return sizes_.of(belly) * level(on_line - hinge) - Vec3{0, 0, first_drop * (hinge.z - on_line.z)};
-  }
-  Bezier middle_meridian(Vec3 hinge, Vec3 on_line) const {
-    return meridian(hinge, start(hinge, on_line), sizes_.of(turn) * (hinge.z - on_line.z), on_line,
-                    on_line - Vec3{0, 0, 1});
-  }
-
-  Leaflet from_control_points(std::size_t k, const AtPlaces<Vec3> &line, const AtPlaces<Vec3> &edge,
-                              const Bumps &bumps) const {
-    const AtPlaces<Vec3> on_line = on_parts(parts(line)), on_edge = on_parts(parts(edge));
-    const double commissure_size = sizes_.of(commissure_length);
-    Leaflet made{};
-    for (std::size_t i = 0; i < n_places; ++i) {
-      const Vec3 hinge = annulus_.hinge(k, i).point, end = view(on_line)[i];
-      const bool is_commissure = i == 0 || i == n_cells;
-      view(made.start)[i] =
-          is_commissure ? 1.0 / 3 * (end - hinge) + Vec3{0, 0, commissure_rise * commissure_size} : start(hinge, end);
-      view(made.turn)[i] =
-          is_commissure ? commissure_turn * (commissure_size - commissure_zone_) : sizes_.of(turn) * (hinge.z - end.z);
-      const double zone = distance(end, view(on_edge)[i]);
-      view(made.body)[i] =
-          is_commissure ? commissure_size - zone
-                        : arc_length(meridian(hinge, view(made.start)[i], view(made.turn)[i], end, view(on_edge)[i]));
-      view(made.whole)[i] = view(made.body)[i] + zone;
-      const Vec3 lift{0, 0, bumps.at(k, u_of(i)).lift};
-      view(made.start)[i] = view(made.start)[i] + lift_of_start * lift;
-      view(made.line)[i] = view(line)[i] - hinge + lift;
-      view(made.edge)[i] = view(edge)[i] - hinge + lift;
-    }
-    return made;
-  }
-
-  const Sizes &sizes_;
-  const Annulus &annulus_;
-  Vec3 meeting_;
-  SineCosine down_;
-  double commissure_zone_;
+// Returns the vectors from a closed meridian's ends to its inner control points.
+struct EndTangents {
+  Vec3 start, end;
 };
+EndTangents closed_tangents(const Sizes &sizes, Vec3 hinge, Vec3 on_line) {
+  const double drop = hinge.z - on_line.z;
+  return {sizes.of(belly) * level(on_line - hinge) - Vec3{0, 0, first_drop * drop}, {0, 0, sizes.of(turn) * drop}};
+}
+double closed_length(const Sizes &sizes, Vec3 hinge, Vec3 on_line) {
+  const auto [start, end] = closed_tangents(sizes, hinge, on_line);
+  return arc_length(Bezier::cubic(hinge, hinge + start, on_line + end, on_line));
+}
+
+// Closed leaflets lie side by side in vertical coaptation zones.
+Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, const Bumps &bumps) {
+  const Vec3 hinge = annulus.hinge(k, middle).point, meeting = meeting_point(sizes, annulus);
+  const Vec3 away = unit(level(hinge) - meeting);
+  // The leaflet keeps half the gap from the lines between the meeting point and its commissures.
+  double least_sine = 1;
+  for (const std::size_t end : {std::size_t{0}, n_cells}) {
+    const Vec3 to = unit(level(end_of_edge(sizes, annulus.hinge(k, end))) - meeting);
+    least_sine = std::min(least_sine, std::abs(away.x * to.y - away.y * to.x));
+  }
+  Vec3 on_line = meeting + 0.5 * sizes.of(gap) / least_sine * away - Vec3{0, 0, sizes.of(tenting_height)};
+  double zone = 0;
+  for (int step = 0; step < most_steps; ++step) {
+    zone = sizes.length(k) - closed_length(sizes, hinge, on_line);
+    const double lacking = least_coaptation * sizes.length(k) - zone;
+    if (!(lacking > rounding * sizes.length(k))) break;
+    on_line = on_line + lacking * away;
+  }
+  AtPlaces<Vec3> line, edge;
+  const double zone_of_commissure = sizes.of(commissure_coaptation) * sizes.of(commissure_length);
+  for (const bool is_behind : {false, true}) {
+    const auto place = [&](std::size_t i) { return is_behind ? middle + i : middle - i; };
+    const Vec3 end = end_of_edge(sizes, annulus.hinge(k, place(3))), straight = level(end - on_line);
+    // Three leaflets meet in straight lines. Two meet in a smile, which is straight in the middle.
+    Vec3 along = unit(straight);
+    if (sizes.n_leaflets() == 2) along = is_behind ? Vec3{-away.y, away.x, 0} : Vec3{away.y, -away.x, 0};
+    const Vec3 second = level(on_line) + length(straight) / 3 * along;
+    const std::array<Vec3, 4> plan{level(on_line), second, mix(second, level(end), 0.5), level(end)};
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+      const auto at_height = [&](double in_middle, double at_end) {
+        return view(plan)[i] + Vec3{0, 0, riis::blend(in_middle, at_end, view(edge_rise)[i])};
+      };
+      line[place(i)] = at_height(on_line.z, end.z + zone_of_commissure);
+      edge[place(i)] = at_height(on_line.z - zone, end.z);
+    }
+  }
+  const AtPlaces<Vec3> points_of_line = on_parts(parts(line)), points_of_edge = on_parts(parts(edge));
+  Leaflet made;
+  for (std::size_t i = 0; i < n_places; ++i) {
+    const Vec3 from = annulus.hinge(k, i).point, to = points_of_line[i], lift{0, 0, bumps.at(k, u_of(i)).lift};
+    const auto [start, end] = closed_tangents(sizes, from, to);
+    made.body[i] = closed_length(sizes, from, to);
+    made.whole[i] = made.body[i] + distance(to, points_of_edge[i]);
+    made.edge[i] = edge[i] - from + lift;
+    made.line[i] = line[i] - from + lift;
+    made.start[i] = start + lift_of_start * lift;
+    made.turn[i] = end.z;
+  }
+  return made;
+}
 
 // Open leaflets hang straight down from the annulus, with the lengths of the closed ones.
 Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, const Leaflet &closed) {
   const SineCosine down = sine_cosine_degrees(sizes.of(open_angle));
-  AtPlaces<Vec3> edge{};
-  for (std::size_t i = 0; i < n_places; ++i) view(edge)[i] = annulus.hinge(k, i).hang(view(closed.whole)[i], down);
+  AtPlaces<Vec3> edge;
+  for (std::size_t i = 0; i < n_places; ++i) edge[i] = annulus.hinge(k, i).hang(closed.whole[i], down);
   const Bezier first = cubic_through(edge[0], edge[1], edge[2], edge[3]);
   const Bezier second = cubic_through(edge[3], edge[4], edge[5], edge[6]);
-  for (std::size_t i = 1; i < middle; ++i)
-    view(edge)[i] = view(first.control)[i], view(edge)[middle + i] = view(second.control)[i];
+  for (std::size_t i = 1; i < middle; ++i) edge[i] = view(first.control)[i], edge[middle + i] = view(second.control)[i];
   // The edge has no corner in the middle.
   const Vec3 along = unit(edge[middle + 1] - edge[middle - 1]);
   edge[middle - 1] = edge[middle] - distance(edge[middle - 1], edge[middle]) * along;
   edge[middle + 1] = edge[middle] + distance(edge[middle + 1], edge[middle]) * along;
   Leaflet made = closed;
   for (std::size_t i = 0; i < n_places; ++i) {
-    view(made.edge)[i] = view(edge)[i] - annulus.hinge(k, i).point;
-    view(made.line)[i] = view(closed.body)[i] / view(closed.whole)[i] * view(made.edge)[i];
-  }
-  for (std::size_t i = 0; i < n_places; ++i) {
-    view(made.start)[i] = 1.0 / 3 * view(closed.body)[i] * unit(view(made.line)[i]);
-    view(made.turn)[i] = 1.0 / 3 * view(closed.body)[i];
+    made.edge[i] = edge[i] - annulus.hinge(k, i).point;
+    made.line[i] = closed.body[i] / closed.whole[i] * made.edge[i];
+    made.start[i] = 1.0 / 3 * closed.body[i] * unit(made.line[i]);
+    made.turn[i] = 1.0 / 3 * closed.body[i];
   }
   return made;
 }
@@ -339,17 +306,17 @@ double middle_length(const Leaflet &leaflet) {
 Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double> &shares) {
   Leaflet made = closed;
   for (std::size_t i = 0; i < n_places; ++i) {
-    const double share = view(shares)[i];
+    const double share = shares[i];
     for (AtPlaces<Vec3> Leaflet::*points : {&Leaflet::edge, &Leaflet::line, &Leaflet::start})
-      view(made.*points)[i] = swung(view(closed.*points)[i], view(open.*points)[i], share);
-    view(made.turn)[i] = riis::blend(view(closed.turn)[i], view(open.turn)[i], share);
+      (made.*points)[i] = swung((closed.*points)[i], (open.*points)[i], share);
+    made.turn[i] = riis::blend(closed.turn[i], open.turn[i], share);
   }
   const double stretch = riis::blend(middle_length(closed), middle_length(open), shares[middle]) / middle_length(made);
   for (std::size_t i = 0; i < n_places; ++i) {
     const double here = 1 + (stretch - 1) * (1 - std::abs(2 * u_of(i) - 1));
     for (AtPlaces<Vec3> Leaflet::*points : {&Leaflet::edge, &Leaflet::line, &Leaflet::start})
-      view(made.*points)[i] = here * view(made.*points)[i];
-    view(made.turn)[i] = here * view(made.turn)[i];
+      (made.*points)[i] = here * (made.*points)[i];
+    made.turn[i] = here * made.turn[i];
   }
   return made;
 }
@@ -361,18 +328,17 @@ struct LeafletCurves {
 };
 
 LeafletCurves curves_of(const Leaflet &leaflet, const Annulus &annulus, std::size_t k) {
-  AtPlaces<Vec3> line{}, edge{};
+  AtPlaces<Vec3> line, edge;
   for (std::size_t i = 0; i < n_places; ++i) {
-    view(line)[i] = annulus.hinge(k, i).point + view(leaflet.line)[i];
-    view(edge)[i] = annulus.hinge(k, i).point + view(leaflet.edge)[i];
+    line[i] = annulus.hinge(k, i).point + leaflet.line[i];
+    edge[i] = annulus.hinge(k, i).point + leaflet.edge[i];
   }
   LeafletCurves made{parts(line), parts(edge), {}, {}};
   const AtPlaces<Vec3> on_line = on_parts(made.line), on_edge = on_parts(made.edge);
   for (std::size_t i = 0; i < n_places; ++i) {
-    const Vec3 from = view(on_line)[i], to = view(on_edge)[i];
-    view(made.meridians)[i] =
-        meridian(annulus.hinge(k, i).point, view(leaflet.start)[i], view(leaflet.turn)[i], from, to);
-    view(made.zone)[i] = Bezier::line(from, to);
+    const Vec3 from = on_line[i], to = on_edge[i];
+    made.meridians[i] = meridian(annulus.hinge(k, i).point, leaflet.start[i], leaflet.turn[i], from, to);
+    made.zone[i] = Bezier::line(from, to);
   }
   return made;
 }
@@ -384,13 +350,12 @@ class Motion {
       : closed_(closed.values, n_leaflets), open_(open.values, n_leaflets), has_one_annulus_(&closed == &open) {
     const Annulus of_closed(closed_.annulus(), closed_.commissures()), of_open(open_.annulus(), open_.commissures());
     const Bumps bumps = closed_.bumps(), bumps_when_open = open_.bumps();
-    const ClosedLeaflets leaflets(closed_, of_closed), leaflets_when_open(open_, of_open);
     for (std::size_t k = 0; k < n_leaflets; ++k) {
-      closed_leaflets_.push_back(leaflets.leaflet(k, bumps));
-      open_leaflets_.push_back(open_leaflet(open_, of_open, k, leaflets_when_open.leaflet(k, bumps_when_open)));
+      closed_leaflets_.push_back(closed_leaflet(closed_, of_closed, k, bumps));
+      open_leaflets_.push_back(open_leaflet(open_, of_open, k, closed_leaflet(open_, of_open, k, bumps_when_open)));
       local_.emplace_back();
       for (std::size_t i = 0; i < n_places; ++i)
-        view(local_.back())[i] = {bumps.at(k, u_of(i)).closed, bumps_when_open.at(k, u_of(i)).open, 0};
+        local_.back()[i] = {bumps.at(k, u_of(i)).closed, bumps_when_open.at(k, u_of(i)).open, 0};
     }
   }
 
@@ -400,8 +365,7 @@ class Motion {
     if (has_one_annulus_) return {lap, commissures};
     const std::array<Bezier, 4> open_lap = open_.annulus();
     const Vector<double> open_commissures = open_.commissures();
-    for (std::size_t i = 0; i < lap.size(); ++i)
-      view(lap)[i] = riis::blend(view(lap)[i], view(open_lap)[i], opening);
+    for (std::size_t i = 0; i < lap.size(); ++i) view(lap)[i] = riis::blend(view(lap)[i], view(open_lap)[i], opening);
     for (std::size_t i = 0; i < commissures.size(); ++i)
       commissures[i] = riis::blend(commissures[i], open_commissures[i], opening);
     return {lap, commissures};
@@ -410,9 +374,9 @@ class Motion {
   Vector<LeafletCurves> leaflets(const Annulus &annulus, double opening) const {
     Vector<LeafletCurves> made;
     for (std::size_t k = 0; k < local_.size(); ++k) {
-      AtPlaces<double> shares{};
+      AtPlaces<double> shares;
       for (std::size_t i = 0; i < n_places; ++i)
-        view(shares)[i] = riis::blend(view(local_[k])[i].closed, view(local_[k])[i].open, opening);
+        shares[i] = riis::blend(local_[k][i].closed, local_[k][i].open, opening);
       made.push_back(curves_of(moved(closed_leaflets_[k], open_leaflets_[k], shares), annulus, k));
     }
     return made;
@@ -444,8 +408,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
     return set.add(curve_in(now[k]));
   };
   const auto add_across = [&](std::size_t k, std::size_t i) -> std::array<Side, 2> {
-    return {add(k, [&](const LeafletCurves &of) { return view(of.meridians)[i]; }),
-            add(k, [&](const LeafletCurves &of) { return view(of.zone)[i]; })};
+    return {add(k, [&](const LeafletCurves &of) { return of.meridians[i]; }),
+            add(k, [&](const LeafletCurves &of) { return of.zone[i]; })};
   };
   const PatchImage image{Mirror::none, rotation_xyz({0, 0, 0}), motion.shift(opening), 0, 0};
   std::int32_t n_images = 0;
@@ -497,21 +461,21 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
            " to one leaflet; it must be at least ", least_ratio, ": look at ", name_of(flat_ratio),
            " and anterior_ratio");
   const Annulus annulus(sizes.annulus(), commissures);
-  const ClosedLeaflets closed(sizes, annulus);
+  const Vec3 meeting = meeting_point(sizes, annulus);
   const Bumps bumps = sizes.bumps();
   for (std::size_t k = 0; k < n_leaflets; ++k) {
-    const double to_meeting = distance(level(annulus.hinge(k, middle).point), closed.meeting());
+    const double to_meeting = distance(level(annulus.hinge(k, middle).point), meeting);
     if (!(to_meeting >= least_way * across.size && to_meeting <= (1 - least_way) * across.size))
       fail(RIIS_INVALID_PARAMETER, "the leaflets would meet at a distance of ", to_meeting,
            " from the middle of the annulus of ", "the leaflet of ", name(k), "; it must be from ", least_way, " to ",
            1 - least_way, " times ", across.name, ", which is ", across.size, ": look at the leaflets' lengths");
     const double inwards = sizes.of(commissure_length) * sine_cosine_degrees(sizes.of(commissure_angle)).cosine,
-                 room = distance(level(annulus.hinge(k, n_cells).point), closed.meeting());
+                 room = distance(level(annulus.hinge(k, n_cells).point), meeting);
     if (!(inwards <= most_of_way * room))
       fail(RIIS_INVALID_PARAMETER, "commissure_length is ", sizes.of(commissure_length), "; inwards that is ", inwards,
            ", which must be at most ", most_of_way, " times the distance ", room,
            " from a commissure to the meeting point");
-    const Leaflet leaflet = closed.leaflet(k, bumps);
+    const Leaflet leaflet = closed_leaflet(sizes, annulus, k, bumps);
     const double zone = leaflet.whole[middle] - leaflet.body[middle];
     if (!(zone <= most_coaptation * sizes.length(k)))
       fail(RIIS_INVALID_PARAMETER, name(k), " is ", sizes.length(k), ", of which ", zone,
@@ -523,21 +487,30 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
   }
 }
 
+// The sizes in which the kinds differ. Lengths are in centimetres. docs/theory/atrioventricular.md has the sources of the values.
+struct KindSizes {
+  Vector<ParameterSpec> of_leaflets;
+  ParameterSpec width, depth, flat_ratio;
+  double saddle_height, commissure_length;
+};
+
 // clang-format off
-ValveKind make_kind(const char *name, Vector<ParameterSpec> leaflets, const ParameterSpec &width_spec, const ParameterSpec &depth_spec,
-                    const ParameterSpec &flat_spec, double saddle, double tenting) {
+template <std::size_t n_leaflets, const ValveKind &(*own_kind)()>
+const ValveKind *new_kind(const char *name, KindSizes sizes) {
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
-  Vector<ParameterSpec> specs = std::move(leaflets);
   const Vector<ParameterSpec> common{
-    width_spec, depth_spec,
+    sizes.width, sizes.depth,
     {"flatness", number, "outline of the annulus: 0 an ellipse, 1 a D", 1, {1}, 0, 1},
-    {"saddle_height", length, "height of the annulus from its lowest to its highest points", 1, {saddle}, 0, longest},
-    flat_spec,
-    {"commissure_length", length, "length of the leaflets at the commissures", 1, {0.8}, shortest, longest},
-    {"commissure_angle", degree, "angle of the closed commissures below the horizontal", 1, {40}, 0, 85},
-    {"commissure_coaptation", number, "share of commissure_length that coapts", 1, {0.2}, 0.05, 0.8},
-    {"tenting_height", length, "depth of the coaptation line's middle below the annulus' mean height", 1, {tenting}, 0, longest},
+    {"saddle_height", length, "height of the annulus from its lowest to its highest points", 1, {sizes.saddle_height}, 0, longest},
+    sizes.flat_ratio,
+    {"commissure_length", length, "closed: distance of the free edges' ends from the annulus",
+     1, {sizes.commissure_length}, shortest, longest},
+    {"commissure_angle", degree, "closed: angle of the commissures, 0 inwards, 90 straight down", 1, {70}, 20, 90},
+    {"commissure_coaptation", number, "height of the coaptation zone at the commissures, times commissure_length",
+     1, {0.5}, 0.05, 0.8},
+    {"tenting_height", length, "closed: depth of the coaptation line's middle below the annulus' mean height",
+     1, {0.4}, 0, longest},
     {"gap", length, "distance between closed leaflets in the middle of the coaptation zone", 1, {0.03}, shortest, longest},
     {"belly", number, "closed: start tangent of a leaflet, times its horizontal reach", 1, {0.55}, 0.1, 0.9},
     {"turn", number, "closed: end tangent of a leaflet above the coaptation line, times its drop", 1, {0.5}, 0.1, 0.9},
@@ -545,11 +518,16 @@ ValveKind make_kind(const char *name, Vector<ParameterSpec> leaflets, const Para
     {"translation", length, "shift of the valve", 3, {0, 0, 0}, -longest, longest},
     opening_spec("0 closed to 1 open", 0),
   };
-  const std::size_t opening = specs.size() + opening_;
+  const std::size_t opening = sizes.of_leaflets.size() + opening_;
+  Vector<ParameterSpec> specs = std::move(sizes.of_leaflets);
   specs.insert(specs.end(), common.begin(), common.end());
-  ValveKind kind{name, std::move(specs), opening, true, nullptr, nullptr, nullptr};
-  kind.has_exact_contacts = true;
-  return with_skirt(std::move(kind), SkirtAxis::vertical);
+  auto *kind = new ValveKind(with_skirt({name, std::move(specs), opening, true,
+    [](const ParameterValues &values) { check_values(values, own_kind(), n_leaflets); },
+    [](const ValveState &closed, const ValveState &open, double at) { return make_patches(closed, open, at, n_leaflets); },
+    nullptr}, SkirtAxis::vertical));
+  kind->has_exact_contacts = true;
+  add_bump_specs(kind->parameters, n_leaflets, BumpLift::yes);
+  return kind;
 }
 
 ParameterSpec length_spec(const char *name, double value) {
@@ -562,36 +540,6 @@ ParameterSpec ratio_spec(const char *name, const char *description, double value
   return {name, "1", description, 1, {value}, 0.05, 0.9};
 }
 // clang-format on
-
-const ValveKind *new_mitral_coapting() {
-  auto *kind = new ValveKind(make_kind(
-      "mitral_coapting", {length_spec("anterior_length", 2.5), length_spec("posterior_length", 1.6)},
-      diameter_spec("ALPM_diameter", "width of the annulus, from the anterolateral to the posteromedial side", 3.6),
-      diameter_spec("AP_diameter", "depth of the annulus, from the posterior to the anterior point", 2.7),
-      ratio_spec("anterior_ratio", "share of the annulus that the anterior leaflet takes", 0.41), 0.6, 0.4));
-  add_bump_specs(kind->parameters, 2, BumpLift::yes);
-  kind->check_values = [](const ParameterValues &values) { check_values(values, mitral_coapting_valve_kind(), 2); };
-  kind->make_patches = [](const ValveState &closed, const ValveState &open, double opening) {
-    return make_patches(closed, open, opening, 2);
-  };
-  return kind;
-}
-
-const ValveKind *new_tricuspid() {
-  auto *kind = new ValveKind(make_kind(
-      "tricuspid",
-      {length_spec("anterior_length", 2.4), length_spec("septal_length", 1.9), length_spec("posterior_length", 2.1),
-       ratio_spec("anterior_ratio", "share of the annulus that the anterior leaflet takes", 0.4)},
-      diameter_spec("AP_diameter", "width of the annulus, from the anterior to the posterior point", 3.6),
-      diameter_spec("SL_diameter", "depth of the annulus, from the septal to the lateral point", 3.0),
-      ratio_spec("septal_ratio", "share of the annulus that the septal leaflet takes", 0.33), 0.4, 0.4));
-  add_bump_specs(kind->parameters, 3, BumpLift::yes);
-  kind->check_values = [](const ParameterValues &values) { check_values(values, tricuspid_valve_kind(), 3); };
-  kind->make_patches = [](const ValveState &closed, const ValveState &open, double opening) {
-    return make_patches(closed, open, opening, 3);
-  };
-  return kind;
-}
 
 }  // namespace
 
@@ -619,12 +567,27 @@ std::array<Bezier, 4> saddle_annulus(const SaddleAnnulus &annulus) {
 // The kinds are made when they are first used, and they are never destroyed. So they can be used during the whole life of the
 // process.
 const ValveKind &mitral_coapting_valve_kind() {
-  static const ValveKind &kind = *new_mitral_coapting();
+  static const ValveKind &kind = *new_kind<2, mitral_coapting_valve_kind>(
+      "mitral_coapting",
+      {{length_spec("anterior_length", 2.5), length_spec("posterior_length", 1.6)},
+       diameter_spec("ALPM_diameter", "width of the annulus, from the anterolateral to the posteromedial side", 3.6),
+       diameter_spec("AP_diameter", "depth of the annulus, from the posterior to the anterior point", 2.7),
+       ratio_spec("anterior_ratio", "share of the annulus that the anterior leaflet takes", 0.41),
+       0.6,
+       0.8});
   return kind;
 }
 
 const ValveKind &tricuspid_valve_kind() {
-  static const ValveKind &kind = *new_tricuspid();
+  static const ValveKind &kind = *new_kind<3, tricuspid_valve_kind>(
+      "tricuspid",
+      {{length_spec("anterior_length", 2.5), length_spec("septal_length", 2.0), length_spec("posterior_length", 2.3),
+        ratio_spec("anterior_ratio", "share of the annulus that the anterior leaflet takes", 0.36)},
+       diameter_spec("AP_diameter", "width of the annulus, from the anterior to the posterior point", 3.8),
+       diameter_spec("SL_diameter", "depth of the annulus, from the septal to the lateral point", 3.1),
+       ratio_spec("septal_ratio", "share of the annulus that the septal leaflet takes", 0.34),
+       0.4,
+       1.2});
   return kind;
 }
 
