@@ -63,7 +63,6 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_LEAFLET_NON_CORONARY = 2
   integer(c_int32_t), parameter :: RIIS_LEAFLET_ANTERIOR = 0
   integer(c_int32_t), parameter :: RIIS_LEAFLET_POSTERIOR = 1
-  integer(c_int32_t), parameter :: RIIS_LEAFLET_SEPTAL = 2
   integer(c_int32_t), parameter :: RIIS_LEAFLET_POSITIVE = 0
   integer(c_int32_t), parameter :: RIIS_LEAFLET_NEGATIVE = 1
   integer(c_int32_t), parameter :: RIIS_LEAFLET_HOUSING = 2

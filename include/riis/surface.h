@@ -25,8 +25,8 @@ enum {
   RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; other cusps: the second one */
   RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; other cusps: the third one. The fourth one has the id 3 */
   RIIS_LEAFLET_ANTERIOR = 0,    /* mitral, mitral_coapting, tricuspid: the anterior leaflet */
-  RIIS_LEAFLET_POSTERIOR = 1,   /* mitral, mitral_coapting, tricuspid: the posterior leaflet, with all its scallops */
-  RIIS_LEAFLET_SEPTAL = 2,      /* tricuspid: the septal leaflet */
+  RIIS_LEAFLET_POSTERIOR = 1,   /* mitral, mitral_coapting: the posterior leaflet, with all its scallops.
+                                   tricuspid: 1 is the septal leaflet, and 2 the posterior one */
   RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
   RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
   RIIS_LEAFLET_HOUSING = 2,     /* bileaflet: the housing's wall, if ring_height is not 0 */

@@ -102,8 +102,7 @@ class Leaflet(IntEnum):
     LEFT = 1  #: aortic: the left coronary cusp; other cusps: the next one counter-clockwise, seen from +z
     NON_CORONARY = 2  #: aortic; other cusps: the third one. The fourth one has the id 3
     ANTERIOR = 0  #: mitral, mitral_coapting, tricuspid
-    POSTERIOR = 1  #: mitral, mitral_coapting, tricuspid, with all its scallops
-    SEPTAL = 2  #: tricuspid
+    POSTERIOR = 1  #: mitral, mitral_coapting, with all its scallops. tricuspid: 1 is septal, and 2 posterior
     POSITIVE = 0  #: bileaflet: the leaflet at x > 0
     NEGATIVE = 1  #: bileaflet: the leaflet at x < 0
     HOUSING = 2  #: bileaflet: the housing's wall

@@ -610,7 +610,6 @@ TEST(test_constants) {
   assert_int_equal(RIIS_LEAFLET_NON_CORONARY, 2);
   assert_int_equal(RIIS_LEAFLET_ANTERIOR, 0);
   assert_int_equal(RIIS_LEAFLET_POSTERIOR, 1);
-  assert_int_equal(RIIS_LEAFLET_SEPTAL, 2);
   assert_int_equal(RIIS_LEAFLET_POSITIVE, 0);
   assert_int_equal(RIIS_LEAFLET_NEGATIVE, 1);
   assert_int_equal(RIIS_LEAFLET_HOUSING, 2);

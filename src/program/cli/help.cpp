@@ -125,7 +125,7 @@ coapting         three cusps with a zone of coaptation
 bicuspid         two such cusps, and quadricuspid four
 mitral           the paper's two leaflets
 mitral_coapting  two leaflets with a zone of coaptation
-tricuspid        three leaflets with a zone of coaptation: anterior, posterior, septal
+tricuspid        three leaflets with a zone of coaptation: anterior, septal, posterior
 bileaflet        a mechanical prosthesis
 FILE.json        a valve of your own (riis help patches)
 Cusps and commissures have sizes of their own: cusp_0.sector, cusp_0.effective_height, commissure_0.height. Sectors are angles,

@@ -226,19 +226,13 @@ LeafletNames names_of_kind(const std::string &kind) {
                                         {"cusp_1", "cusp 1"},
                                         {"cusp_2", "cusp 2"},
                                         {"cusp_3", "cusp 3"}},
-                            atrioventricular = {{"anterior", "anterior"},
-                                                {"posterior", "posterior"},
-                                                {"septal", "septal"}},
+                            mitral = {{"anterior", "anterior"}, {"posterior", "posterior"}},
+                            tricuspid = {{"anterior", "anterior"}, {"septal", "septal"}, {"posterior", "posterior"}},
                             mechanical = {{"positive", "x > 0"}, {"negative", "x < 0"}, {"housing", "housing"}};
-  static const std::map<std::string, LeafletNames> names = {{"aortic", coronary},
-                                                            {"coapting", coronary},
-                                                            {"trileaflet", coronary},
-                                                            {"bicuspid", numbered},
-                                                            {"quadricuspid", numbered},
-                                                            {"mitral", atrioventricular},
-                                                            {"mitral_coapting", atrioventricular},
-                                                            {"tricuspid", atrioventricular},
-                                                            {"bileaflet", mechanical}};
+  static const std::map<std::string, LeafletNames> names = {
+      {"aortic", coronary},        {"coapting", coronary},     {"trileaflet", coronary},
+      {"bicuspid", numbered},      {"quadricuspid", numbered}, {"mitral", mitral},
+      {"mitral_coapting", mitral}, {"tricuspid", tricuspid},   {"bileaflet", mechanical}};
   const auto known = names.find(kind);
   return known == names.end() ? LeafletNames{} : known->second;
 }
