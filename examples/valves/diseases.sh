@@ -5,7 +5,7 @@
 
 # ./run diseases
 #   Draws the diseases of `riis help diseases` on one sheet, out/diseases.png. Each valve is drawn from above, closed and open. A
-#   lifted leaflet is drawn closed, from above and from the side.
+#   prolapse is drawn closed, from above and aside.
 run_diseases() {
   packages=("${demo_packages[@]}")
   install_missing
@@ -19,19 +19,22 @@ run_diseases_sheet() {
   local name second state opening view picture n=0 inputs=() parts='' tiles='' layout=''
   mkdir -p out/diseases
   for name in $("$build/bin/riis" help diseases | grep -oE '^[a-z]+_[[:alnum:]_]+ '); do
-    second="1 top"
-    [[ $name != *_P2 ]] || second="0 side"
+    case $name in
+      *_P2) second="0 side" ;;
+      *_prolapse) second="0 oblique" ;;
+      *) second="1 top" ;;
+    esac
     for state in "0 top" "$second"; do
       read -r opening view <<<"$state"
       picture=out/diseases/${name}_${opening}_$view.png
       "$build/bin/riis" surface --valve "$name" --opening "$opening" --quiet --view "$view" --picture "$picture" || return
       inputs+=(-i "$picture")
-      parts+="[$n]crop=0.58*iw:0.88*ih:0.21*iw:0.06*ih,scale=164:-1[p$n];"
+      parts+="[$n]crop=0.58*iw:0.84*ih:0.21*iw:0.06*ih,scale=164:-1[p$n];"
       n=$((n + 1))
     done
-    parts+="[p$((n - 2))][p$((n - 1))]hstack,pad=328:142:0:18:white,drawtext=text='$name':x=6:y=2:fontsize=14[t$n];"
+    parts+="[p$((n - 2))][p$((n - 1))]hstack,pad=328:137:0:18:white,drawtext=text='$name':x=6:y=2:fontsize=14[t$n];"
     tiles+="[t$n]"
-    layout+="|$(((n / 2 - 1) % 4 * 328))_$(((n / 2 - 1) / 4 * 142))"
+    layout+="|$(((n / 2 - 1) % 4 * 328))_$(((n / 2 - 1) / 4 * 137))"
   done
   ffmpeg -y -loglevel error "${inputs[@]}" -frames:v 1 \
     -filter_complex "$parts${tiles}xstack=inputs=$((n / 2)):layout=${layout:1}:fill=white" out/diseases.png
