@@ -799,7 +799,8 @@ TEST(every_parameter_by_name) {
   riis_valve *valve = new_valve("coapting");
   int64_t n;
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
-  assert_int_equal(n, n_sizes + 3); /* the translation, the opening and the length of a skirt */
+  /* The translation, the opening, the length of a skirt and the edge's stretch, then those of commissures, cusps and bumps. */
+  assert_int_equal(n, n_sizes + 4 + 3 * 2 + 3 * 4 + 6 * 6);
   riis_surface *half_open = new_surface(valve_at("coapting", 0.5), NULL);
   for (int i = 0; i < n_sizes; ++i) {
     riis_parameter parameter;

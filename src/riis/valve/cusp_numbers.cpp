@@ -226,11 +226,12 @@ HalfSector half_sector(double sector_degrees) {
   HalfSector made{sine, cosine, arc_reach(sector_degrees / 2), tangent_on_cylinder(sine, cosine) / on_cylinder_60,
                   std::nullopt};
   if (sector_degrees > most_of_one_piece) {
-    const double angle =
-        sector_degrees / 2 - 60;  // the second piece is the attachment of a cusp with a sector of 120 degrees
-    const auto [arc_sine, arc_cosine] = sine_cosine_degrees(angle);
-    made.attachment_factor = 1;
-    made.arc = AttachmentArc{arc_sine, arc_cosine, arc_reach(angle) / on_cylinder_60};
+    // The arc ends at the middle of the one cubic. The second piece is built as the one cubic of a narrower cusp.
+    const double arc_cosine = (1 + cosine) / 2, arc_sine = std::sqrt(1 - arc_cosine * arc_cosine);
+    const double on_cylinder =
+        tangent_on_cylinder(sine * arc_cosine - cosine * arc_sine, cosine * arc_cosine + sine * arc_sine);
+    made.attachment_factor = on_cylinder / on_cylinder_60;
+    made.arc = AttachmentArc{arc_sine, arc_cosine, arc_reach(std::acos(arc_cosine) / pi * 180) / on_cylinder};
   }
   return made;
 }

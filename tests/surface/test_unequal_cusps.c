@@ -1,0 +1,404 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Coapting valves with two to four cusps, with unequal cusps, with fused commissures and with bumps: what holds exactly
+ * (docs/theory/coapting.md). */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+
+#include "cusp_checks.h"
+
+typedef struct point {
+  double x[3];
+} point;
+typedef struct cubic {
+  point q[4];
+} cubic;
+
+enum { v0, v1, u0, u1 };
+
+static const char *const kinds[3] = {"bicuspid", "coapting", "quadricuspid"};
+static int n_cusps_of(int kind) { return kind + 2; }
+
+static void set_of(riis_valve *valve, const char *owner, int number, const char *name, double value) {
+  char text[64];
+  snprintf(text, sizeof text, "%s_%d.%s", owner, number, name);
+  CHECK_OK(riis_valve_set_scalar(valve, text, value));
+}
+
+static riis_valve_patches patches_of(riis_valve *valve, double opening) {
+  riis_valve_patches patches;
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
+  CHECK_OK(riis_valve_get_patches(valve, &patches, sizeof patches));
+  return patches;
+}
+
+static int64_t patch_of(const riis_valve_patches *patches, int32_t patch_id) {
+  int64_t patch = 0;
+  while (patches->patch_id[patch] != patch_id) assert_true(++patch < patches->n_patches);
+  return patch;
+}
+
+/* Returns the last piece of a side in the direction of the curve, as a cubic. A quadratic is raised to one. */
+static cubic side_of(const riis_valve_patches *patches, int32_t patch_id, int side) {
+  const int64_t curve = patches->curve_id[4 * patch_of(patches, patch_id) + side];
+  const int64_t piece = patches->first_piece[curve + 1] - 1;
+  const double *control = patches->control;
+  for (int64_t i = 0; i < piece; ++i) control += 3 * (patches->degree[i] + 1);
+  point q[4];
+  memcpy(q, control, sizeof(point) * (size_t)(patches->degree[piece] + 1));
+  if (patches->degree[piece] == 3) return (cubic){{q[0], q[1], q[2], q[3]}};
+  cubic raised = {{q[0], q[0], q[2], q[2]}};
+  for (int c = 0; c < 3; ++c) {
+    raised.q[1].x[c] = (q[0].x[c] + 2 * q[1].x[c]) / 3;
+    raised.q[2].x[c] = (2 * q[1].x[c] + q[2].x[c]) / 3;
+  }
+  return raised;
+}
+
+static double apart(point a, point b) { return hypot(hypot(a.x[0] - b.x[0], a.x[1] - b.x[1]), a.x[2] - b.x[2]); }
+
+static double length_of_derivative(const cubic *curve, double t) {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) {
+    double d[3];
+    for (int i = 0; i < 3; ++i) d[i] = curve->q[i + 1].x[c] - curve->q[i].x[c];
+    const double s = 3 * ((1 - t) * (1 - t) * d[0] + 2 * t * (1 - t) * d[1] + t * t * d[2]);
+    sum += s * s;
+  }
+  return sqrt(sum);
+}
+
+/* The length by the rule of docs/theory/coapting.md, "How it opens". */
+static double length_by_rule(const cubic *curve) {
+  static const double at[4] = {0.06943184420297371239, 0.33000947820757186760, 0.66999052179242813240,
+                               0.93056815579702628761};
+  static const double weight[4] = {0.17392742256872692869, 0.32607257743127307131, 0.32607257743127307131,
+                                   0.17392742256872692869};
+  double sum = 0;
+  for (int i = 0; i < 16; ++i)
+    for (int k = 0; k < 4; ++k) sum += weight[k] / 16 * length_of_derivative(curve, (i + at[k]) / 16);
+  return sum;
+}
+
+/* The length of the part of a free edge that opens. */
+static double free_length(const riis_valve_patches *patches, int cusp) {
+  const cubic edges[2] = {side_of(patches, 4 * cusp + 1, v1), side_of(patches, 4 * cusp + 3, v1)};
+  return length_by_rule(&edges[0]) + length_by_rule(&edges[1]);
+}
+
+/* Sets random sizes of the whole valve, which a valve of this kind accepts nearly always. */
+static void set_sizes(random_source *random, riis_valve *valve) {
+  const double rc = random_between(random, 1.1, 1.4), h = rc * random_between(random, 1.35, 1.5);
+  CHECK_OK(riis_valve_set_scalar(valve, "root_radius", rc * random_between(random, 0.95, 1.05)));
+  CHECK_OK(riis_valve_set_scalar(valve, "commissure_radius", rc));
+  CHECK_OK(riis_valve_set_scalar(valve, "commissure_height", h));
+  CHECK_OK(riis_valve_set_scalar(valve, "coaptation_height", rc * random_between(random, 0.25, 0.32)));
+  CHECK_OK(riis_valve_set_scalar(valve, "belly", random_between(random, 0.4, 0.55)));
+}
+
+/* Gives each cusp and each commissure its own sizes, within a share of the defaults. */
+static void set_own_sizes(random_source *random, riis_valve *valve, int n_cusps, double share) {
+  double h, h_e;
+  CHECK_OK(riis_valve_get(valve, "commissure_height", 1, &h));
+  CHECK_OK(riis_valve_get(valve, "effective_height", 1, &h_e));
+  for (int k = 0; k < n_cusps; ++k) {
+    set_of(valve, "cusp", k, "sector", 360.0 / n_cusps * random_between(random, 1 - share, 1 + share));
+    set_of(valve, "cusp", k, "effective_height", h_e * random_between(random, 1 - share / 4, 1 + share / 4));
+    set_of(valve, "cusp", k, "open_radius_ratio", random_between(random, 0.7, 0.9));
+    set_of(valve, "commissure", k, "height", h * random_between(random, 1 - share / 4, 1 + share / 4));
+  }
+}
+
+/* Returns a valve of the kind with unequal cusps that the library accepts, fused if `fusion` is not 0. */
+static riis_valve *unequal_valve(random_source *random, int kind, double fusion) {
+  for (;;) {
+    riis_valve *valve = new_valve(kinds[kind]);
+    riis_surface *surface = NULL;
+    set_sizes(random, valve);
+    set_own_sizes(random, valve, n_cusps_of(kind), 0.15);
+    if (fusion > 0) set_of(valve, "commissure", 0, "fusion", fusion);
+    const riis_status status = riis_surface_create(valve, NULL, &surface);
+    riis_surface_destroy(&surface);
+    if (status == RIIS_OK) return valve;
+    assert_int_equal(status, RIIS_INVALID_PARAMETER);
+    free_one_owned(valve);
+  }
+}
+
+/* A bump that does nothing gives each cusp patches of its own. They are where the images of equal cusps are. */
+TEST(equal_cusps_are_where_their_own_patches_would_be) {
+  random_source random = random_start("test_unequal_cusps");
+  for (int trial = 0; trial < trials_of(9); ++trial) {
+    const int kind = trial % 3;
+    riis_valve *images = new_valve(kinds[kind]), *own_patches = NULL;
+    set_sizes(&random, images);
+    if (trial % 2)
+      for (int k = 0; k < n_cusps_of(kind); ++k) set_of(images, "commissure", k, "fusion", 0.25);
+    CHECK_OK(riis_valve_copy(images, &own_patches));
+    own(own_patches);
+    set_of(own_patches, "bump", 0, "leaflet", 0);
+    for (int i = 0; i <= 4; ++i) {
+      const riis_valve_patches a = patches_of(images, i / 4.0), b = patches_of(own_patches, i / 4.0);
+      assert_int_equal(a.n_patches, b.n_patches);
+      for (int64_t patch = 0; patch < a.n_patches; ++patch)
+        for (int side = v0; side <= u1; ++side) {
+          const cubic p = side_of(&a, a.patch_id[patch], side), q = side_of(&b, a.patch_id[patch], side);
+          for (int k = 0; k < 4; ++k) CHECK_AT_MOST(apart(p.q[k], q.q[k]), 1e-13);
+        }
+    }
+  }
+}
+
+/* Sectors are scaled to a sum of 360 degrees, and sizes of a cusp may repeat those of the valve. */
+TEST(equal_sizes_by_other_names_are_the_same_valve) {
+  for (int kind = 0; kind < 3; ++kind) {
+    riis_valve *plain = valve_at(kinds[kind], 0.6), *other = valve_at(kinds[kind], 0.6);
+    for (int k = 0; k < n_cusps_of(kind); ++k) {
+      double h;
+      set_of(other, "cusp", k, "sector", 77);
+      CHECK_OK(riis_valve_get(plain, "effective_height", 1, &h));
+      set_of(other, "cusp", k, "effective_height", h);
+      CHECK_OK(riis_valve_get(plain, "commissure_height", 1, &h));
+      set_of(other, "commissure", k, "height", h);
+    }
+    assert_true(is_same_content(new_surface(plain, NULL), new_surface(other, NULL)));
+    double value;
+    CHECK_OK(riis_valve_get(other, "cusp_1.sector", 1, &value));
+    CHECK_SAME(value, 77);
+    CHECK_OK(riis_valve_get(plain, "cusp_1.sector", 1, &value));
+    CHECK_SAME(value, 360.0 / n_cusps_of(kind));
+    CHECK_OK(riis_valve_set_scalar(plain, "effective_height", 0.95));
+    CHECK_OK(riis_valve_get(plain, "cusp_1.effective_height", 1, &value));
+    CHECK_SAME(value, 0.95);
+  }
+}
+
+/* The free edge keeps its length, or grows by edge_stretch in proportion to the opening. */
+TEST(free_edges_keep_their_length) {
+  random_source random = random_start("test_unequal_cusps");
+  double worst = 0;
+  for (int trial = 0; trial < trials_of(18); ++trial) {
+    const int owned_before = n_owned(), kind = trial % 3;
+    riis_valve *valve = unequal_valve(&random, kind, trial % 2 ? 0.3 : 0);
+    double stretch;
+    CHECK_OK(riis_valve_get(valve, "edge_stretch", 1, &stretch));
+    double at_rest[4];
+    for (int i = 0; i <= 10; ++i) {
+      const riis_valve_patches patches = patches_of(valve, i / 10.0);
+      for (int k = 0; k < n_cusps_of(kind); ++k) {
+        const double length = free_length(&patches, k);
+        if (i == 0) at_rest[k] = length;
+        worst = fmax(worst, fabs(length / (at_rest[k] * (1 + stretch * i / 10)) - 1));
+      }
+    }
+    free_owned_after(owned_before);
+  }
+  printf("free edges keep their length to %.1e\n", worst);
+  CHECK_AT_MOST(worst, 1e-12);
+}
+
+static int is_same_point(const double *a, const double *b) { return memcmp(a, b, 3 * sizeof *a) == 0; }
+
+/* The halves of a cusp meet in its symmetry plane, and neighbours in their commissure, to the last bit. */
+TEST(neighbours_share_their_points) {
+  random_source random = random_start("test_unequal_cusps");
+  for (int trial = 0; trial < trials_of(12); ++trial) {
+    const int owned_before = n_owned(), kind = trial % 3, n = n_cusps_of(kind);
+    riis_valve *valve = unequal_valve(&random, kind, trial % 2 ? 0.3 : 0);
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", random_between(&random, 0, 1)));
+    CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", trial % 4 < 2 ? 0 : 0.2));
+    const riis_triangles all = triangles_of(new_surface(valve, NULL));
+    /* The ends of the attachments, from both neighbours. */
+    double commissures[4][3];
+    int is_known[4] = {0, 0, 0, 0}, n_checked = 0;
+    for (int64_t i = 0; i < 3 * all.n_triangles; ++i) {
+      const int32_t patch = all.patch_id[i / 3];
+      const int64_t v = all.vertex_id[i];
+      const int has_end = patch >= 4 * n ? patch < 8 * n : 1;
+      if (!has_end || patch % 2 == 0 || all.uv[2 * v] != 1 || all.uv[2 * v + 1] != 1) continue;
+      const int cusp = patch / 4 % n, commissure = patch % 4 == 1 ? cusp : (cusp + n - 1) % n;
+      const double *p = all.xyz + 3 * v;
+      if (patch < 4 * n && trial % 2 && commissure == 0) continue; /* the end of a free part */
+      if (is_known[commissure]) assert_true(is_same_point(commissures[commissure], p)), ++n_checked;
+      memcpy(commissures[commissure], p, sizeof commissures[0]), is_known[commissure] = 1;
+    }
+    assert_true(n_checked >= n);
+    for (int k = 0; k < n; ++k) assert_true(is_known[k]);
+    /* Both halves have the same curves in the symmetry plane. */
+    const riis_valve_patches patches = patches_of(valve, 0.5);
+    for (int k = 0; k < n; ++k)
+      for (int part = 0; part < 2; ++part) {
+        const int64_t here = patch_of(&patches, 4 * k + part), there = patch_of(&patches, 4 * k + 2 + part);
+        /* The mirrored half is given with u reversed. */
+        assert_int_equal(patches.curve_id[4 * here + u0], patches.curve_id[4 * there + u1]);
+        const cubic a = side_of(&patches, 4 * k + part, v1), b = side_of(&patches, 4 * k + 2 + part, v1);
+        assert_true(is_same_point(a.q[0].x, b.q[0].x));
+      }
+    free_owned_after(owned_before);
+  }
+}
+
+/* Seen along the axis, the attachment is near the cylinder: as docs/theory/coapting.md says for one piece and for two. */
+TEST(attachments_are_on_the_cylinder) {
+  for (double sector = 120; sector <= 240; sector += 5) {
+    riis_valve *valve = new_valve("bicuspid");
+    set_of(valve, "cusp", 0, "sector", sector);
+    set_of(valve, "cusp", 1, "sector", 360 - sector);
+    const riis_triangles all = triangles_of(new_surface(valve, NULL));
+    double worst = 0;
+    for (int64_t i = 0; i < 3 * all.n_triangles; ++i) {
+      const int64_t v = all.vertex_id[i];
+      if (all.patch_id[i / 3] % 2 == 1 || all.uv[2 * v] != 1) continue;
+      worst = fmax(worst, fabs(hypot(all.xyz[3 * v], all.xyz[3 * v + 1]) / 1.25 - 1));
+    }
+    printf("sectors %.0f and %.0f: the attachment is off the cylinder by %.2f %%\n", sector, 360 - sector, 100 * worst);
+    CHECK_AT_MOST(worst, 0.032);
+    if (sector == 240) CHECK_AT_MOST(worst, 0.004);
+  }
+}
+
+/* Returns the length of half an open free edge without sag, by chords, from the formulas of the document. */
+static double open_length(double ratio, double radius, double half_sector, double expansion) {
+  const double s = sin(half_sector), c = cos(half_sector), w = 4 / 3.0 * tan(half_sector / 4) * radius;
+  const double flat = fmin(1, fmax(0, (ratio - c) / (1 - c) / 0.7)), near = fmax(0, 1 - fabs(c - 0.5) / 0.22);
+  const double k = fmax(flat, near), x = (1 + expansion) * radius * c, y = (1 + expansion) * radius * s;
+  const double q[4][2] = {{ratio * radius, 0}, {ratio * radius, w}, {x + w * k * s, y - w * (k * c + 1 - k)}, {x, y}};
+  double length = 0, last[2] = {q[0][0], 0};
+  for (int i = 1; i <= 20000; ++i) {
+    const double t = i / 20000.0, b[4] = {pow(1 - t, 3), 3 * t * pow(1 - t, 2), 3 * t * t * (1 - t), t * t * t};
+    double p[2] = {0, 0};
+    for (int k4 = 0; k4 < 4; ++k4)
+      for (int d = 0; d < 2; ++d) p[d] += b[k4] * q[k4][d];
+    length += hypot(p[0] - last[0], p[1] - last[1]);
+    memcpy(last, p, sizeof last);
+  }
+  return length;
+}
+
+/* The edge of a wide cusp opens like a fish's mouth: until 0.97 of its length is used. */
+TEST(wide_cusps_open_as_far_as_their_edge_allows) {
+  static const double sectors[3] = {180, 160, 220}, stretches[3] = {0, 0.1, 0.05};
+  for (int trial = 0; trial < 3; ++trial) {
+    riis_valve *valve = new_valve("bicuspid");
+    set_of(valve, "cusp", 0, "sector", sectors[trial]);
+    set_of(valve, "cusp", 1, "sector", 360 - sectors[trial]);
+    CHECK_OK(riis_valve_set_scalar(valve, "edge_stretch", stretches[trial]));
+    const riis_valve_patches closed = patches_of(valve, 0);
+    const double length = (1 + stretches[trial]) * free_length(&closed, 0) / 2;
+    double low = 0.01, high = 0.85;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = (low + high) / 2;
+      *(open_length(middle, 1.25, sectors[trial] / 2 * cusp_degree, 0.05) <= 0.97 * length ? &low : &high) = middle;
+    }
+    const riis_valve_patches open = patches_of(valve, 1);
+    printf("sector %.0f, stretch %.2f: the ratio is %.4f\n", sectors[trial], stretches[trial], low);
+    CHECK_NEAR(side_of(&open, 1, v1).q[0].x[0] / 1.25, low, 1e-6);
+  }
+}
+
+/* The free and the fused part are the healthy closed edge, and the fused part follows the commissure as it is. */
+TEST(fused_parts_stay_as_in_the_closed_valve) {
+  for (int kind = 0; kind < 3; ++kind) {
+    const int n = n_cusps_of(kind);
+    const double fusion = 0.35;
+    riis_valve *healthy = new_valve(kinds[kind]), *fused = new_valve(kinds[kind]);
+    set_of(fused, "commissure", 0, "fusion", fusion);
+    const riis_valve_patches whole = patches_of(healthy, 0), rest = patches_of(fused, 0);
+    const cubic edge = side_of(&whole, 1, v1), free_part = side_of(&rest, 1, v1), end = side_of(&rest, 4 * n + 1, v1);
+    for (int c = 0; c < 3; ++c) { /* de Casteljau */
+      CHECK_NEAR(free_part.q[0].x[c], edge.q[0].x[c], 1e-14);
+      CHECK_NEAR(free_part.q[1].x[c], fusion * edge.q[0].x[c] + (1 - fusion) * edge.q[1].x[c], 1e-14);
+      CHECK_NEAR(end.q[2].x[c], fusion * edge.q[2].x[c] + (1 - fusion) * edge.q[3].x[c], 1e-14);
+      CHECK_NEAR(end.q[3].x[c], edge.q[3].x[c], 1e-14);
+      CHECK_NEAR(end.q[0].x[c], free_part.q[3].x[c], 1e-14);
+    }
+    const cubic before[2] = {side_of(&rest, 4 * n, v1), end};
+    const riis_valve_patches open = patches_of(fused, 1);
+    for (int patch = 0; patch < 2; ++patch) {
+      const cubic after = side_of(&open, 4 * n + patch, v1);
+      for (int k = 0; k < 4; ++k)
+        for (int c = 0; c < 3; ++c)
+          CHECK_NEAR(after.q[k].x[c] - before[patch].q[k].x[c], after.q[3].x[c] - before[patch].q[3].x[c], 1e-14);
+    }
+  }
+}
+
+/* A bump mixes the states of its own leaflet, and leaves the others as they are. */
+TEST(bumps_mix_the_two_states) {
+  static const double shares[2] = {0.2, 0.6};
+  for (int kind = 0; kind < 3; ++kind) {
+    riis_valve *healthy = new_valve(kinds[kind]), *sick = new_valve(kinds[kind]);
+    set_of(healthy, "bump", 0, "leaflet", 1);
+    set_of(sick, "bump", 0, "leaflet", 1);
+    set_of(sick, "bump", 0, "closed", shares[0]);
+    set_of(sick, "bump", 0, "open", shares[1]);
+    double x[2];
+    for (int i = 0; i < 2; ++i) {
+      const riis_valve_patches patches = patches_of(healthy, i);
+      const cubic edge = side_of(&patches, 5, v1);
+      x[i] = hypot(edge.q[0].x[0], edge.q[0].x[1]);
+    }
+    for (int i = 0; i < 2; ++i) {
+      const riis_valve_patches patches = patches_of(sick, i);
+      const cubic edge = side_of(&patches, 5, v1);
+      CHECK_NEAR(hypot(edge.q[0].x[0], edge.q[0].x[1]), (1 - shares[i]) * x[0] + shares[i] * x[1], 1e-14);
+      cubic of_sick[4], of_healthy[4];
+      for (int k = 0; k < 4; ++k) of_sick[k] = side_of(&patches, 0, k);
+      const riis_valve_patches of = patches_of(healthy, i);
+      for (int k = 0; k < 4; ++k) of_healthy[k] = side_of(&of, 0, k);
+      assert_memory_equal(of_sick, of_healthy, sizeof of_sick);
+    }
+  }
+}
+
+TEST(the_skirt_has_its_own_leaflet) {
+  for (int kind = 0; kind < 3; ++kind) {
+    riis_valve *valve = new_valve(kinds[kind]);
+    CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", 0.2));
+    const riis_triangles all = triangles_of(new_surface(valve, NULL));
+    int32_t largest = 0;
+    for (int64_t t = 0; t < all.n_triangles; ++t) largest = all.leaflet_id[t] > largest ? all.leaflet_id[t] : largest;
+    assert_int_equal(largest, kind == 2 ? 4 : RIIS_LEAFLET_SKIRT);
+  }
+}
+
+TEST(values_that_do_not_go_together_are_refused) {
+  riis_surface *surface = NULL;
+#define REFUSES(kind, owner, number, name, value, text)                                      \
+  do {                                                                                       \
+    riis_valve *valve = new_valve(kind);                                                     \
+    set_of(valve, owner, number, name, value);                                               \
+    CHECK_REFUSED(RIIS_INVALID_PARAMETER, text, riis_surface_create(valve, NULL, &surface)); \
+    assert_null(surface);                                                                    \
+  } while (0)
+  REFUSES("bicuspid", "cusp", 0, "sector", 60,
+          "cusp_1.sector is 180, which is 270 degrees of a sum of 360|from 50 to 240");
+  REFUSES("quadricuspid", "cusp", 2, "sector", 40, "cusp_2.sector is 40, which is 46.4|from 50 to 240 degrees");
+  REFUSES("coapting", "cusp", 2, "effective_height", 1.74, "cusp_2.effective_height is 1.74|commissure_1.height");
+  REFUSES("coapting", "cusp", 1, "coaptation_height", 0.9, "cusp_1.coaptation_height is 0.9|cusp_1.effective_height");
+  REFUSES("coapting", "commissure", 1, "height", 0.3, "commissure_1.height is 0.3|commissure_radius, which is 1.25");
+  riis_valve *narrow = new_valve("bicuspid");
+  for (int k = 0; k < 2; ++k) set_of(narrow, "commissure", k, "fusion", 0.6);
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "commissure_0.fusion is 0.6|0.06 pi commissure_radius^2",
+                riis_surface_create(narrow, NULL, &surface));
+  riis_valve *wide = new_valve("bicuspid");
+  set_of(wide, "cusp", 1, "sector", 360);
+  set_of(wide, "commissure", 0, "fusion", 0.6);
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the open free edge of cusp 1 is at least|too short to open so far",
+                riis_surface_create(wide, NULL, &surface));
+  riis_valve *low = new_valve("coapting");
+  CHECK_OK(riis_valve_set_scalar(low, "edge_rise", 0));
+  set_of(low, "cusp", 1, "effective_height", 0.38);
+  set_of(low, "cusp", 1, "coaptation_height", 0.1);
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "cusp 1 would fold|cusp_1.effective_height 0.38",
+                riis_surface_create(low, NULL, &surface));
+  riis_valve *valve = new_valve("bicuspid"), *other = new_valve("bicuspid");
+  set_of(other, "cusp", 0, "sector", 150);
+  CHECK_OK(riis_valve_set_open_state(valve, other));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "in the open state: the sector of cusp 0 is|both must be equal",
+                riis_surface_create(valve, NULL, &surface));
+}
+
+int main(void) { return run_cases(NULL, NULL); }
