@@ -166,12 +166,6 @@ bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t
 
 }  // namespace
 
-Bezier cubic_through(Vec3 first, Vec3 at_third, Vec3 at_two_thirds, Vec3 last) {
-  constexpr double sixth = 1.0 / 6;
-  return Bezier::cubic(first, sixth * (-5 * first + 18 * at_third - 9 * at_two_thirds + 2 * last),
-                       sixth * (2 * first - 9 * at_third + 18 * at_two_thirds - 5 * last), last);
-}
-
 Vec3 evaluate(const Bezier &curve, double t) {
   if (t == 1.0) return curve.last();
   std::array<Vec3, 4> q = curve.control;

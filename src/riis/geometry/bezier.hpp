@@ -37,9 +37,6 @@ struct Bezier {
   Vec3 last() const { return view(control)[degree]; }
 };
 
-// Returns the cubic from `first` to `last` that passes through these points at 1/3 and 2/3.
-Bezier cubic_through(Vec3 first, Vec3 at_third, Vec3 at_two_thirds, Vec3 last);
-
 // Returns B(t) for t in [0,1]. At t = 0 and t = 1 it is exactly the end point.
 Vec3 evaluate(const Bezier &curve, double t);
 

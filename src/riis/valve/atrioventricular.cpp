@@ -43,10 +43,11 @@ constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
 constexpr double lift_of_start = 0.3;
 // A leaflet that is too short moves back in steps until less than this share of it lacks.
 constexpr int most_steps = 60;
-constexpr double rounding = 1e-12;
-// The sizes must leave so much of a lap to a leaflet, so much of the annulus' depth to its way to the meeting point, and so much of
-// the way from a commissure to it. At most so much of a leaflet coapts.
-constexpr double least_ratio = 0.05, least_way = 0.12, most_of_way = 0.8, most_coaptation = 0.7;
+constexpr double rounding = 1e-12, rounding_of_zone = 1e-6;
+// A leaflet has at least this share of the annulus, and its way to the meeting point this share of the annulus' depth.
+constexpr double least_ratio = 0.05, least_way = 0.12;
+// A commissure takes at most this share of the way to the meeting point, and the zone this share of a leaflet.
+constexpr double most_of_way = 0.8, most_coaptation = 0.7;
 // The rates of the control points are differences over this step of the opening. The rates only determine where vertices are
 // dense.
 constexpr double rate_step = 1e-4;
@@ -54,8 +55,8 @@ constexpr double rate_step = 1e-4;
 // Positions in the list of specs behind the leaflets' own sizes.
 // clang-format off
 enum Parameter : std::size_t {
-  width, depth, flatness, saddle_height, flat_ratio, commissure_length, commissure_angle, commissure_coaptation, tenting_height, gap,
-  belly, turn, open_angle, translation, opening_, skirt_length, first_bump
+  width, depth, flatness, saddle_height, flat_ratio, commissure_length, commissure_angle, commissure_coaptation, tenting_height,
+  gap, belly, turn, open_angle, translation, opening_, skirt_length, first_bump
 };
 // clang-format on
 
@@ -91,6 +92,9 @@ class Sizes {
   const ParameterValues &values_;
 };
 
+Vec3 level(Vec3 p) { return {p.x, p.y, 0}; }
+Vec3 unit(Vec3 p) { return (1 / length(p)) * p; }
+
 // A place of the annulus, and the horizontal direction inwards.
 struct Hinge {
   Vec3 point, inwards;
@@ -117,6 +121,12 @@ class Annulus {
     }
     // Neighbours have the same commissure, even at the end of a lap.
     leaflets_.back()[n_cells].hinge = leaflets_.front()[0].hinge;
+  }
+
+  // Commissures lead towards the point where all leaflets meet, so that neighbours stay on their sides of one plane.
+  void turn_commissures(Vec3 to) {
+    for (AtPlaces<Place> &leaflet : leaflets_)
+      for (Hinge *hinge : {&leaflet[0].hinge, &leaflet[n_cells].hinge}) hinge->inwards = unit(level(to - hinge->point));
   }
 
   const Hinge &hinge(std::size_t leaflet, std::size_t place) const { return leaflets_[leaflet][place].hinge; }
@@ -149,9 +159,6 @@ struct Leaflet {
   AtPlaces<double> body;      // the lengths of the meridians down to the coaptation line
   AtPlaces<double> whole;     // and down to the free edge
 };
-
-Vec3 level(Vec3 p) { return {p.x, p.y, 0}; }
-Vec3 unit(Vec3 p) { return (1 / length(p)) * p; }
 
 // The control points are those of two cubics, which meet at the middle place. Returns the parts of these between the places.
 std::array<Bezier, n_cells> parts(const AtPlaces<Vec3> &q) {
@@ -196,6 +203,12 @@ Vec3 meeting_point(const Sizes &sizes, const Annulus &annulus) {
   return at;
 }
 
+Annulus annulus_of(const Sizes &sizes) {
+  Annulus annulus(sizes.annulus(), sizes.commissures());
+  annulus.turn_commissures(meeting_point(sizes, annulus));
+  return annulus;
+}
+
 // Closed, a free edge ends at this point of a commissure, and the coaptation line ends above it.
 Vec3 end_of_edge(const Sizes &sizes, const Hinge &hinge) {
   return hinge.hang(sizes.of(commissure_length), sine_cosine_degrees(sizes.of(commissure_angle)));
@@ -218,29 +231,27 @@ double closed_length(const Sizes &sizes, Vec3 hinge, Vec3 on_line) {
 Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, const Bumps &bumps) {
   const Vec3 hinge = annulus.hinge(k, middle).point, meeting = meeting_point(sizes, annulus);
   const Vec3 away = unit(level(hinge) - meeting);
-  // The leaflet keeps half the gap from the lines between the meeting point and its commissures.
-  double least_sine = 1;
-  for (const std::size_t end : {std::size_t{0}, n_cells}) {
-    const Vec3 to = unit(level(end_of_edge(sizes, annulus.hinge(k, end))) - meeting);
-    least_sine = std::min(least_sine, std::abs(away.x * to.y - away.y * to.x));
-  }
-  Vec3 on_line = meeting + 0.5 * sizes.of(gap) / least_sine * away - Vec3{0, 0, sizes.of(tenting_height)};
-  double zone = 0;
-  for (int step = 0; step < most_steps; ++step) {
-    zone = sizes.length(k) - closed_length(sizes, hinge, on_line);
-    const double lacking = least_coaptation * sizes.length(k) - zone;
+  // Three leaflets meet in straight lines to the commissures. Two meet in a smile, which is straight in the middle.
+  const auto along = [&](std::size_t end) -> Vec3 {
+    if (sizes.n_leaflets() == 2) return end == 0 ? Vec3{away.y, -away.x, 0} : Vec3{-away.y, away.x, 0};
+    return unit(level(end_of_edge(sizes, annulus.hinge(k, end))) - meeting);
+  };
+  // The leaflet keeps half the gap from these lines.
+  const double sine = std::min(length(cross(away, along(0))), length(cross(away, along(n_cells))));
+  Vec3 on_line = meeting + 0.5 * sizes.of(gap) / sine * away - Vec3{0, 0, sizes.of(tenting_height)};
+  const auto zone_below = [&] { return sizes.length(k) - closed_length(sizes, hinge, on_line); };
+  for (int step = 0; step < most_steps && dot(level(hinge - on_line), away) > 0; ++step) {
+    const double lacking = least_coaptation * sizes.length(k) - zone_below();
     if (!(lacking > rounding * sizes.length(k))) break;
     on_line = on_line + lacking * away;
   }
+  const double zone = zone_below();
   AtPlaces<Vec3> line, edge;
   const double zone_of_commissure = sizes.of(commissure_coaptation) * sizes.of(commissure_length);
   for (const bool is_behind : {false, true}) {
     const auto place = [&](std::size_t i) { return is_behind ? middle + i : middle - i; };
-    const Vec3 end = end_of_edge(sizes, annulus.hinge(k, place(3))), straight = level(end - on_line);
-    // Three leaflets meet in straight lines. Two meet in a smile, which is straight in the middle.
-    Vec3 along = unit(straight);
-    if (sizes.n_leaflets() == 2) along = is_behind ? Vec3{-away.y, away.x, 0} : Vec3{away.y, -away.x, 0};
-    const Vec3 second = level(on_line) + length(straight) / 3 * along;
+    const Vec3 end = end_of_edge(sizes, annulus.hinge(k, place(3)));
+    const Vec3 second = level(on_line) + distance(level(end), level(on_line)) / 3 * along(place(3));
     const std::array<Vec3, 4> plan{level(on_line), second, mix(second, level(end), 0.5), level(end)};
     for (std::size_t i = 0; i < plan.size(); ++i) {
       const auto at_height = [&](double in_middle, double at_end) {
@@ -270,9 +281,6 @@ Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, 
   const SineCosine down = sine_cosine_degrees(sizes.of(open_angle));
   AtPlaces<Vec3> edge;
   for (std::size_t i = 0; i < n_places; ++i) edge[i] = annulus.hinge(k, i).hang(closed.whole[i], down);
-  const Bezier first = cubic_through(edge[0], edge[1], edge[2], edge[3]);
-  const Bezier second = cubic_through(edge[3], edge[4], edge[5], edge[6]);
-  for (std::size_t i = 1; i < middle; ++i) edge[i] = view(first.control)[i], edge[middle + i] = view(second.control)[i];
   // The edge has no corner in the middle.
   const Vec3 along = unit(edge[middle + 1] - edge[middle - 1]);
   edge[middle - 1] = edge[middle] - distance(edge[middle - 1], edge[middle]) * along;
@@ -287,11 +295,14 @@ Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, 
   return made;
 }
 
+// A leaflet first turns about its hinges, and then becomes straight. So lengths run behind: neighbours would otherwise meet.
+double behind(double share) { return share * share; }
+
 // A vector from a hinge swings from one state to another: the vector is blended, and so is its length.
 Vec3 swung(Vec3 from, Vec3 to, double share) {
   const Vec3 blended = riis::blend(from, to, share);
   const double size = length(blended);
-  return size > 0 ? riis::blend(length(from), length(to), share) / size * blended : blended;
+  return size > 0 ? riis::blend(length(from), length(to), behind(share)) / size * blended : blended;
 }
 
 // Returns the length of the middle meridian, down to the free edge.
@@ -309,7 +320,7 @@ Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double>
     const double share = shares[i];
     for (AtPlaces<Vec3> Leaflet::*points : {&Leaflet::edge, &Leaflet::line, &Leaflet::start})
       (made.*points)[i] = swung((closed.*points)[i], (open.*points)[i], share);
-    made.turn[i] = riis::blend(closed.turn[i], open.turn[i], share);
+    made.turn[i] = riis::blend(closed.turn[i], open.turn[i], behind(share));
   }
   const double stretch = riis::blend(middle_length(closed), middle_length(open), shares[middle]) / middle_length(made);
   for (std::size_t i = 0; i < n_places; ++i) {
@@ -348,7 +359,7 @@ class Motion {
  public:
   Motion(const ValveState &closed, const ValveState &open, std::size_t n_leaflets)
       : closed_(closed.values, n_leaflets), open_(open.values, n_leaflets), has_one_annulus_(&closed == &open) {
-    const Annulus of_closed(closed_.annulus(), closed_.commissures()), of_open(open_.annulus(), open_.commissures());
+    const Annulus of_closed = annulus_of(closed_), of_open = annulus_of(open_);
     const Bumps bumps = closed_.bumps(), bumps_when_open = open_.bumps();
     for (std::size_t k = 0; k < n_leaflets; ++k) {
       closed_leaflets_.push_back(closed_leaflet(closed_, of_closed, k, bumps));
@@ -460,7 +471,7 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
       fail(RIIS_INVALID_PARAMETER, "the shares of the annulus leave ", commissures[k + 1] - commissures[k],
            " to one leaflet; it must be at least ", least_ratio, ": look at ", name_of(flat_ratio),
            " and anterior_ratio");
-  const Annulus annulus(sizes.annulus(), commissures);
+  const Annulus annulus = annulus_of(sizes);
   const Vec3 meeting = meeting_point(sizes, annulus);
   const Bumps bumps = sizes.bumps();
   for (std::size_t k = 0; k < n_leaflets; ++k) {
@@ -476,14 +487,24 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
            ", which must be at most ", most_of_way, " times the distance ", room,
            " from a commissure to the meeting point");
     const Leaflet leaflet = closed_leaflet(sizes, annulus, k, bumps);
-    const double zone = leaflet.whole[middle] - leaflet.body[middle];
+    const double zone = sizes.length(k) - leaflet.body[middle];
+    if (!(zone >= (1 - rounding_of_zone) * least_coaptation * sizes.length(k)))
+      fail(RIIS_INVALID_PARAMETER, name(k), " is ", sizes.length(k),
+           ", too short for its part of the annulus with tenting_height ", sizes.of(tenting_height));
+    for (std::size_t i = 0; i < n_places; ++i) {
+      if (!(leaflet.turn[i] > 0))
+        fail(RIIS_INVALID_PARAMETER, "closed, the coaptation line would lie above the annulus: tenting_height is ",
+             sizes.of(tenting_height), ", saddle_height ", sizes.of(saddle_height), ", commissure_coaptation ",
+             sizes.of(commissure_coaptation), ", commissure_angle ", sizes.of(commissure_angle));
+      const double lift = bumps.at(k, u_of(i)).lift;
+      if (!(std::abs(lift) <= across.size))
+        fail(RIIS_INVALID_PARAMETER, "bumps lift the leaflet of ", name(k), " by ", lift, "; that must be at most ",
+             across.name, ", which is ", across.size);
+    }
     if (!(zone <= most_coaptation * sizes.length(k)))
       fail(RIIS_INVALID_PARAMETER, name(k), " is ", sizes.length(k), ", of which ", zone,
            " would coapt; that must be at most ", most_coaptation,
            " of the length: the leaflets are too long for the annulus");
-    if (!(std::abs(leaflet.whole[middle] - sizes.length(k)) <= 1e-6 * sizes.length(k)))
-      fail(RIIS_INVALID_PARAMETER, name(k), " is ", sizes.length(k),
-           ", too short for its part of the annulus with tenting_height ", sizes.of(tenting_height));
   }
 }
 
@@ -491,7 +512,7 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
 struct KindSizes {
   Vector<ParameterSpec> of_leaflets;
   ParameterSpec width, depth, flat_ratio;
-  double saddle_height, commissure_length;
+  double saddle_height, commissure_length, open_angle;
 };
 
 // clang-format off
@@ -502,7 +523,8 @@ const ValveKind *new_kind(const char *name, KindSizes sizes) {
   const Vector<ParameterSpec> common{
     sizes.width, sizes.depth,
     {"flatness", number, "outline of the annulus: 0 an ellipse, 1 a D", 1, {1}, 0, 1},
-    {"saddle_height", length, "height of the annulus from its lowest to its highest points", 1, {sizes.saddle_height}, 0, longest},
+    {"saddle_height", length, "height of the annulus from its lowest to its highest points",
+     1, {sizes.saddle_height}, 0, longest},
     sizes.flat_ratio,
     {"commissure_length", length, "closed: distance of the free edges' ends from the annulus",
      1, {sizes.commissure_length}, shortest, longest},
@@ -514,7 +536,7 @@ const ValveKind *new_kind(const char *name, KindSizes sizes) {
     {"gap", length, "distance between closed leaflets in the middle of the coaptation zone", 1, {0.03}, shortest, longest},
     {"belly", number, "closed: start tangent of a leaflet, times its horizontal reach", 1, {0.55}, 0.1, 0.9},
     {"turn", number, "closed: end tangent of a leaflet above the coaptation line, times its drop", 1, {0.5}, 0.1, 0.9},
-    {"open_angle", degree, "how open leaflets hang: 0 inwards, 90 straight down", 1, {75}, 30, 90},
+    {"open_angle", degree, "how open leaflets hang: 0 inwards, 90 straight down", 1, {sizes.open_angle}, 30, 90},
     {"translation", length, "shift of the valve", 3, {0, 0, 0}, -longest, longest},
     opening_spec("0 closed to 1 open", 0),
   };
@@ -574,7 +596,8 @@ const ValveKind &mitral_coapting_valve_kind() {
        diameter_spec("AP_diameter", "depth of the annulus, from the posterior to the anterior point", 2.7),
        ratio_spec("anterior_ratio", "share of the annulus that the anterior leaflet takes", 0.41),
        0.6,
-       0.8});
+       0.8,
+       79});
   return kind;
 }
 
@@ -587,7 +610,8 @@ const ValveKind &tricuspid_valve_kind() {
        diameter_spec("SL_diameter", "depth of the annulus, from the septal to the lateral point", 3.1),
        ratio_spec("septal_ratio", "share of the annulus that the septal leaflet takes", 0.34),
        0.4,
-       1.2});
+       1.2,
+       75});
   return kind;
 }
 

@@ -29,6 +29,12 @@ struct EndTangents {
   Vec3 at(double u) const { return mix(of_symmetry, of_attachment, u); }
 };
 
+// Returns the cubic from `first` to `last` that passes through these points at 1/3 and 2/3.
+Bezier cubic_through(Vec3 first, Vec3 at_third, Vec3 at_two_thirds, Vec3 last) {
+  constexpr double sixth = 1.0 / 6;
+  return Bezier::cubic(first, sixth * (-5 * first + 18 * at_third - 9 * at_two_thirds + 2 * last),
+                       sixth * (2 * first - 9 * at_third + 18 * at_two_thirds - 5 * last), last);
+}
 
 // Linear least squares for the displacements of the two inner control points of a line.
 class Displacements {
