@@ -316,6 +316,27 @@ TEST(test_parts_in_files) {
   RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("case.vtu"));
 }
 
+/* A run with the closed valve tells of a gap that the band closes. An open valve and a wide gap need no line. */
+TEST(test_gap_of_bumps) {
+#define MARK(...)                                                                                             \
+  run_program("mark", scratch_path("in.vtu"), "--valve", "coapting", "--set", "bump_0.commissure=0", "--set", \
+              "bump_0.closed=0.4", "--tolerance", "0.1", "--stats", scratch_path("gap.json"), __VA_ARGS__, NULL)
+  MARK("--half-thickness", "0.1");
+  assert_non_null(strstr(program_err, "bumps leave a gap of 0.08"));
+  assert_non_null(
+      strstr(program_err, "the band closes gaps of up to 0.2, 2 half thicknesses; a half thickness below 0.05"));
+  MARK("--half-thickness", "0.1", "--offset", "0.25");
+  assert_non_null(
+      strstr(program_err, "the band closes gaps of up to 0.15, 1.5 half thicknesses; a half thickness below 0.07"));
+  MARK("--half-thickness", "0.1", "--offset", "0.75");
+  assert_null(strstr(program_err, "leave a gap"));
+  MARK("--half-thickness", "0.1", "--opening", "0.5");
+  assert_null(strstr(program_err, "leave a gap"));
+  MARK("--half-thickness", "0.1", "--set", "bump_0.closed=0");
+  assert_null(strstr(program_err, "leave a gap"));
+#undef MARK
+}
+
 /* A refusal of an unknown name suggests a similar name. */
 TEST(test_near_names) {
   RUN_REFUSED(1, "'leaflet_angel' is not a parameter of the aortic valve; did you mean 'leaflet_angle'?", "params",

@@ -103,10 +103,10 @@ class PassageTrials {
   riis_surface *surface_ = nullptr;
 };
 
-// Returns the volume of one leaflet after the placement, or the sum of all leaflets without the skirt. `skirt` is -1 without a
-// skirt.
-double placed_volume(const riis::SweptVolumes &volumes, std::int32_t leaflet_id, std::int32_t skirt,
+// Returns the volume of one leaflet after the placement, or the sum of all leaflets without the skirt, which has the largest id.
+double placed_volume(const riis::SweptVolumes &volumes, std::int32_t leaflet_id, bool has_skirt,
                      const riis_surface_options &options) {
+  const std::int32_t skirt = has_skirt ? volumes.rbegin()->first : -1;
   double sum = 0;
   for (const auto &[id, volume] : volumes)
     if (leaflet_id == RIIS_ALL_LEAFLETS ? id != skirt : id == leaflet_id) sum += volume;
@@ -255,7 +255,7 @@ riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_
     const int n_threads =
         riis::threads_for(whole.n_threads, "options.n_threads", triangles_at_all_openings, riis::triangles_per_thread);
     *volume = placed_volume(riis::swept_volumes(content, opening_from, opening_to, n_threads), leaflet_id,
-                            content.skirt_leaflet(), whole);
+                            content.has_skirt(), whole);
   });
 }
 }

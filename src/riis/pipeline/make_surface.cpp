@@ -76,7 +76,7 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
   TriangleSet triangles = fixed ? triangulate_fixed(patches, how, fixed->plan(), surface.take_triangles())
                                 : triangulate_adapted(patches, how, surface.take_triangles());
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
-  triangles.skirt = valve.skirt_leaflet();
+  triangles.skirt = valve.has_skirt() ? skirt_leaflet(patches) : -1;
   const double seconds_triangles = stopwatch.lap();
   // If another method measures distances, makes it first, because the library may refuse it.
   std::unique_ptr<const PatchDistance> distance;

@@ -146,10 +146,8 @@ class Valve {
   };
   Disc disc() const;
 
-  // has_skirt returns whether make_patches adds a skirt. skirt_leaflet returns the leaflet_id of the skirt, or -1 without a
-  // skirt.
+  // Returns whether make_patches adds a skirt.
   bool has_skirt() const { return kind_->skirt_axis != SkirtAxis::none && state_.values[kind_->skirt_length][0] != 0; }
-  std::int32_t skirt_leaflet() const { return has_skirt() ? riis::skirt_leaflet(state_.patches) : -1; }
   // Replaces the skirt by one with these lengths (valve/skirt.hpp). The parameter "skirt_length" becomes the largest of them.
   // Setting that parameter removes the lengths.
   void set_skirt_lengths(SkirtLengths lengths);
