@@ -16,7 +16,7 @@ run_diseases() {
 
 # run_diseases calls this command under a virtual display. The sheet has four diseases in a row.
 run_diseases_sheet() {
-  local name second state opening view picture n=0 inputs=() parts='' tiles='' layout=''
+  local name second state opening view picture n=0 row inputs=() parts='' tiles='' layout=''
   mkdir -p out/diseases
   for name in $("$build/bin/riis" help diseases | grep -oE '^[a-z]+_[[:alnum:]_]+ '); do
     case $name in
@@ -34,7 +34,8 @@ run_diseases_sheet() {
     done
     parts+="[p$((n - 2))][p$((n - 1))]hstack,pad=328:137:0:18:white,drawtext=text='$name':x=6:y=2:fontsize=14[t$n];"
     tiles+="[t$n]"
-    layout+="|$(((n / 2 - 1) % 4 * 328))_$(((n / 2 - 1) / 4 * 137))"
+    row=$(((n / 2 - 1) / 4))
+    layout+="|$(((n / 2 - 1) % 4 * 328))_$((row * 137))"
   done
   ffmpeg -y -loglevel error "${inputs[@]}" -frames:v 1 \
     -filter_complex "$parts${tiles}xstack=inputs=$((n / 2)):layout=${layout:1}:fill=white" out/diseases.png

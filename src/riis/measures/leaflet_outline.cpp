@@ -310,8 +310,8 @@ constexpr int few_turns = 4, many_turns = 40;
 
 // Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline, at most n_turns
 // times. `about` is a first axis of length 1. With `keeps_axis` only the centre moves.
-std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, Vec3 sideways, Vec3 centre,
-                                   int n_turns, bool keeps_axis = false) {
+std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, Vec3 sideways, Vec3 centre, int n_turns,
+                                   bool keeps_axis = false) {
   constexpr double least_roundness = 0.01, still = 1e-10;
   for (int i = 0;; ++i) {
     SeenParts seen = parts_of(boundary, AlongAxis(about, centre, sideways));
