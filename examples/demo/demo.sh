@@ -35,14 +35,18 @@ demo_parts() {
   return "$status"
 }
 
-# The demo's valves and their meshes. The valve that the demo calls aortic is the coapting valve in its root.
-demo_valves=(aortic mitral)
-declare -A demo_kind=([aortic]=coapting [mitral]=mitral) demo_mesh_of=([aortic]=aortic_root [mitral]=mitral_tube)
+# The demo's valves and the place of each. The valve that the demo calls aortic is the coapting valve in its root. The stenotic
+# valve is this valve with a disease.
+demo_valves=(aortic stenotic mitral)
+declare -A demo_kind=([aortic]=coapting [stenotic]=aortic_stenosis_severe [mitral]=mitral)
+declare -A demo_place=([aortic]=aortic [stenotic]=aortic [mitral]=mitral)
 demo_openings=(0 0.25 0.5 0.75 1)
-# For each valve, a point on each side. demo_states looks for a path between them through the closed valve.
+# For each place, the mesh, and a point on each side of the valve. demo_states looks for a path between them through the closed
+# valve.
+declare -A demo_mesh_of=([aortic]=aortic_root [mitral]=mitral_tube)
 declare -A demo_from=([aortic]="0,0,-0.4" [mitral]="0,0.2,-1.3") demo_to=([aortic]="0,0,2.8" [mitral]="0,0.2,2.1")
 
-# of_each_valve COMMAND: runs the command for both valves at the same time.
+# of_each_valve COMMAND: runs the command for all valves at the same time.
 of_each_valve() {
   local valve status=0 pids=()
   for valve in "${demo_valves[@]}"; do
@@ -56,15 +60,15 @@ of_each_valve() {
 # demo_states VALVE: marks and draws the valve at each opening into out/VALVE_OPENING*, and writes the stats to build/demo. Also
 # checks for ways through the closed valve.
 demo_states() {
-  local opening name
+  local opening name place=${demo_place[$1]}
   for opening in "${demo_openings[@]}"; do
     name=$1_$opening
-    "$build/bin/riis" mark "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" --opening "$opening" \
+    "$build/bin/riis" mark "$build/demo/${demo_mesh_of[$place]}.vtk" --valve "${demo_kind[$1]}" --opening "$opening" \
       --output "out/$name.vtu" --surface-output "out/${name}_surface.vtp" --stats "$build/demo/$name.json" \
       --picture "out/${name}_side.png" --view side --picture "out/${name}_top.png" --view top || return
   done
-  "$build/bin/riis" check leaks "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" --opening 0 \
-    --between "${demo_from[$1]}" "${demo_to[$1]}" --stats "$build/demo/$1_seal.json"
+  "$build/bin/riis" check leaks "$build/demo/${demo_mesh_of[$place]}.vtk" --valve "${demo_kind[$1]}" --opening 0 \
+    --between "${demo_from[$place]}" "${demo_to[$place]}" --stats "$build/demo/$1_seal.json"
 }
 
 # demo_openings_picture: combines the marked cells of all states into one picture, with a row for each valve and view, and a
@@ -97,8 +101,9 @@ run_demo_beats() { of_each_valve demo_beat; }
 # demo_beat VALVE: makes a movie of one heartbeat with 24 frames, its first picture, the moving surface, and the orifice over
 # time.
 demo_beat() {
-  "$build/bin/riis" mark "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" \
-    --cycle "examples/demo/$1_cycle.csv" --period 0.72 --interpolation cubic --times 0:0.69:0.03 \
+  local place=${demo_place[$1]}
+  "$build/bin/riis" mark "$build/demo/${demo_mesh_of[$place]}.vtk" --valve "${demo_kind[$1]}" \
+    --cycle "examples/demo/${place}_cycle.csv" --period 0.72 --interpolation cubic --times 0:0.69:0.03 \
     --surface-output "out/$1_beating.pvd" --movie "out/$1_beating.mp4" --frame-rate 12 \
     --picture "out/$1_beating.png" --series-table "out/$1_beating.csv" &&
     "$build/bin/riis" states "out/$1_states.csv" --valve "${demo_kind[$1]}" --count 21 &&
@@ -142,20 +147,20 @@ milliseconds_of() {
 # demo_row VALVE: prints the marked nodes and the orifice at each opening, as two lines of the summary's table.
 demo_row() {
   local opening
-  printf '  %-27s' "$1 valve, nodes marked"
+  printf '  %-28s' "$1 valve, nodes marked"
   for opening in "${demo_openings[@]}"; do printf ' %7s' "$(number_of "$1_$opening" n_marked)"; done
-  printf '\n  %-27s' '              orifice, cm2'
+  printf '\n  %-28s' '              orifice, cm2'
   for opening in "${demo_openings[@]}"; do
     LC_ALL=C awk -F , -v opening="$opening" 'FNR > 1 && $1 == opening { printf " %7.1f", $(NF - 2) }' "out/$1_states.csv"
   done
 }
 
 # demo_seal VALVE: prints whether unmarked nodes lead through the closed valve, or around it.
-demo_seal() { printf '  %-13s %s, by riis check leaks' "$1 valve" "$(number_of "$1_seal" state | tr -d '"')"; }
+demo_seal() { printf '  %-14s %s, by riis check leaks' "$1 valve" "$(number_of "$1_seal" state | tr -d '"')"; }
 
 # demo_beat_line VALVE: prints a line about the valve's heartbeat.
 demo_beat_line() {
-  printf '  %-13s %s to %s nodes marked, leaflets move at up to %.0f cm/s' "$1 valve" "$(of_beat "$1" 3 '<' | thousands)" \
+  printf '  %-14s %s to %s nodes marked, leaflets move at up to %.0f cm/s' "$1 valve" "$(of_beat "$1" 3 '<' | thousands)" \
     "$(of_beat "$1" 3 '>' | thousands)" "$(of_beat "$1" 4 '>')"
 }
 
@@ -168,44 +173,48 @@ demo_story() {
 
 gmsh has made meshes that the valves fill: an aortic root of $(number_of aortic_0 n_nodes) nodes, and a tube of
 $(number_of mitral_0 n_nodes) nodes along the mitral annulus. riis has marked the nodes within
-$(number_of aortic_0 half_thickness) cm of a leaflet. A flow solver resists the flow at these nodes.
+$(number_of aortic_0 half_thickness) cm of a leaflet. A flow solver resists the flow at these nodes. The stenotic valve is
+the aortic valve with stiff cusps, which riis calls ${demo_kind[stenotic]}.
 
-$(printf '  %-27s' ''; printf ' %7s' closed "${demo_openings[@]:1:3}" open)
+$(printf '  %-28s' ''; printf ' %7s' closed "${demo_openings[@]:1:3}" open)
 $(demo_row aortic)
+$(demo_row stenotic)
 $(demo_row mitral)
 
 Do marked nodes part inflow from outflow at opening 0?
 
 $(demo_seal aortic)
+$(demo_seal stenotic)
 $(demo_seal mitral)
 
 A valve that moves is marked again in each time step. For the mitral valve a step takes $step
 on one thread of this machine: $surface for the new surface, $marks for the marks. This is
 the median of $(number_of mitral_steps n_steps) steps that open and close the valve by 2 %.
 
-Both valves through a heartbeat, 24 times:
+All valves through a heartbeat, 24 times:
 
 $(demo_beat_line aortic)
+$(demo_beat_line stenotic)
 $(demo_beat_line mitral)
 
-Movies: out/aortic_beating.mp4, out/mitral_beating.mp4; for ParaView out/*_beating.pvd
-Orifices over time: out/aortic_orifice.csv, out/mitral_orifice.csv
-Pictures of both valves at all openings, from the side and from above: out/openings.png
-One by one, with their surfaces: out/aortic_*_side.png, out/aortic_*_top.png, out/mitral_*.png
+Movies: out/*_beating.mp4; for ParaView out/*_beating.pvd. Orifices over time: out/*_orifice.csv
+Pictures of all valves at all openings, from the side and from above: out/openings.png
+One by one, with their surfaces: out/aortic_*_side.png, out/aortic_*_top.png, and so on
 Meshes and surfaces, for ParaView: out/*.vtu, out/*.vtp. Full tables: $logs/*.log
 TEXT
 }
 
 # ./run demo
-#   Builds the program, and meshes an aortic root and a mitral tube. It marks the valves in these meshes at five openings, and
-#   through a heartbeat for movies. It also times the steps of a moving valve. It leaves meshes, pictures and movies in out/.
+#   Builds the program, and meshes an aortic root and a mitral tube. It marks a healthy and a stenotic aortic valve and a mitral
+#   valve in these meshes at five openings, and through a heartbeat for movies. It also times the steps of a moving valve. It
+#   leaves meshes, pictures and movies in out/.
 run_demo() {
   packages=("${demo_packages[@]}")
   install_missing
   step "compile the program, mesh an aortic root and a mitral tube meanwhile" demo_parts
   # Pictures are drawn through X. On a temporary virtual screen they are the same everywhere.
-  step "mark and draw both valves at five openings" xvfb-run -a -s "-screen 0 1600x1200x24" ./run demo-pictures
-  step "move both valves through a heartbeat, for movies" xvfb-run -a -s "-screen 0 1600x1200x24" ./run demo-beats
+  step "mark and draw the valves at five openings" xvfb-run -a -s "-screen 0 1600x1200x24" ./run demo-pictures
+  step "move the valves through a heartbeat, for movies" xvfb-run -a -s "-screen 0 1600x1200x24" ./run demo-beats
   step "time the steps of a moving valve" "$build/bin/riis" mark "$build/demo/mitral_tube.vtk" --valve mitral \
     --opening 0 --threads 1 --steps 200 --stats "$build/demo/mitral_steps.json"
   demo_story

@@ -188,7 +188,8 @@ TEST(test_refusals) {
   RUN_REFUSED(1, "'left.leaflet_angle' is not a parameter of the mitral valve", "mark", mesh, "--valve", "mitral",
               "--set", "left.leaflet_angle=3");
   RUN_REFUSED(1, "is not a kind of valve; there are: aortic, bi", "mark", mesh, "--valve", "pulmonary");
-  RUN_REFUSED(1, ", trileaflet, and files of patches, FILE.json", "mark", mesh, "--valve", "pulmonary");
+  RUN_REFUSED(1, ", trileaflet, diseases (riis help diseases), and files of patches, FILE.json", "mark", mesh,
+              "--valve", "pulmonary");
   /* An output must not replace an input. */
   RUN_REFUSED(2, "is also the file of --params-open", "mark", mesh, "--params-open", file, "--opening", "0", "--stats",
               file);

@@ -107,6 +107,21 @@ TEST(test_set_order) {
   assert_true(first_in_cusp(program_out, "left", "translation") == 4);
 }
 
+/* A disease is a kind with parameters, which --params and then --set change. */
+TEST(test_diseases) {
+  RUN_FINE("params", "--valve", "mitral_clip");
+  assert_non_null(strstr(program_out, "\"anterior_length\""));
+  for (const char *const *bump = (const char *[]){"bump_0", "bump_1", NULL}; *bump; ++bump) {
+    assert_true(in_cusp(program_out, *bump, "open") == 0);
+    assert_true(in_cusp(program_out, *bump, "leaflet") == (*bump)[5] - '0');
+  }
+  scratch_write_text("p.json", "{\"bump_0\": {\"open\": 0.5}, \"bump_1\": {\"open\": 0.5}}");
+  RUN_FINE("params", "--valve", "mitral_clip", "--params", scratch_path("p.json"), "--set", "bump_1.open=0.25");
+  assert_true(in_cusp(program_out, "bump_0", "open") == 0.5);
+  assert_true(in_cusp(program_out, "bump_1", "open") == 0.25);
+  RUN_REFUSED(1, "diseases (riis help diseases)", "params", "--valve", "mitral_clips");
+}
+
 /* Changing a parameter changes the surface. */
 TEST(test_surface_changes) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--stats", "-");

@@ -626,6 +626,10 @@ TEST(sizes_that_do_not_go_together_are_named) {
               path, "--valve", "coapting", "--set", "effective_height=1.39");
   RUN_FINE("place", path, "--valve", "coapting", "--set", "coaptation_height=0.2", "--output", "-");
   if (fabs(json_number(program_out, "coaptation_height") - 0.2) > 1e-15) fail_msg("it is not held: %s", program_out);
+  /* A disease gives the kind and a bump, and landmarks give the sizes. */
+  RUN_FINE("place", path, "--valve", "aortic_regurgitation_commissural", "--output", "-");
+  assert_true(json_number(program_out, "closed") > 0);
+  assert_true(fabs(json_number(program_out, "root_radius") - 1.1) < 1e-3);
   /* Low commissures leave less room for the coaptation zone, whose height follows a rule. */
   double points[6][3];
   for (int i = 0; i < 6; ++i) {

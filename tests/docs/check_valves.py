@@ -3,7 +3,9 @@
 program's results. The least ratios in the table are the ratios over 101 openings. The check measures a fifth of these
 openings, which can only give a larger least ratio. With RIIS_TEST_LONG=1 it measures all.
 
-    check_valves.py EXAMPLES_VALVES PROGRAM
+Checks docs/diseases.md: its table must have all diseases of the program, with their areas, and the areas must be met within 3 %.
+
+    check_valves.py EXAMPLES_VALVES PROGRAM DISEASES.md
 """
 import csv
 import io
@@ -34,6 +36,28 @@ def measured(program, folder, arguments):
     return min(edges), float(rows[-1]["orifice_area"])
 
 
+def faults_of_diseases(program, page):
+    """Compares the page's table with the program's list, and measures each area."""
+    listed = subprocess.run([program, "help", "diseases"], capture_output=True, text=True, check=True).stdout
+    areas = {}
+    for name, kind, opening, wanted in re.findall(r"^([a-z]+_\w+) +(\w+) +(?:(open|gap) ([0-9.]+))?", listed, re.M):
+        areas[name] = (kind, opening, wanted)
+    rows = re.findall(r"^\| `(\w+)` \|.*\| (?:(open|gap))? ?\| ([0-9.]*) ?\| ([0-9.]*) ?\|$", page, re.M)
+    if [row[0] for row in rows] != list(areas):
+        yield f"diseases.md has {[row[0] for row in rows]}, riis help diseases {list(areas)}"
+    for name, opening, wanted, told in rows:
+        if (opening, wanted) != areas.get(name, ("",) * 3)[1:]:
+            yield f"{name}: diseases.md says {opening} {wanted}, riis help diseases says {areas.get(name)}"
+        command = [program, "states", "-", "--count", "2", "--valve", name]
+        run = subprocess.run(command, capture_output=True, text=True, check=False)
+        if run.returncode != 0:
+            yield f"{name}: {run.stderr}"
+        elif wanted:
+            area = float(list(csv.DictReader(io.StringIO(run.stdout)))[opening == "open"]["orifice_area"])
+            if abs(area - float(told)) > 0.0051 or abs(area - float(wanted)) > 0.03 * float(wanted):
+                yield f"{name}: diseases.md says {told} for {wanted}, riis measures {area:.4f}"
+
+
 def main():
     folder, program = Path(sys.argv[1]), str(Path(sys.argv[2]).resolve())
     written = subprocess.run([sys.executable, "-B", "bicuspid.py"], cwd=folder, capture_output=True, text=True, check=True)
@@ -50,6 +74,7 @@ def main():
         for what, told, value, most in values:
             if not -0.0051 <= value - float(told) <= most:
                 faults.append(f"{name}: README.md says {what} {told}, riis measures {value:.4f}")
+    faults += faults_of_diseases(program, Path(sys.argv[3]).read_text())
     for fault in faults:
         print(fault)
     return 1 if faults else 0

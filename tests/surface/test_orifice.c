@@ -224,6 +224,20 @@ TEST(orifices_are_those_of_turned_lines) {
   }
 }
 
+/* Unequal cusps are seen along z, also where their open edges reach beyond the attachment. */
+TEST(unequal_cusps_are_seen_along_z) {
+  riis_valve *valve = new_valve("bicuspid");
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", 1));
+  for (double sector = 140; sector <= 200; sector += 30) {
+    CHECK_OK(riis_valve_set_scalar(valve, "cusp_0.sector", sector));
+    CHECK_OK(riis_valve_set_scalar(valve, "cusp_1.sector", 360 - sector));
+    const riis_surface *surface = new_surface(valve, NULL);
+    const riis_orifice found = orifice_of(surface, NULL);
+    CHECK_NEAR(found.axis[2], 1, 1e-14);
+    CHECK_NEAR(found.area, area_by_turned_lines(surface, found.radius, found.axis), 1e-3 * found.area);
+  }
+}
+
 /* If the edge moves inwards, the area decreases by the distance times the perimeter. */
 TEST(perimeters_are_derivatives_of_areas) {
   for (int trial = 0; trial < n_trials(); ++trial) {

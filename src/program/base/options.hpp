@@ -19,6 +19,7 @@ namespace riis::program {
 // The options for the surface and its placement. Every command has some or all of them.
 struct ValveOptions {
   std::string valve = "aortic";            // a kind, or a .json file; unused if there is a surface
+  std::string disease;                     // the name of a disease, whose kind is then `valve`; "": none
   std::string placed;                      // the file of a placed valve, whose kind is then `valve`; "": none
   std::string surface;                     // a file, or "" for the valve; of several files a name for all
   std::vector<std::string> surface_files;  // the files of the surface, one for each leaflet if there are several

@@ -94,7 +94,7 @@ void check_valve(const Command &command, ValveOptions &options) {
   options.has_scale = command.has("--scale");
   options.has_half_thickness = command.has("--half-thickness");
   options.has_tolerance = command.has("--tolerance");
-  use_placed_valve(options);
+  use_named_valve(options);
   check_opening(options);
   check_open_state(options);
 }
@@ -266,6 +266,7 @@ PlaceOptions finish_place(const Command &command, PlaceOptions options) {
   options.has_valve = command.has("--valve");
   if (options.has_valve && is_valve_file(options.valve))
     refuse_usage("--valve: " + options.valve + " is a file; landmarks place a kind of valve");
+  use_named_valve(options);
   if (options.output != "-" && !options.output.empty() && !is_valve_file(options.output))
     refuse_usage("--output: " + options.output + " must end in .json, so that other commands take it");
   check_set_opening(options, "has no effect: landmarks are those of the closed valve");

@@ -3,6 +3,7 @@
 
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
+#include "program/input/diseases.hpp"
 
 namespace riis::program {
 namespace {
@@ -138,6 +139,15 @@ of the edge. bump_0.lift lifts the closed place of a leaflet of mitral_coapting 
 bump_5. Kinds with sectors or a zone of coaptation have them.
 riis from-area --solve bump_0.closed finds the bump that makes a gap of a given area (riis help areas). The band closes gaps
 narrower than two half thicknesses, or than 2 (1 - O) with --offset O. A line on stderr says so.
+)"},
+    {"diseases", "sick valves by the names of diagnoses",
+     R"(
+--valve takes these names in all commands, and in a case. Each name is a kind of valve with parameters, and riis params --valve
+NAME prints them. --params and --set change them, and riis place takes the sizes from landmarks.
+riis params --valve NAME > sick.json makes a file for --params, with the kind in the second column.
+The area in cm2 is the orifice of the open valve, or the gap that the closed valve leaves. Both are seen along the axis, so they
+do not show a gap that a lifted leaflet makes. docs/diseases.md has the sources. riis from-area finds other areas (riis help
+areas).
 )"},
     {"parameters", "names and files of parameters",
      R"(
@@ -441,7 +451,8 @@ std::string text_of_topic(const std::string &name) {
   if (name.empty()) return list_of_topics();
   std::vector<std::string> names;
   for (const Topic &topic : topics) {
-    if (name == topic.name) return topic.text + 1;  // after its first line break
+    // The text begins with a line break.
+    if (name == topic.name) return topic.text + 1 + (name == "diseases" ? table_of_diseases() : "");
     names.emplace_back(topic.name);
   }
   refuse_usage("'" + name.substr(0, 64) + "' is not a topic" + did_you_mean(name, names) +

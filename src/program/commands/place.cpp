@@ -12,6 +12,7 @@
 #include "program/input/mesh_reading.hpp"
 #include "program/input/parameters.hpp"
 #include "program/input/placing.hpp"
+#include "program/input/valve_file.hpp"
 #include "program/input/valve_source.hpp"
 #include "program/mark/crossings.hpp"
 #include "program/output/outputs.hpp"
@@ -24,6 +25,7 @@ Placed place(const PlaceOptions &options, Valve &valve) {
   adapt(landmarks, {Reader::program, options.unit, options.axes, options.noise, options.flow});
   const std::string kind = kind_of(landmarks, options.has_valve ? options.valve : "", Reader::program);
   valve = make_kind(kind, options.has_valve ? "--valve" : options.landmarks);
+  set_own_parameters(options, valve);
   if (!options.params.empty()) set_from_json_file(valve, options.params);
   if (!landmarks.parameters.is_null()) set_from_json(valve, landmarks.parameters, options.landmarks + ": parameters");
   std::vector<std::string> held;

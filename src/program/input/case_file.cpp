@@ -157,7 +157,7 @@ class CaseReader {
     if (options.valve.empty() == options.surface.empty())
       values.refuse("valve", "either it or \"surface\" must be given");
     if (is_valve_file(options.valve)) options.valve = file_of(values, "valve");
-    use_placed_valve(options);
+    use_named_valve(options);
     read_placement(values, options);
     if (const auto own = resistance_of(values)) options.given_resistance = own;
     options.skirt = values.above_zero("skirt");
@@ -227,7 +227,7 @@ class CaseReader {
     if (is_valve_file(kind) && values.has("open_parameters"))
       values.refuse("open_parameters", "the open state is in " + kind);
     NewValve valve(kind, source.subject);
-    set_placed_parameters(source.options, valve);
+    set_own_parameters(source.options, valve);
     set_parameters_of(values, "parameters", valve);
     if (values.has("open_parameters")) {
       const Valve open = make_kind(kind, source.subject);

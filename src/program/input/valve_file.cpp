@@ -15,6 +15,7 @@
 #include "common/array_view.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
+#include "program/input/diseases.hpp"
 #include "program/input/json.hpp"
 #include "program/input/parameters.hpp"
 
@@ -263,7 +264,12 @@ PlacedFile read_placed(const std::string &path, const Json &root, std::optional<
   return file;
 }
 
-void use_placed_valve(ValveOptions &options) {
+void use_named_valve(ValveOptions &options) {
+  if (const Disease *const disease = disease_named(options.valve)) {
+    options.disease = options.valve;
+    options.valve = disease->kind;
+    return;
+  }
   if (!is_valve_file(options.valve) || !names_kind(options.valve)) return;
   const std::string path = options.valve;
   const PlacedFile file = read_placed(path, parse_json_file(path, "a placed valve"), options.unit);
@@ -284,7 +290,9 @@ void use_placed_valve(ValveOptions &options) {
   std::copy_n(file.where.translation, 3, surface.translation);
 }
 
-void set_placed_parameters(const ValveOptions &options, riis_valve *valve) {
+void set_own_parameters(const ValveOptions &options, riis_valve *valve) {
+  if (const Disease *const disease = disease_named(options.disease))
+    set_from_json(valve, Json::parse(disease->parameters), options.disease);
   if (options.placed.empty()) return;
   const Json root = parse_json_file(options.placed, "a placed valve");
   set_from_json(valve, root.at("parameters"), options.placed + ": parameters");

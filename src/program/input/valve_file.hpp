@@ -40,10 +40,10 @@ struct PlacedFile {
 // `root` is the content of the file. Without a unit, the placement has the file's.
 PlacedFile read_placed(const std::string &path, const Json &root, std::optional<Unit> unit = std::nullopt);
 
-// If --valve is the file of a placed valve, replaces the options for kind and placement by those of the file.
-// set_placed_parameters sets the file's parameters. Refuses options that the file already contains. Leaves other valves as they
-// are.
-void use_placed_valve(ValveOptions &options);
-void set_placed_parameters(const ValveOptions &options, riis_valve *valve);
+// If --valve is a disease or the file of a placed valve, replaces it by the kind. The file's placement replaces the options for
+// the placement, and options that the file already contains are refused. set_own_parameters sets the parameters of the disease
+// or of the file. Leaves other valves as they are.
+void use_named_valve(ValveOptions &options);
+void set_own_parameters(const ValveOptions &options, riis_valve *valve);
 
 }  // namespace riis::program

@@ -21,7 +21,7 @@ namespace riis::program {
 namespace {
 
 void set_parameters(const ValveOptions &options, riis_valve *valve) {
-  set_placed_parameters(options, valve);
+  set_own_parameters(options, valve);
   if (!options.params.empty()) set_from_json_file(valve, options.params);
   for (const std::string &setting : options.settings) set_from_text(valve, setting);
   if (options.opening) check(riis_valve_set_scalar(valve, "opening", *options.opening), "--opening");
@@ -80,7 +80,7 @@ Valve make_kind(const std::string &kind, const std::string &subject) {
   Valve valve;
   const riis_status status = riis_valve_create(kind.c_str(), valve.out());
   if (status == RIIS_INVALID_PARAMETER) {
-    refuse_data(subject + ": " + riis_last_error() + ", and files of patches, FILE.json");
+    refuse_data(subject + ": " + riis_last_error() + ", diseases (riis help diseases), and files of patches, FILE.json");
   }
   check(status);
   return valve;

@@ -309,9 +309,9 @@ struct FoundView {
 constexpr int few_turns = 4, many_turns = 40;
 
 // Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline, at most n_turns
-// times. `about` is a first axis of length 1.
-std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, Vec3 sideways, Vec3 centre,
-                                   int n_turns) {
+// times. `about` is a first axis of length 1. With `keeps_axis` only the centre moves.
+std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, Vec3 sideways, Vec3 centre, int n_turns,
+                                   bool keeps_axis = false) {
   constexpr double least_roundness = 0.01, still = 1e-10;
   for (int i = 0;; ++i) {
     SeenParts seen = parts_of(boundary, AlongAxis(about, centre, sideways));
@@ -320,7 +320,7 @@ std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, 
     const Vec3 area = vector_area(boundary, seen);
     const double size = length(area);
     if (!(roundness > least_roundness && size > 0)) return std::nullopt;
-    const Vec3 axis = (1 / size) * area;
+    const Vec3 axis = keeps_axis ? about : (1 / size) * area;
     const PlanePoint shift = centroid_of(corners);
     const bool is_still = distance(axis, about) < still && dot_of(shift, shift) < still * still * size;
     if (is_still || i == n_turns) return FoundView{std::move(seen), roundness};
@@ -410,7 +410,7 @@ std::optional<SeenOutline> outline_of_leaflets(const LeafletBoundary &boundary,
   if (boundary.edges.empty()) return std::nullopt;
   const BoundarySpread spread = spread_of(boundary);
   const std::optional<FoundView> found =
-      valve ? view_from(boundary, valve->axis, valve->sideways, spread.centre, few_turns)
+      valve ? view_from(boundary, valve->axis, valve->sideways, spread.centre, few_turns, valve->keeps_axis)
             : view_of_arrays(boundary, spread);
   if (!found) return std::nullopt;
   const SeenParts &parts = found->parts;

@@ -76,7 +76,9 @@ double moved_area(const Surface &surface, double shift, std::int32_t left_out) {
 Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const OrificeLimits &limits) {
   if (source && source->disc.radius > 0) return measured(set, disc_of(*source), RIIS_OUTLINE_DISC, limits);
   std::optional<ValveDirections> valve;
-  if (source) valve = {source->placement.rotation * source->disc.axis, source->placement.rotation * Vec3{1, 0, 0}};
+  if (source)
+    valve = {source->placement.rotation * source->disc.axis, source->placement.rotation * Vec3{1, 0, 0},
+             source->kind->is_seen_along_z};
   const std::optional<SeenOutline> seen = outline_of_leaflets(boundary_of_leaflets(set), valve);
   if (!seen) return {0, 0, 0, 0, valve ? valve->axis : Vec3{0, 0, 0}, RIIS_OUTLINE_NONE};
   return measured(set, *seen, source ? RIIS_OUTLINE_ATTACHMENT : RIIS_OUTLINE_BOUNDARY, limits);

@@ -109,6 +109,7 @@ ValveKind make_kind(const char *name, double default_stretch) {
     opening_spec("0 closed to 1 open", 0),
   }, opening, true, check_values<n_cusps>, make_patches<n_cusps>, nullptr}, SkirtAxis::of_cusp);
   kind.has_exact_contacts = true;
+  kind.is_seen_along_z = true;
   Vector<ParameterSpec> &specs = kind.parameters;
   specs.push_back({"edge_stretch", number, "open state: how much longer the free edge is than in the closed state", 1,
                    {default_stretch}, 0, 0.2});
