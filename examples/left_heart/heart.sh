@@ -4,11 +4,8 @@
 # examples/openfoam/openfoam.sh, whose steps build the plug-in and set OpenFOAM's environment.
 
 heart_here=examples/left_heart
-heart_fused='kind bicuspid; commissure_0.fusion 0.28; commissure_1.fusion 0.28; skirt_length 0.5;' # of the stenotic aortic valve
-heart_coapting='kind mitral_coapting; AP_diameter 3.1; ALPM_diameter 4; translation (0 0.1 1.2); skirt_length 1;'
-heart_flail='bump_0.leaflet 1; bump_0.lift 1.2; bump_0.width 0.4;'
-heart_clip='bump_0.lift 0.3; bump_1.leaflet 0; bump_1.open 0; bump_1.width 0.2; bump_2.leaflet 1; bump_2.open 0; bump_2.width 0.2;'
-heart_least_opening=0.0001                                     # of the regurgitant mitral valve
+heart_fused='commissure_0.fusion 0.28; commissure_1.fusion 0.28; skirt_length 0.5;' # of the stenotic, bicuspid aortic valve
+heart_least_opening=0.02                                     # of the regurgitant mitral valve
 # shellcheck source=examples/left_heart/coupled/coupled.sh
 . "$heart_here/coupled/coupled.sh"
 
@@ -111,28 +108,14 @@ heart_mesh() {
     of_from_gmsh "$folder" "$folder/heart.msh" && of_mesh_is_fine "$folder" && topoSet -case "$folder"
 }
 
-# heart_case NAME [DISEASE]: copies the case and its mesh to $of_cases/NAME. With stenosis the cusps of the aortic valve are
-# stiff, and their free edges stay near the axis. With regurgitation the openings of the mitral valve end at heart_least_opening.
+# heart_case NAME [DISEASE]: copies the case and its mesh to $of_cases/NAME. With stenosis the aortic valve has two cusps that are
+# fused at both commissures. With regurgitation the openings of the mitral valve end at heart_least_opening.
 heart_case() {
   rm -rf "${of_cases:?}/$1"
   cp -r "$heart_here/case" "$of_cases/$1" &&
     cp -r "$of_cases/mesh/constant/polyMesh" "$of_cases/$1/constant" &&
     heart_band "$1" mitral "$heart_offset" || return
-  case ${2:-} in
-    stenosis) of_set "$1" system/fvOptions aortic/valve "{ $heart_fused }" ;;
-    coapting) heart_mitral "$1" "$heart_coapting" ;;
-    flail) heart_mitral "$1" "$heart_coapting $heart_flail" && heart_uncalibrated "$1" ;;
-    clip) heart_mitral "$1" "$heart_coapting $heart_flail $heart_clip" && heart_uncalibrated "$1" ;;
-  esac
-}
-
-# heart_mitral NAME PARAMETERS: the mitral valve of the case has these parameters.
-heart_mitral() { of_set "$1" system/fvOptions mitral/valve "{ $2 }"; }
-
-# heart_uncalibrated NAME: a mitral valve with a gap cannot be calibrated. It has the resistance that the calibration gives to the
-# valve without the gap. The aortic valve, which copies the entries of the mitral one, is calibrated as before.
-heart_uncalibrated() {
-  of_set "$1" system/fvOptions mitral/calibrate no mitral/resistance 1.53e4 aortic/calibrate yes aortic/resistance 1e4
+  [[ ${2:-} != stenosis ]] || of_set "$1" system/fvOptions aortic/valve "{ kind bicuspid; $heart_fused }"
 }
 
 # heart_band NAME VALVE OFFSET: the band of the valve has the half thickness of this mesh and the offset. The aortic valve copies
@@ -158,7 +141,7 @@ heart_held() {
 heart_orifice() {
   local name=orifice-$1${2:+-$2} folder=$of_out${2:+/$2} other=mitral least=0
   [[ $1 == aortic ]] || other=aortic
-  [[ ${2:-} != flail && ${2:-} != clip ]] || least=$heart_least_opening
+  [[ ${2:-} != regurgitation ]] || least=$heart_least_opening
   heart_case "$name" "${2:-}" && heart_held "$name" 12 0 &&
     heart_python check.py keys "$least" >"$of_cases/$name/constant/$1Keys" &&
     sed -i 's/constant \(.*\);/table ((0 0) (0.164 0) (0.166 \1));/' "$of_cases/$name/constant/inletPressure" &&
