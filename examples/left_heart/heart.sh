@@ -4,7 +4,7 @@
 # examples/openfoam/openfoam.sh, whose steps build the plug-in and set OpenFOAM's environment.
 
 heart_here=examples/left_heart
-heart_stiff='open_radius_ratio 0.3; commissure_expansion 0; skirt_length 0.5;' # of the stenotic aortic valve
+heart_fused='commissure_0.fusion 0.28; commissure_1.fusion 0.28; skirt_length 0.5;' # of the stenotic, bicuspid aortic valve
 heart_least_opening=0.02                                     # of the regurgitant mitral valve
 # shellcheck source=examples/left_heart/coupled/coupled.sh
 . "$heart_here/coupled/coupled.sh"
@@ -108,14 +108,14 @@ heart_mesh() {
     of_from_gmsh "$folder" "$folder/heart.msh" && of_mesh_is_fine "$folder" && topoSet -case "$folder"
 }
 
-# heart_case NAME [DISEASE]: copies the case and its mesh to $of_cases/NAME. With stenosis the cusps of the aortic valve are
-# stiff, and their free edges stay near the axis. With regurgitation the openings of the mitral valve end at heart_least_opening.
+# heart_case NAME [DISEASE]: copies the case and its mesh to $of_cases/NAME. With stenosis the aortic valve has two cusps that are
+# fused at both commissures. With regurgitation the openings of the mitral valve end at heart_least_opening.
 heart_case() {
   rm -rf "${of_cases:?}/$1"
   cp -r "$heart_here/case" "$of_cases/$1" &&
     cp -r "$of_cases/mesh/constant/polyMesh" "$of_cases/$1/constant" &&
     heart_band "$1" mitral "$heart_offset" || return
-  [[ ${2:-} != stenosis ]] || of_set "$1" system/fvOptions aortic/valve "{ kind coapting; $heart_stiff }"
+  [[ ${2:-} != stenosis ]] || of_set "$1" system/fvOptions aortic/valve "{ kind bicuspid; $heart_fused }"
 }
 
 # heart_band NAME VALVE OFFSET: the band of the valve has the half thickness of this mesh and the offset. The aortic valve copies
