@@ -14,6 +14,8 @@
 namespace riis {
 
 struct Adjacency {
+  static constexpr bool is_symmetric = false;  // not for certain
+
   std::int64_t n_rows = 0;
   IntegerArray offsets, columns;
   std::int64_t base = 0;
@@ -27,6 +29,8 @@ struct Adjacency {
       if (j < n_rows && j != i) visit(j);
     }
   }
+
+  bool is_node(std::int64_t) const { return true; }
 
   // Returns whether node j is in row i.
   bool has_neighbor(std::int64_t i, std::int64_t j) const {
