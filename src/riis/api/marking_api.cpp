@@ -423,8 +423,8 @@ riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_marks *mar
     check_n_nodes("n_nodes", n_nodes, content);
     if (n_nodes > 0) require(label, "label");
     riis::put(n_regions, riis::with_edges(nodes, [&](const auto &edges) {
-                return riis::label_open_regions(edges, {whole.node_mask, content.marked_nodes().node_id}, n_threads,
-                                                {label, n_nodes});
+                return riis::label_open_regions(edges, {nodes.nodes(), whole.node_mask, content.marked_nodes().node_id},
+                                                n_threads, {label, n_nodes});
               }));
   });
 }

@@ -30,8 +30,6 @@ struct Adjacency {
     }
   }
 
-  bool is_node(std::int64_t) const { return true; }
-
   // Returns whether node j is in row i.
   bool has_neighbor(std::int64_t i, std::int64_t j) const {
     const std::int64_t end = offsets[i + 1] - base;

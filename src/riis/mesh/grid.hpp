@@ -63,6 +63,10 @@ class Grid {
     if (rest != 0) index = {0, 0, 0};
     return rest == 0;
   }
+  bool has_node(std::int64_t number) const {
+    GridIndex index;
+    return find(number, index);
+  }
   // Returns the coordinates of the node with a number. A number without a node gives those of the first node.
   Vec3 operator[](std::int64_t number) const {
     GridIndex index;
@@ -98,10 +102,6 @@ struct GridEdges {
   const Grid &grid;
   std::int64_t n_rows = grid.n_numbers();
 
-  bool is_node(std::int64_t i) const {
-    GridIndex index;
-    return grid.find(i, index);
-  }
   template <class Visit>
   void for_each_neighbor(std::int64_t i, const Visit &visit) const {
     GridIndex index;

@@ -97,7 +97,7 @@ struct MeshNodes {
   void prefetch(std::int64_t i) const {
     if (!grid) points.prefetch(i);
   }
-  bool has_node(std::int64_t i) const { return !grid || GridEdges{*grid}.is_node(i); }
+  bool has_node(std::int64_t i) const { return !grid || grid->has_node(i); }
 };
 
 // Returns node i. Fails with RIIS_INVALID_MESH if the caller has changed a coordinate since it was checked.

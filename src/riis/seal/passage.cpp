@@ -82,7 +82,7 @@ class Opening {
     SearchRequest within = request_;
     within.distance_limit = band.reach();
     mark_nodes(within, {RIIS_SEARCH_AUTO, 0, nullptr, band.steps_aside() ? &band : nullptr}, near_);
-    label_open_regions(edges_, {request_.node_mask, near_.within.nodes.node_id}, request_.n_threads, view(parent_));
+    label_open_regions(edges_, {request_.mesh.nodes(), request_.node_mask, near_.within.nodes.node_id}, request_.n_threads, view(parent_));
     OpenSets sets = this->sets();
     sets.open(from_);
     sets.open(to_);
@@ -200,16 +200,16 @@ riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends)
 }
 
 template <class Edges>
-std::int64_t label_open_regions(const Edges &edges, const OpenNodes &nodes, int n_threads,
+std::int64_t label_open_regions(const Edges &edges, const OpenNodes &open, int n_threads,
                                 ArrayView<std::int64_t> label) {
   constexpr std::int64_t rows_per_task = 4096;
   const std::int64_t n = edges.n_rows;
   OpenSets sets(label);
   parallel_for_ranges(n, rows_per_task, n_threads, [&](const Range &range, int) {
     for (std::int64_t i = range.begin; i < range.end; ++i)
-      label[i] = !edges.is_node(i) || (nodes.node_mask && !nodes.node_mask[i]) ? OpenSets::closed : i;
+      label[i] = !open.nodes.has_node(i) || (open.node_mask && !open.node_mask[i]) ? OpenSets::closed : i;
   });
-  for (const std::int64_t i : nodes.closed_id) label[i] = OpenSets::closed;
+  for (const std::int64_t i : open.closed_id) label[i] = OpenSets::closed;
   parallel_for_ranges(n, rows_per_task, n_threads, [&](const Range &range, int) {
     for (std::int64_t i = range.begin; i < range.end; ++i) {
       if (!sets.is_open(i)) continue;

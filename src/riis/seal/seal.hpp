@@ -46,6 +46,7 @@ Leaks find_leaks(const SearchRequest &request, const Marks &marks);
 // In: an adjacency or a grid, the closed nodes. Out: for each node, the lowest node of its region.
 
 struct OpenNodes {
+  const MeshNodes &nodes;
   const std::uint8_t *node_mask;               // or null
   const std::vector<std::int64_t> &closed_id;  // in any order
 };
