@@ -395,10 +395,10 @@ contains
     call finish(code, status)
   end subroutine mesh_update_copy_x_y_z_real64
 
-  !> Makes a mesh from the axes of a rectilinear grid, and stores nothing for each node. Node (i, j, k) is at x(i), y(j), z(k). Its
-  !! number is first + (i - 1) stride(1) + (j - 1) stride(2) + (k - 1) stride(3). An array K(0:ni+1, 0:nj+1, 0:nk+1) has halo=1,
-  !! because an argument loses its lower bounds. Each axis of a staggered grid may be other, so each component of the velocity has
-  !! its own mesh. Errors: RIIS_INVALID_MESH naming the axis, the index, counted from 0, and the value.
+  !> Makes a mesh from the axes of a rectilinear grid, and stores nothing for each node. Node (i, j, k) is at x(i), y(j), z(k).
+  !! Its number is first + (i - 1) stride(1) + (j - 1) stride(2) + (k - 1) stride(3). An array K(0:ni+1, 0:nj+1, 0:nk+1) has
+  !! halo=1, because an argument loses its lower bounds. Each component of the velocity of a staggered grid has its own axes, so
+  !! it has its own mesh. Errors: RIIS_INVALID_MESH naming the axis, the index, counted from 0, and the value.
   subroutine mesh_create_grid_real32(this, x, y, z, halo, first, stride, n_nodes, status)
     class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     real(real32), intent(in), contiguous, target :: x(:) !< At least one node, strictly ascending; copied.

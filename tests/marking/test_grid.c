@@ -146,8 +146,7 @@ static int64_t n_leaks, n_passages, n_within;
 
 static void check_leaks(const grid_case *of, const riis_surface *surface, const riis_mark_options *options,
                         const riis_mark_options *of_points, const riis_marks *got, const riis_marks *expected) {
-  const leak_list a = leaks_of(surface, of->mesh, options, got),
-                  b = leaks_of(surface, of->points, of_points, expected);
+  const leak_list a = leaks_of(surface, of->mesh, options, got), b = leaks_of(surface, of->points, of_points, expected);
   assert_int_equal(a.sum.n_edges, b.sum.n_edges);
   for (int64_t i = 0; i < 2 * a.sum.n_edges; ++i) assert_int_equal(a.node_id[i], of->number[b.node_id[i]]);
   check_array("length", a.length, b.length, a.sum.n_edges, sizeof *a.length);
@@ -577,8 +576,7 @@ TEST(grids_are_refused_by_name) {
   REFUSED(RIIS_LIMIT_EXCEEDED, "grid.stride[2] is 9223372036854775807, so 4 nodes", bad.stride[0] = 1,
           bad.stride[1] = 4, bad.stride[2] = INT64_MAX);
   REFUSED(RIIS_LIMIT_EXCEEDED, "grid.stride[0] is 1, so 9223372036854775807 nodes", bad.ni = INT64_MAX);
-  REFUSED(RIIS_LIMIT_EXCEEDED, "grid.stride[1] is 1048576, so 1048577 nodes", bad.ni = 1 << 20,
-          bad.nj = (1 << 20) + 1);
+  REFUSED(RIIS_LIMIT_EXCEEDED, "grid.stride[1] is 1048576, so 1048577 nodes", bad.ni = 1 << 20, bad.nj = (1 << 20) + 1);
   REFUSED(RIIS_INVALID_ARGUMENT, "grid.n_nodes is 63; the last node has the number 63", bad.n_nodes = 63);
   REFUSED(RIIS_LIMIT_EXCEEDED, "grid.n_nodes is 1099511627777;", bad.n_nodes = (INT64_C(1) << 40) + 1);
   REFUSED(RIIS_INVALID_STRUCT_SIZE, "grid", bad.struct_size = 8);
@@ -593,7 +591,8 @@ TEST(grids_are_refused_by_name) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.search is RIIS_SEARCH_NEIGHBOR,|grid",
                 riis_mark_nodes(surface, mesh, &options, result));
   options.search = RIIS_SEARCH_PAPER;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.search is RIIS_SEARCH_PAPER,|grid", riis_mark_nodes(surface, mesh, &options, result));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.search is RIIS_SEARCH_PAPER,|grid",
+                riis_mark_nodes(surface, mesh, &options, result));
 }
 
 int main(void) {

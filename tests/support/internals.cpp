@@ -339,6 +339,7 @@ std::int64_t order_found_nodes(const riis_surface *surface, std::int64_t n_nodes
                                const std::int64_t *triangle, std::int64_t *within_node, double *within_distance,
                                std::int64_t *within_triangle, std::int64_t *marked_node, double *marked_distance) {
   static FoundNodes found;
+  found.numbers = {0, n_nodes};
   static OrderScratch scratch;
   const Surface &content = content_of(surface);
   found.prepare(n_lists);

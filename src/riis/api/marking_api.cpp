@@ -259,9 +259,9 @@ riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, 
         request,
         {whole.search, whole.fields, resistance ? &*resistance : nullptr, lists_marked ? &content.band() : nullptr},
         marks->marks);
-    riis::check_proportions(
-        {mesh->mesh.nodes().n_nodes(), mesh->mesh.bounds(), request.surface.scene().bounds(), request.surface.half_thickness()},
-        surface->number, mesh->mesh.warned_surfaces());
+    riis::check_proportions({mesh->mesh.nodes().n_nodes(), mesh->mesh.bounds(), request.surface.scene().bounds(),
+                             request.surface.half_thickness()},
+                            surface->number, mesh->mesh.warned_surfaces());
   });
 }
 

@@ -16,8 +16,8 @@ using riis::require_handle;
 
 namespace {
 
-const riis_grid default_grid{sizeof(riis_grid), 0, 0, 0, nullptr, nullptr, nullptr, {0, 0, 0}, {1, 1, 1}, 0, {0, 0, 0}, 0, 64,
-                             0};
+const riis_grid default_grid{sizeof(riis_grid), 0,         0, 0,         nullptr, nullptr, nullptr,
+                             {0, 0, 0},         {1, 1, 1}, 0, {0, 0, 0}, 0,       64,      0};
 const riis_csr default_csr{sizeof(riis_csr), 0, 0, nullptr, nullptr, 32, 32, 0, 0};
 const riis_mesh_cells default_cells{sizeof(riis_mesh_cells), 0, 0, nullptr, nullptr, 4, 32, 0, 0};
 const riis_mesh_faces default_faces{sizeof(riis_mesh_faces), 0, 0, nullptr, nullptr, 1, 32, 0, 0, 0};
@@ -66,8 +66,7 @@ std::unique_ptr<const riis::Grid> checked_grid(const riis_grid *given) {
   const riis::GridIndex n{whole.ni, whole.nj, whole.nk};
   const char *const names[] = {"x", "y", "z"}, *const counts[] = {"ni", "nj", "nk"};
   for (int axis = 0; axis < 3; ++axis)
-    if (n[axis] < 1)
-      riis::fail(RIIS_INVALID_MESH, "grid.", counts[axis], " is ", n[axis], "; it must be at least 1");
+    if (n[axis] < 1) riis::fail(RIIS_INVALID_MESH, "grid.", counts[axis], " is ", n[axis], "; it must be at least 1");
   std::int64_t n_numbers = whole.n_nodes;
   const riis::GridIndex stride =
       riis::checked_strides(n, whole.first, {whole.stride[0], whole.stride[1], whole.stride[2]}, n_numbers);
@@ -79,7 +78,7 @@ std::unique_ptr<const riis::Grid> checked_grid(const riis_grid *given) {
     const auto *const doubles = static_cast<const double *>(arrays[axis]);
     const auto *const floats = static_cast<const float *>(arrays[axis]);
     for (std::int64_t i = 0; i < n[axis]; ++i)
-      riis::view(made)[i] = !doubles ? whole.origin[axis] + static_cast<double>(i) * whole.spacing[axis]
+      riis::view(made)[i] = !doubles                ? whole.origin[axis] + static_cast<double>(i) * whole.spacing[axis]
                             : whole.real_bits == 32 ? static_cast<double>(floats[i])
                                                     : doubles[i];
     check_axis(names[axis], made);
@@ -169,8 +168,7 @@ riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr) {
   return guarded([&] {
     riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
     if (!csr) return content.set_adjacency(std::nullopt);
-    const riis::Adjacency rows =
-        riis::checked_adjacency(riis::completed(csr, "csr", default_csr), content.nodes().n);
+    const riis::Adjacency rows = riis::checked_adjacency(riis::completed(csr, "csr", default_csr), content.nodes().n);
     if (content.nodes().grid) check_rows_of_grid(rows, content.nodes());
     content.set_adjacency(rows);
   });

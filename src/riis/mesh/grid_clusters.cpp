@@ -42,7 +42,8 @@ void GridClusters::make(const Grid &grid, const GridBox &box) {
   for (int node = 0; node < nodes_per_cluster; ++node) {
     step_[node] = 0;
     for (int axis = 0; axis < 3; ++axis)
-      step_[node] += grid.stride(axis) * (leaves_.at[axis][node / nodes_per_leaf] + lanes_.at[axis][node % nodes_per_leaf]);
+      step_[node] +=
+          grid.stride(axis) * (leaves_.at[axis][node / nodes_per_leaf] + lanes_.at[axis][node % nodes_per_leaf]);
   }
   const double centre[3] = {frame_.centre.x, frame_.centre.y, frame_.centre.z};
   for (int axis = 0; axis < 3; ++axis) {

@@ -69,9 +69,9 @@ class GridClusters {
   GridBox box_;
   NodeFrame frame_;
   GridIndex n_regions_, leaf_extent_, cluster_extent_, region_extent_;
-  Parts lanes_, leaves_, clusters_;      // of a leaf, a cluster and a region
+  Parts lanes_, leaves_, clusters_;       // of a leaf, a cluster and a region
   std::int64_t step_[nodes_per_cluster];  // from a cluster's first number to the number of each node
-  std::vector<float> x_[3];              // coordinates in the frame. The last one is repeated to the end of the last region
+  std::vector<float> x_[3];  // coordinates in the frame. The last one is repeated to the end of the last region
 };
 
 }  // namespace riis

@@ -209,9 +209,8 @@ void find_longest(const MeshNodes &nodes, Leaks &leaks) {
 Leaks find_leaks(const SearchRequest &request, const Marks &marks) {
   const auto start = std::chrono::steady_clock::now();
   if (request.mesh.nodes().n == 0) return {};
-  Leaks leaks = listed(request, with_edges(request.mesh, [&](const auto &edges) {
-                         return leaking_edges(request, edges, marks);
-                       }));
+  Leaks leaks = listed(
+      request, with_edges(request.mesh, [&](const auto &edges) { return leaking_edges(request, edges, marks); }));
   find_longest(request.mesh.nodes(), leaks);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   leaks.seconds = elapsed.count();

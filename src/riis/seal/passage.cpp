@@ -82,7 +82,8 @@ class Opening {
     SearchRequest within = request_;
     within.distance_limit = band.reach();
     mark_nodes(within, {RIIS_SEARCH_AUTO, 0, nullptr, band.steps_aside() ? &band : nullptr}, near_);
-    label_open_regions(edges_, {request_.mesh.nodes(), request_.node_mask, near_.within.nodes.node_id}, request_.n_threads, view(parent_));
+    label_open_regions(edges_, {request_.mesh.nodes(), request_.node_mask, near_.within.nodes.node_id},
+                       request_.n_threads, view(parent_));
     OpenSets sets = this->sets();
     sets.open(from_);
     sets.open(to_);

@@ -258,8 +258,8 @@ class ClusterSearch {
       return;
     add_groups_of_packs(own.bits, own.candidates);
     own.bits.resize(own.candidates.size());
-    if (!kernels_.near_boxes(task_, clusters, own.candidates.data(),
-                             static_cast<std::int32_t>(own.candidates.size()), own.bits.data()))
+    if (!kernels_.near_boxes(task_, clusters, own.candidates.data(), static_cast<std::int32_t>(own.candidates.size()),
+                             own.bits.data()))
       return;
     const std::int64_t first = region * Clusters::clusters_per_region;
     const std::int64_t end = std::min(first + Clusters::clusters_per_region, nodes_.n_clusters());
@@ -491,8 +491,7 @@ class ClusterSearch {
     const UpperBounds bounds = compare(leaves, own.near_groups.data(), n, own.leaf_bits.data());
     if (limit_ < large) {
       own.bits_within.resize(n);
-      kernels_.near_boxes(task_, leaves, own.near_groups.data(), static_cast<std::int32_t>(n),
-                          own.bits_within.data());
+      kernels_.near_boxes(task_, leaves, own.near_groups.data(), static_cast<std::int32_t>(n), own.bits_within.data());
       for (std::size_t k = 0; k < n; ++k)
         own.leaf_bits[k] = static_cast<std::uint16_t>(own.leaf_bits[k] & own.bits_within[k]);
     }
@@ -642,8 +641,7 @@ class ClusterSearch {
     for (std::int32_t i = 0; i < pairs.n; i += at_once) {
       pairs.ahead.request_one();
       kernels_.decide(std::min(at_once, pairs.n - i), own.pair_nodes.data() + i, own.pair_triangles.data() + i,
-                      pairs.cluster.points(0).xyz, groups_.corners.data(),
-                      own.pair_decided.data() + i);
+                      pairs.cluster.points(0).xyz, groups_.corners.data(), own.pair_decided.data() + i);
     }
     if (pairs.ties) {
       take_closest_and_ties(own, pairs);
@@ -740,8 +738,8 @@ bool has_few_near(const NodeSearch &request) {
 namespace {
 
 template <class Nodes>
-SearchReport search_nodes(const NodeSearch &request, const Nodes &nodes, const Kernels &kernels, ClusterScratch &scratch,
-                          FoundNodes &found) {
+SearchReport search_nodes(const NodeSearch &request, const Nodes &nodes, const Kernels &kernels,
+                          ClusterScratch &scratch, FoundNodes &found) {
   ClusterSearch<Nodes> search(request, nodes, kernels, scratch, found);
   if (has_few_near(request)) {
     search.find_near_clusters();
