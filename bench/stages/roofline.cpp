@@ -319,12 +319,11 @@ class StagedSteps {
     riis::search_clusters(request, mesh_.clusters(1), kernels, marks_.cluster_scratch, found_);
   }
   void put_in_order() {
-    const riis::OrderScratch::Counts n =
-        riis::prepare_order(content(), found_, false, mesh_.nodes().n, 1, marks_.order_scratch);
+    const riis::OrderScratch::Counts n = riis::prepare_order(content(), found_, false, 1, marks_.order_scratch);
     riis::NodeList &list = marks_.within.nodes;
     if (!list.has_room(n.n_within)) list.reserve(n.n_within);
     list.resize(n.n_within);
-    riis::put_in_order(content(), false, mesh_.nodes().n, 1, marks_.order_scratch, list, marks_.marked.nodes);
+    riis::put_in_order(content(), false, found_.numbers, 1, marks_.order_scratch, list, marks_.marked.nodes);
   }
 
   TimeSteps steps_;

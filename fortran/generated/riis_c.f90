@@ -358,6 +358,21 @@ module riis_c
     real(c_double) :: seconds
   end type riis_crossing_list
 
+  type, bind(c) :: riis_grid
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: ni, nj, nk
+    type(c_ptr) :: x                !< real(c_double) or (c_float), (ni), or c_null_ptr
+    type(c_ptr) :: y                !< real(c_double) or (c_float), (nj), or c_null_ptr
+    type(c_ptr) :: z                !< real(c_double) or (c_float), (nk), or c_null_ptr
+    real(c_double) :: origin(3)
+    real(c_double) :: spacing(3)
+    integer(c_int64_t) :: first     !< from 0
+    integer(c_int64_t) :: stride(3)
+    integer(c_int64_t) :: n_nodes
+    integer(c_int32_t) :: real_bits !< storage_size(x)
+    integer(c_int32_t) :: reserved
+  end type riis_grid
+
   type, bind(c) :: riis_csr
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_rows
@@ -1315,6 +1330,31 @@ module riis_c
       integer(c_int32_t), value :: n_threads
       integer(riis_status) :: status
     end function riis_mesh_prepare
+
+    !>   struct_size  c_sizeof(grid)
+    function riis_grid_init(grid, struct_size) result(status) bind(c, name='riis_grid_init')
+      import :: c_int64_t, riis_grid, riis_status
+      implicit none
+      type(riis_grid), intent(inout) :: grid
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_grid_init
+
+    function riis_mesh_create_grid(grid, mesh) result(status) bind(c, name='riis_mesh_create_grid')
+      import :: c_ptr, riis_grid, riis_status
+      implicit none
+      type(riis_grid), intent(in) :: grid
+      type(c_ptr), intent(inout) :: mesh
+      integer(riis_status) :: status
+    end function riis_mesh_create_grid
+
+    function riis_mesh_update_grid(mesh, grid) result(status) bind(c, name='riis_mesh_update_grid')
+      import :: c_ptr, riis_grid, riis_status
+      implicit none
+      type(c_ptr), value :: mesh
+      type(riis_grid), intent(in) :: grid
+      integer(riis_status) :: status
+    end function riis_mesh_update_grid
 
     !>   struct_size  c_sizeof(csr)
     function riis_csr_init(csr, struct_size) result(status) bind(c, name='riis_csr_init')

@@ -685,6 +685,173 @@ subroutine riisf_mesh_update_copy_64(mesh, n_nodes, x, y, z, stride, real_bits, 
   status = riis_mesh_update_copy(c_handle_of(mesh), nodes)
 end subroutine riisf_mesh_update_copy_64
 
+!> Makes a mesh from the axes of a rectilinear grid, and stores nothing for each node. Node (i, j, k) is at X(i), Y(j), Z(k). Its
+!! number is first_num + (i - 1) stride_i + (j - 1) stride_j + (k - 1) stride_k. An array K(0:NI+1, 0:NJ+1, 0:NK+1) has the
+!! strides 1, NI+2 and (NI+2)(NJ+2), its first node is 1 plus their sum, and n_nodes is its length. Errors: RIIS_INVALID_MESH
+!! naming the axis, the index, counted from 0, and the value.
+subroutine riisf_mesh_create_grid(ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, n_nodes, &
+    mesh, status)
+  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_create_grid, riis_status
+  implicit none
+  integer(int32), intent(in) :: ni                        !< Nodes along each axis, >= 1.
+  integer(int32), intent(in) :: nj                        !< Nodes along each axis, each >= 1.
+  integer(int32), intent(in) :: nk                        !< Nodes along each axis, each >= 1.
+  type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
+  type(*), intent(in) :: y(*)                             !< (nj).
+  type(*), intent(in) :: z(*)                             !< (nk).
+  integer(int32), intent(in) :: real_bits                 !< 32 for REAL*4, 64 for REAL*8.
+  integer(int32), intent(in) :: first_num                 !< The number of node (1, 1, 1), counted from 1.
+  integer(int32), intent(in) :: stride_i                  !< From a node to the next along x; three times 0 stands for 1, ni
+                                                          !! and ni * nj.
+  integer(int32), intent(in) :: stride_j                  !< Along y.
+  integer(int32), intent(in) :: stride_k                  !< Along z.
+  integer(int32), intent(in) :: n_nodes                   !< The length of the caller's arrays; 0 for the least length.
+  integer(int64), intent(inout) :: mesh                   !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_grid) :: grid
+  type(c_ptr) :: c_handle
+  status = riis_grid_init(grid, c_sizeof(grid))
+  if (status /= RIIS_OK) return
+  grid%ni = ni
+  grid%nj = nj
+  grid%nk = nk
+  grid%x = location_of(x)
+  grid%y = location_of(y)
+  grid%z = location_of(z)
+  grid%real_bits = real_bits
+  grid%n_nodes = n_nodes
+  grid%first = first_num - 1
+  grid%stride = [int(stride_i, int64), int(stride_j, int64), int(stride_k, int64)]
+  c_handle = c_null_ptr
+  status = riis_mesh_create_grid(grid, c_handle)
+  if (status /= RIIS_OK) return
+  mesh = handle_of(c_handle)
+end subroutine riisf_mesh_create_grid
+
+!> Does the same as riisf_mesh_create_grid, with counts and ids of INTEGER*8.
+subroutine riisf_mesh_create_grid_64(ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, n_nodes, &
+    mesh, status)
+  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_create_grid, riis_status
+  implicit none
+  integer(int64), intent(in) :: ni                        !< Nodes along each axis, >= 1.
+  integer(int64), intent(in) :: nj                        !< Nodes along each axis, each >= 1.
+  integer(int64), intent(in) :: nk                        !< Nodes along each axis, each >= 1.
+  type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
+  type(*), intent(in) :: y(*)                             !< (nj).
+  type(*), intent(in) :: z(*)                             !< (nk).
+  integer(int32), intent(in) :: real_bits                 !< 32 for REAL*4, 64 for REAL*8.
+  integer(int64), intent(in) :: first_num                 !< The number of node (1, 1, 1), counted from 1.
+  integer(int64), intent(in) :: stride_i                  !< From a node to the next along x; three times 0 stands for 1, ni
+                                                          !! and ni * nj.
+  integer(int64), intent(in) :: stride_j                  !< Along y.
+  integer(int64), intent(in) :: stride_k                  !< Along z.
+  integer(int64), intent(in) :: n_nodes                   !< The length of the caller's arrays; 0 for the least length.
+  integer(int64), intent(inout) :: mesh                   !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_grid) :: grid
+  type(c_ptr) :: c_handle
+  status = riis_grid_init(grid, c_sizeof(grid))
+  if (status /= RIIS_OK) return
+  grid%ni = ni
+  grid%nj = nj
+  grid%nk = nk
+  grid%x = location_of(x)
+  grid%y = location_of(y)
+  grid%z = location_of(z)
+  grid%real_bits = real_bits
+  grid%n_nodes = n_nodes
+  grid%first = first_num - 1
+  grid%stride = [int(stride_i, int64), int(stride_j, int64), int(stride_k, int64)]
+  c_handle = c_null_ptr
+  status = riis_mesh_create_grid(grid, c_handle)
+  if (status /= RIIS_OK) return
+  mesh = handle_of(c_handle)
+end subroutine riisf_mesh_create_grid_64
+
+!> Gives a mesh other axes. A mesh may change between a grid and coordinates of nodes.
+subroutine riisf_mesh_update_grid(mesh, ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, &
+    n_nodes, status)
+  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_update_grid, riis_status
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int32), intent(in) :: ni                        !< Nodes along each axis, >= 1.
+  integer(int32), intent(in) :: nj                        !< Nodes along each axis, each >= 1.
+  integer(int32), intent(in) :: nk                        !< Nodes along each axis, each >= 1.
+  type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
+  type(*), intent(in) :: y(*)                             !< (nj).
+  type(*), intent(in) :: z(*)                             !< (nk).
+  integer(int32), intent(in) :: real_bits                 !< 32 for REAL*4, 64 for REAL*8.
+  integer(int32), intent(in) :: first_num                 !< The number of node (1, 1, 1), counted from 1.
+  integer(int32), intent(in) :: stride_i                  !< From a node to the next along x; three times 0 stands for 1, ni
+                                                          !! and ni * nj.
+  integer(int32), intent(in) :: stride_j                  !< Along y.
+  integer(int32), intent(in) :: stride_k                  !< Along z.
+  integer(int32), intent(in) :: n_nodes                   !< The length of the caller's arrays; 0 for the least length.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_grid) :: grid
+  status = riis_grid_init(grid, c_sizeof(grid))
+  if (status /= RIIS_OK) return
+  grid%ni = ni
+  grid%nj = nj
+  grid%nk = nk
+  grid%x = location_of(x)
+  grid%y = location_of(y)
+  grid%z = location_of(z)
+  grid%real_bits = real_bits
+  grid%n_nodes = n_nodes
+  grid%first = first_num - 1
+  grid%stride = [int(stride_i, int64), int(stride_j, int64), int(stride_k, int64)]
+  status = riis_mesh_update_grid(c_handle_of(mesh), grid)
+end subroutine riisf_mesh_update_grid
+
+!> Does the same as riisf_mesh_update_grid, with counts and ids of INTEGER*8.
+subroutine riisf_mesh_update_grid_64(mesh, ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, &
+    n_nodes, status)
+  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_update_grid, riis_status
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: ni                        !< Nodes along each axis, >= 1.
+  integer(int64), intent(in) :: nj                        !< Nodes along each axis, each >= 1.
+  integer(int64), intent(in) :: nk                        !< Nodes along each axis, each >= 1.
+  type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
+  type(*), intent(in) :: y(*)                             !< (nj).
+  type(*), intent(in) :: z(*)                             !< (nk).
+  integer(int32), intent(in) :: real_bits                 !< 32 for REAL*4, 64 for REAL*8.
+  integer(int64), intent(in) :: first_num                 !< The number of node (1, 1, 1), counted from 1.
+  integer(int64), intent(in) :: stride_i                  !< From a node to the next along x; three times 0 stands for 1, ni
+                                                          !! and ni * nj.
+  integer(int64), intent(in) :: stride_j                  !< Along y.
+  integer(int64), intent(in) :: stride_k                  !< Along z.
+  integer(int64), intent(in) :: n_nodes                   !< The length of the caller's arrays; 0 for the least length.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_grid) :: grid
+  status = riis_grid_init(grid, c_sizeof(grid))
+  if (status /= RIIS_OK) return
+  grid%ni = ni
+  grid%nj = nj
+  grid%nk = nk
+  grid%x = location_of(x)
+  grid%y = location_of(y)
+  grid%z = location_of(z)
+  grid%real_bits = real_bits
+  grid%n_nodes = n_nodes
+  grid%first = first_num - 1
+  grid%stride = [int(stride_i, int64), int(stride_j, int64), int(stride_k, int64)]
+  status = riis_mesh_update_grid(c_handle_of(mesh), grid)
+end subroutine riisf_mesh_update_grid_64
+
 !> Makes the clusters of RIIS_SEARCH_CLUSTERS now, not in the first marking that uses them.
 subroutine riisf_mesh_prepare(mesh, n_threads, status)
   use, intrinsic :: iso_fortran_env, only: int32, int64

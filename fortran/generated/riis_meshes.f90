@@ -40,6 +40,8 @@ module riis_meshes
                                                                         !< Makes a mesh that copies coordinates.
     generic :: update_copy => update_copy_xyz_real32, update_copy_xyz_real64, update_copy_x_y_z_real32, update_copy_x_y_z_real64
                                                                         !< Copies new coordinates.
+    generic :: create_grid => create_grid_real32, create_grid_real64    !< Makes a mesh from the axes of a grid.
+    generic :: update_grid => update_grid_real32, update_grid_real64    !< Gives the mesh other axes.
     generic :: set_adjacency => adjacency_int32_int32, adjacency_int32_int64, adjacency_int64_int32, adjacency_int64_int64, &
       adjacency_handle                                         !< Sets the adjacency for the neighbour search.
     procedure, non_overridable :: clear_adjacency => mesh_clear_adjacency !< Removes the adjacency.
@@ -66,6 +68,10 @@ module riis_meshes
     procedure, private, non_overridable :: update_copy_xyz_real64 => mesh_update_copy_xyz_real64
     procedure, private, non_overridable :: update_copy_x_y_z_real32 => mesh_update_copy_x_y_z_real32
     procedure, private, non_overridable :: update_copy_x_y_z_real64 => mesh_update_copy_x_y_z_real64
+    procedure, private, non_overridable :: create_grid_real32 => mesh_create_grid_real32
+    procedure, private, non_overridable :: create_grid_real64 => mesh_create_grid_real64
+    procedure, private, non_overridable :: update_grid_real32 => mesh_update_grid_real32
+    procedure, private, non_overridable :: update_grid_real64 => mesh_update_grid_real64
     procedure, private, non_overridable :: adjacency_int32_int32 => mesh_adjacency_int32_int32
     procedure, private, non_overridable :: adjacency_int32_int64 => mesh_adjacency_int32_int64
     procedure, private, non_overridable :: adjacency_int64_int32 => mesh_adjacency_int64_int32
@@ -388,6 +394,205 @@ contains
     if (code == RIIS_OK) this%n = nodes%n_points
     call finish(code, status)
   end subroutine mesh_update_copy_x_y_z_real64
+
+  !> Makes a mesh from the axes of a rectilinear grid, and stores nothing for each node. Node (i, j, k) is at x(i), y(j), z(k).
+  !! Its number is first + (i - 1) stride(1) + (j - 1) stride(2) + (k - 1) stride(3). An array K(0:ni+1, 0:nj+1, 0:nk+1) has
+  !! halo=1, because an argument loses its lower bounds. Each component of the velocity of a staggered grid has its own axes, so
+  !! it has its own mesh. Errors: RIIS_INVALID_MESH naming the axis, the index, counted from 0, and the value.
+  subroutine mesh_create_grid_real32(this, x, y, z, halo, first, stride, n_nodes, status)
+    class(riis_mesh), intent(inout) :: this                 !< Must be empty.
+    real(real32), intent(in), contiguous, target :: x(:) !< At least one node, strictly ascending; copied.
+    real(real32), intent(in), contiguous, target :: y(:) !< At least one node, strictly ascending; copied.
+    real(real32), intent(in), contiguous, target :: z(:) !< At least one node, strictly ascending; copied.
+    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without it
+                                                            !! first, stride and n_nodes count.
+    class(*), intent(in), optional :: first                 !< integer: the number of node (1, 1, 1). Default 1.
+    class(*), intent(in), optional :: stride(:)             !< integer (3): from a node to the next along each axis. Default 1,
+                                                            !! size(x), size(x) * size(y).
+    class(*), intent(in), optional :: n_nodes               !< integer: the length of the caller's arrays. Default: the least.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_grid) :: grid
+    integer(riis_status) :: code
+    code = riis_grid_init(grid, c_sizeof(grid))
+    grid%ni = size(x, kind=int64)
+    grid%nj = size(y, kind=int64)
+    grid%nk = size(z, kind=int64)
+    if (min(grid%ni, grid%nj, grid%nk) > 0) then
+      grid%x = c_loc(x)
+      grid%y = c_loc(y)
+      grid%z = c_loc(z)
+    end if
+    grid%real_bits = storage_size(x)
+    call set_numbers(grid, halo, first, stride, n_nodes, code)
+    call create_mesh_of_grid(this, grid, code)
+    call finish(code, status)
+  end subroutine mesh_create_grid_real32
+
+  !> Does the same.
+  subroutine mesh_create_grid_real64(this, x, y, z, halo, first, stride, n_nodes, status)
+    class(riis_mesh), intent(inout) :: this                 !< Must be empty.
+    real(real64), intent(in), contiguous, target :: x(:) !< At least one node, strictly ascending; copied.
+    real(real64), intent(in), contiguous, target :: y(:) !< At least one node, strictly ascending; copied.
+    real(real64), intent(in), contiguous, target :: z(:) !< At least one node, strictly ascending; copied.
+    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without it
+                                                            !! first, stride and n_nodes count.
+    class(*), intent(in), optional :: first                 !< integer: the number of node (1, 1, 1). Default 1.
+    class(*), intent(in), optional :: stride(:)             !< integer (3): from a node to the next along each axis. Default 1,
+                                                            !! size(x), size(x) * size(y).
+    class(*), intent(in), optional :: n_nodes               !< integer: the length of the caller's arrays. Default: the least.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_grid) :: grid
+    integer(riis_status) :: code
+    code = riis_grid_init(grid, c_sizeof(grid))
+    grid%ni = size(x, kind=int64)
+    grid%nj = size(y, kind=int64)
+    grid%nk = size(z, kind=int64)
+    if (min(grid%ni, grid%nj, grid%nk) > 0) then
+      grid%x = c_loc(x)
+      grid%y = c_loc(y)
+      grid%z = c_loc(z)
+    end if
+    grid%real_bits = storage_size(x)
+    call set_numbers(grid, halo, first, stride, n_nodes, code)
+    call create_mesh_of_grid(this, grid, code)
+    call finish(code, status)
+  end subroutine mesh_create_grid_real64
+
+  !> Gives a mesh other axes. A mesh may change between a grid and coordinates of nodes. The errors are those of %create_grid.
+  subroutine mesh_update_grid_real32(this, x, y, z, halo, first, stride, n_nodes, status)
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
+    real(real32), intent(in), contiguous, target :: x(:) !< At least one node, strictly ascending; copied.
+    real(real32), intent(in), contiguous, target :: y(:) !< At least one node, strictly ascending; copied.
+    real(real32), intent(in), contiguous, target :: z(:) !< At least one node, strictly ascending; copied.
+    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without it
+                                                            !! first, stride and n_nodes count.
+    class(*), intent(in), optional :: first                 !< integer: the number of node (1, 1, 1). Default 1.
+    class(*), intent(in), optional :: stride(:)             !< integer (3): from a node to the next along each axis. Default 1,
+                                                            !! size(x), size(x) * size(y).
+    class(*), intent(in), optional :: n_nodes               !< integer: the length of the caller's arrays. Default: the least.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_grid) :: grid
+    integer(riis_status) :: code
+    code = riis_grid_init(grid, c_sizeof(grid))
+    grid%ni = size(x, kind=int64)
+    grid%nj = size(y, kind=int64)
+    grid%nk = size(z, kind=int64)
+    if (min(grid%ni, grid%nj, grid%nk) > 0) then
+      grid%x = c_loc(x)
+      grid%y = c_loc(y)
+      grid%z = c_loc(z)
+    end if
+    grid%real_bits = storage_size(x)
+    call set_numbers(grid, halo, first, stride, n_nodes, code)
+    call update_mesh_of_grid(this, grid, code)
+    call finish(code, status)
+  end subroutine mesh_update_grid_real32
+
+  !> Does the same.
+  subroutine mesh_update_grid_real64(this, x, y, z, halo, first, stride, n_nodes, status)
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
+    real(real64), intent(in), contiguous, target :: x(:) !< At least one node, strictly ascending; copied.
+    real(real64), intent(in), contiguous, target :: y(:) !< At least one node, strictly ascending; copied.
+    real(real64), intent(in), contiguous, target :: z(:) !< At least one node, strictly ascending; copied.
+    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without it
+                                                            !! first, stride and n_nodes count.
+    class(*), intent(in), optional :: first                 !< integer: the number of node (1, 1, 1). Default 1.
+    class(*), intent(in), optional :: stride(:)             !< integer (3): from a node to the next along each axis. Default 1,
+                                                            !! size(x), size(x) * size(y).
+    class(*), intent(in), optional :: n_nodes               !< integer: the length of the caller's arrays. Default: the least.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_grid) :: grid
+    integer(riis_status) :: code
+    code = riis_grid_init(grid, c_sizeof(grid))
+    grid%ni = size(x, kind=int64)
+    grid%nj = size(y, kind=int64)
+    grid%nk = size(z, kind=int64)
+    if (min(grid%ni, grid%nj, grid%nk) > 0) then
+      grid%x = c_loc(x)
+      grid%y = c_loc(y)
+      grid%z = c_loc(z)
+    end if
+    grid%real_bits = storage_size(x)
+    call set_numbers(grid, halo, first, stride, n_nodes, code)
+    call update_mesh_of_grid(this, grid, code)
+    call finish(code, status)
+  end subroutine mesh_update_grid_real64
+
+  ! Gives a grid the numbers of its nodes. It does nothing after an error.
+  subroutine set_numbers(grid, halo, first, stride, n_nodes, code)
+    type(riis_grid), intent(inout) :: grid
+    class(*), intent(in), optional :: halo, first, stride(:), n_nodes
+    integer(riis_status), intent(inout) :: code
+    integer(int64) :: width, first_number, extents(3)
+    if (code /= RIIS_OK) return
+    if (present(halo)) then
+      call get_integer(halo, 'halo', width, code)
+      if (code /= RIIS_OK) return
+      if (present(first) .or. present(stride) .or. present(n_nodes)) then
+        code = refuse('halo stands for first, stride and n_nodes, so only one of both is taken')
+      else if (width < 0 .or. width > 2_int64**30) then
+        code = refuse('halo is ' // text_of(width) // '; it must be from 0 to 2^30')
+      else
+        extents = [grid%ni, grid%nj, grid%nk] + 2 * width
+        grid%n_nodes = huge(width) ! the library refuses so many
+        if (product(real(extents, real64)) < 2.0_real64**41) then
+          grid%n_nodes = product(extents)
+          grid%stride = [1_int64, extents(1), extents(1) * extents(2)]
+          grid%first = width * sum(grid%stride)
+        end if
+      end if
+      return
+    end if
+    first_number = 1
+    call get_integer(first, 'first', first_number, code)
+    grid%first = first_number - 1
+    if (code == RIIS_OK .and. first_number < 1) &
+      code = refuse('first is ' // text_of(first_number) // '; it must be at least 1')
+    call get_integer(n_nodes, 'n_nodes', grid%n_nodes, code)
+    if (.not. present(stride)) return
+    if (size(stride) /= 3) then
+      code = refuse('the size of stride is ' // text_of(size(stride)) // '; it must be 3')
+      return
+    end if
+    select type (stride)
+    type is (integer(int32))
+      grid%stride = stride
+    type is (integer(int64))
+      grid%stride = stride
+    class default
+      code = refuse('stride is neither integer(int32) nor integer(int64)')
+    end select
+  end subroutine set_numbers
+
+  subroutine create_mesh_of_grid(this, grid, code)
+    class(riis_mesh), intent(inout) :: this
+    type(riis_grid), intent(in) :: grid
+    integer(riis_status), intent(inout) :: code
+    if (code == RIIS_OK) code = check_not_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_create_grid(grid, this%handle)
+    if (code == RIIS_OK) this%n = n_numbers_of(grid)
+  end subroutine create_mesh_of_grid
+
+  subroutine update_mesh_of_grid(this, grid, code)
+    class(riis_mesh), intent(inout) :: this
+    type(riis_grid), intent(in) :: grid
+    integer(riis_status), intent(inout) :: code
+    if (code == RIIS_OK) code = check_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_update_grid(this%handle, grid)
+    if (code == RIIS_OK) this%n = n_numbers_of(grid)
+  end subroutine update_mesh_of_grid
+
+  ! Returns the length of the caller's arrays. The library has checked the grid.
+  function n_numbers_of(grid) result(n)
+    type(riis_grid), intent(in) :: grid
+    integer(int64) :: n
+    integer(int64) :: extents(3), stride(3)
+    extents = [grid%ni, grid%nj, grid%nk]
+    stride = grid%stride
+    if (all(stride == 0)) stride = [1_int64, grid%ni, grid%ni * grid%nj]
+    n = grid%n_nodes
+    if (n == 0) n = grid%first + 1 + sum((extents - 1) * stride, mask=extents > 1)
+  end function n_numbers_of
 
   ! The common part of all specific procedures of create. It does nothing after an error.
   subroutine create_mesh(this, points, code)

@@ -33,6 +33,10 @@ module riisf
   public :: riisf_mesh_create_copy_64
   public :: riisf_mesh_update_copy
   public :: riisf_mesh_update_copy_64
+  public :: riisf_mesh_create_grid
+  public :: riisf_mesh_create_grid_64
+  public :: riisf_mesh_update_grid
+  public :: riisf_mesh_update_grid_64
   public :: riisf_mesh_prepare
   public :: riisf_mesh_destroy
   public :: riisf_last_error
@@ -519,6 +523,90 @@ module riisf
       integer(int32), intent(in) :: real_bits
       integer(riis_status), intent(out) :: status
     end subroutine riisf_mesh_update_copy_64
+
+    subroutine riisf_mesh_create_grid(ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, &
+        n_nodes, mesh, status)
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int32), intent(in) :: ni
+      integer(int32), intent(in) :: nj
+      integer(int32), intent(in) :: nk
+      type(*), intent(in) :: x(*)
+      type(*), intent(in) :: y(*)
+      type(*), intent(in) :: z(*)
+      integer(int32), intent(in) :: real_bits
+      integer(int32), intent(in) :: first_num
+      integer(int32), intent(in) :: stride_i
+      integer(int32), intent(in) :: stride_j
+      integer(int32), intent(in) :: stride_k
+      integer(int32), intent(in) :: n_nodes
+      integer(int64), intent(inout) :: mesh
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_mesh_create_grid
+
+    subroutine riisf_mesh_create_grid_64(ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, &
+        n_nodes, mesh, status)
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: ni
+      integer(int64), intent(in) :: nj
+      integer(int64), intent(in) :: nk
+      type(*), intent(in) :: x(*)
+      type(*), intent(in) :: y(*)
+      type(*), intent(in) :: z(*)
+      integer(int32), intent(in) :: real_bits
+      integer(int64), intent(in) :: first_num
+      integer(int64), intent(in) :: stride_i
+      integer(int64), intent(in) :: stride_j
+      integer(int64), intent(in) :: stride_k
+      integer(int64), intent(in) :: n_nodes
+      integer(int64), intent(inout) :: mesh
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_mesh_create_grid_64
+
+    subroutine riisf_mesh_update_grid(mesh, ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, &
+        n_nodes, status)
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: mesh
+      integer(int32), intent(in) :: ni
+      integer(int32), intent(in) :: nj
+      integer(int32), intent(in) :: nk
+      type(*), intent(in) :: x(*)
+      type(*), intent(in) :: y(*)
+      type(*), intent(in) :: z(*)
+      integer(int32), intent(in) :: real_bits
+      integer(int32), intent(in) :: first_num
+      integer(int32), intent(in) :: stride_i
+      integer(int32), intent(in) :: stride_j
+      integer(int32), intent(in) :: stride_k
+      integer(int32), intent(in) :: n_nodes
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_mesh_update_grid
+
+    subroutine riisf_mesh_update_grid_64(mesh, ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, &
+        stride_k, n_nodes, status)
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: mesh
+      integer(int64), intent(in) :: ni
+      integer(int64), intent(in) :: nj
+      integer(int64), intent(in) :: nk
+      type(*), intent(in) :: x(*)
+      type(*), intent(in) :: y(*)
+      type(*), intent(in) :: z(*)
+      integer(int32), intent(in) :: real_bits
+      integer(int64), intent(in) :: first_num
+      integer(int64), intent(in) :: stride_i
+      integer(int64), intent(in) :: stride_j
+      integer(int64), intent(in) :: stride_k
+      integer(int64), intent(in) :: n_nodes
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_mesh_update_grid_64
 
     subroutine riisf_mesh_prepare(mesh, n_threads, status)
       use, intrinsic :: iso_fortran_env, only: int32, int64

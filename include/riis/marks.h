@@ -25,7 +25,8 @@ RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and 
 enum {
   RIIS_SEARCH_AUTO = 0,       /* clusters. The exhaustive search runs instead in three cases: for distances by sampling or
                                  minimisation; at the first marking of a mesh without riis_mesh_prepare, if the distance limit is
-                                 at most a fifth of the surface's extent; for a larger limit with few nodes */
+                                 at most a fifth of the surface's extent; for a larger limit with few nodes. A grid
+                                 (riis_mesh_create_grid) has clusters from its first marking on */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
                                  neighbor search") and queries every other node that it cannot prove to be far. The
@@ -33,7 +34,7 @@ enum {
   RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes that no path
                                  joins to its one starting node. The mesh must have an adjacency */
   RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, and decides in double precision.
-                                 The exhaustive search runs instead (stats.search) for 2^32 nodes and more. It
+                                 The exhaustive search runs instead (stats.search) for 2^32 points and more. It
                                  also runs if the mesh is a million times as large as the surface, or as far
                                  away */
 };

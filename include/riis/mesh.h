@@ -37,9 +37,40 @@ RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *n
 /* Destroys the handle. The caller's coordinates and all marks stay. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
 /* Makes the clusters of RIIS_SEARCH_CLUSTERS now, not in the first marking that uses them. Clusters copy the
- * coordinates: they take 41 bytes per node while the handle lives, and 32 more while they are made.
+ * coordinates: they take 41 bytes per node while the handle lives, and 32 more while they are made. A grid needs none.
  * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
+
+/* A rectilinear grid: three axes, and the place of each node in the caller's arrays. Node (i, j, k) is at (x[i], y[j], z[k])
+ * and has the number first + i stride[0] + j stride[1] + k stride[2], all from 0. Other numbers below n_nodes, such as
+ * those of halos, have no node. */
+typedef struct riis_grid {
+  int64_t struct_size;   /* set by the init function */
+  int64_t ni, nj, nk;    /* nodes along each axis, each >= 1 */
+  const void *x;         /* (ni), finite and strictly ascending, of at most 1e60 in magnitude. NULL, the default, stands for
+                            origin[0] + i spacing[0] */
+  const void *y;         /* (nj), likewise */
+  const void *z;         /* (nk), likewise */
+  double origin[3];      /* of axes with NULL. Default 0 */
+  double spacing[3];     /* of axes with NULL, above 0. Default 1 */
+  int64_t first;         /* the number of node (0, 0, 0), >= 0. Default 0 */
+  int64_t stride[3];     /* from a node to the next along each axis, >= 1. No two nodes may have one number. Default 0, for
+                            all three, stands for 1, ni and ni nj */
+  int64_t n_nodes;       /* the length of the caller's arrays, above the last node's number and at most 2^40. Default 0
+                            stands for the least length */
+  int32_t real_bits;     /* of x, y and z: 64, the default, or 32 */
+  int32_t reserved;      /* 0 */
+} riis_grid;
+RIIS_API riis_status riis_grid_init(riis_grid *grid, int64_t struct_size); /* the defaults */
+/* Makes a mesh from the axes of a grid, and stores nothing for each node. It marks the nodes of riis_mesh_create with the same
+ * bits. Its edges are those of riis_adjacency_create_from_grid, unless riis_mesh_set_adjacency gives it others. Axes are not
+ * periodic. Markings refuse RIIS_SEARCH_NEIGHBOR and RIIS_SEARCH_PAPER, and sampling and minimisation for more than 10^8 nodes.
+ *   grid  its axes are copied. n_nodes is the n_nodes of the mesh in every other call
+ * Errors: RIIS_INVALID_MESH naming the axis, the index and the value; RIIS_LIMIT_EXCEEDED for numbers from 2^40 on. */
+RIIS_API riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh);
+/* Gives a mesh other axes, or turns a mesh of points into a grid. riis_mesh_update turns a grid into points.
+ * Errors: as riis_mesh_create_grid; the mesh then keeps its nodes. */
+RIIS_API riis_status riis_mesh_update_grid(riis_mesh *mesh, const riis_grid *grid);
 
 /* Neighbours of nodes, as compressed sparse rows. With base = index_base, node i of 0 to n_rows - 1 has the
  * neighbours columns[k] - base for k from offsets[i] - base to offsets[i + 1] - base - 1. */

@@ -112,6 +112,9 @@
  *   riis_mesh_update_copy                copies changed coordinates
  *   riis_mesh_destroy
  *   riis_mesh_prepare                    makes clusters of nodes in advance
+ *   riis_grid_init
+ *   riis_mesh_create_grid                a rectilinear grid, by its axes
+ *   riis_mesh_update_grid                other axes
  *   riis_csr_init
  *   riis_mesh_set_adjacency              the neighbours of the nodes
  *   riis_mesh_cells_init

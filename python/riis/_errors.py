@@ -167,7 +167,7 @@ _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"RIIS_ALL_LEAFLETS, -1, stands", "None stands"),
     (r"^search\.surface: ", ""),
     (r"\briis_[a-z_]+", lambda match: _NAMES.get(match[0], match[0])),
-    (r"(?<!['\w])(?:arrays|band|cells|csr|ends|faces|flow|frames|law|loads|nodes|options|patches|points|"
+    (r"(?<!['\w])(?:arrays|band|cells|csr|ends|faces|flow|frames|grid|law|loads|nodes|options|patches|points|"
      r"resistance|search|table|times)\.([a-z]\w*)",
      lambda match: _ARGUMENTS.get(match[0], match[1])),
     (r"\bRIIS_LIST_\*", "the lists of riis.Marks"),

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
+#include <algorithm>
+#include <utility>
+
 #include "module.hpp"
 
 namespace riis_python {
@@ -27,6 +30,7 @@ void drop_adjacency(Mesh &mesh) {
 void update(Mesh &self, nb::handle xyz, nb::handle y, nb::handle z) {
   const Writing writing(self.usage, "mesh");
   const bool in_place = xyz.is_none() && y.is_none() && z.is_none();
+  if (in_place && self.is_grid) refuse_value("xyz", "must be given, because the mesh is a grid: see update_grid");
   Points given = in_place ? Points{} : points_of(xyz, y, z);
   const Points &points = in_place ? self.points : given;
   const bool is_other_size = points.n != self.points.n;
@@ -34,7 +38,61 @@ void update(Mesh &self, nb::handle xyz, nb::handle y, nb::handle z) {
   call_to_write(self.usage,
                 [&] { return riis_mesh_update(self.handle, points.n, points.x, points.y, points.z, points.stride); });
   if (!in_place) self.points = std::move(given);
+  self.is_grid = false;
   if (is_other_size) drop_adjacency(self);
+}
+
+// Calls the library with a grid. Its numbers are those of an array (len(x), len(y), len(z)), unless the caller gives strides.
+void take_grid(Mesh &mesh, nb::handle x, nb::handle y, nb::handle z, nb::handle first, nb::handle stride,
+               nb::handle n_nodes) {
+  riis_grid grid;
+  call_shortly(riis_grid_init(&grid, sizeof grid));
+  Points axes;
+  for (const auto &[axis, name] : {std::pair(x, "x"), std::pair(y, "y"), std::pair(z, "z")}) {
+    axes.arrays.push_back(Array::of<double>(axis, name));
+    axes.arrays.back().expect({-1});
+  }
+  grid.ni = axes.arrays[0].size(0), grid.nj = axes.arrays[1].size(0), grid.nk = axes.arrays[2].size(0);
+  grid.x = axes.arrays[0].data<void>(), grid.y = axes.arrays[1].data<void>(), grid.z = axes.arrays[2].data<void>();
+  grid.first = integer(first, "first");
+  grid.n_nodes = integer(n_nodes, "n_nodes");
+  if (stride.is_none()) {
+    // The library refuses larger products by their factors.
+    constexpr std::int64_t most = std::int64_t{1} << 40;
+    const bool is_small = grid.nk < most && grid.nj < most / std::max<std::int64_t>(grid.nk, 1);
+    grid.stride[0] = is_small ? grid.nj * grid.nk : most;
+    grid.stride[1] = grid.nk;
+    grid.stride[2] = 1;
+  } else {
+    const Array given = Array::of<std::int64_t>(stride, "stride");
+    given.expect({3});
+    std::copy_n(given.data<std::int64_t>(), 3, grid.stride);
+  }
+  std::int64_t last = grid.first;
+  if (mesh.handle)
+    call_to_write(mesh.usage, [&] { return riis_mesh_update_grid(mesh.handle, &grid); });
+  else
+    call_library([&] { return riis_mesh_create_grid(&grid, &mesh.handle); });
+  const std::int64_t extents[3] = {grid.ni, grid.nj, grid.nk};
+  for (int axis = 0; axis < 3; ++axis)
+    if (extents[axis] > 1) last += (extents[axis] - 1) * grid.stride[axis];
+  axes.n = grid.n_nodes ? grid.n_nodes : last + 1;
+  mesh.points = std::move(axes);
+  mesh.is_grid = true;
+}
+
+Mesh *create_grid(nb::handle x, nb::handle y, nb::handle z, nb::handle first, nb::handle stride, nb::handle n_nodes) {
+  auto made = std::make_unique<Mesh>();
+  take_grid(*made, x, y, z, first, stride, n_nodes);
+  return made.release();
+}
+
+void update_grid(Mesh &self, nb::handle x, nb::handle y, nb::handle z, nb::handle first, nb::handle stride,
+                 nb::handle n_nodes) {
+  const Writing writing(self.usage, "mesh");
+  self.places = Mesh::new_places();
+  take_grid(self, x, y, z, first, stride, n_nodes);
+  drop_adjacency(self);
 }
 
 void prepare(Mesh &self, nb::handle n_threads) {
@@ -196,14 +254,27 @@ nb::object columns(nb::handle self) {
 nb::object coordinates(Mesh &mesh) {
   const Reading reading(mesh.usage, "mesh");
   const std::vector<Array> &arrays = mesh.points.arrays;
+  if (mesh.is_grid) refuse_value("mesh", "a grid stores no coordinates of nodes; axes are its axes");
   if (arrays.size() == 1) return arrays[0].object();
   nb::list columns;
   for (const Array &array : arrays) columns.append(array.object());
   return nb::module_::import_("numpy").attr("stack")(columns, nb::arg("axis") = 1);
 }
 
+// Returns the axes of a grid.
+nb::object axes_of(Mesh &mesh) {
+  const Reading reading(mesh.usage, "mesh");
+  if (!mesh.is_grid) refuse_value("mesh", "is no grid, so it has no axes");
+  const std::vector<Array> &axes = mesh.points.arrays;
+  return nb::make_tuple(axes[0].object(), axes[1].object(), axes[2].object());
+}
+
 std::string description(const Mesh &mesh) {
   if (mesh.usage.is_closed) return "<riis.Mesh, closed>";
+  if (mesh.is_grid) {
+    const std::vector<Array> &axes = mesh.points.arrays;
+    return text_of("<riis.Mesh, grid of ", axes[0].size(0), " x ", axes[1].size(0), " x ", axes[2].size(0), " nodes>");
+  }
   return text_of("<riis.Mesh, ", mesh.points.n, " nodes>");
 }
 
@@ -283,6 +354,26 @@ equal strides. The mesh keeps the arrays alive. Call update() after every change
            R"(Tells the mesh that coordinates changed, in place (no argument) or to other arrays, and checks them.
 
 The adjacency stays if the number of nodes stays.)")
+      .def_static("grid", &create_grid, nb::arg("x").none(), nb::arg("y").none(), nb::arg("z").none(), nb::kw_only(),
+                  nb::arg("first").none() = 0, nb::arg("stride").none() = nb::none(), nb::arg("n_nodes").none() = 0,
+                  nb::sig("def grid(x: " RIIS_COORDINATES ", y: " RIIS_COORDINATES ", z: " RIIS_COORDINATES
+                          ", *, first: int = 0, stride: " RIIS_IDS " | None = None, n_nodes: int = 0) -> Mesh"),
+                  R"(Makes a mesh from the axes of a rectilinear grid, and stores nothing for each node.
+
+Node (i, j, k) is at x[i], y[j], z[k], and has the number first + i stride[0] + j stride[1] + k stride[2]. By default the
+numbers are those of an array K with K.shape = (len(x), len(y), len(z)) in C order. The edges join neighbours along the axes.
+
+x, y, z  (n,) float64, strictly ascending; copied
+stride   (3,) int64. None: C order
+n_nodes  the length of the caller's arrays, which may have a halo. 0: the least length)")
+      .def("update_grid", &update_grid, nb::arg("x").none(), nb::arg("y").none(), nb::arg("z").none(), nb::kw_only(),
+           nb::arg("first").none() = 0, nb::arg("stride").none() = nb::none(), nb::arg("n_nodes").none() = 0,
+           nb::sig("def update_grid(self, x: " RIIS_COORDINATES ", y: " RIIS_COORDINATES ", z: " RIIS_COORDINATES
+                   ", *, first: int = 0, stride: " RIIS_IDS " | None = None, n_nodes: int = 0) -> None"),
+           "Gives the mesh other axes, as in grid. A mesh may change between a grid and coordinates of nodes.")
+      .def_prop_ro("axes", attribute(&axes_of),
+                   nb::sig("def axes(self) -> tuple[" RIIS_COORDINATES ", " RIIS_COORDINATES ", " RIIS_COORDINATES "]"),
+                   "x, y and z of a grid: the caller's arrays.")
       .def("prepare", &prepare, nb::arg("n_threads").none() = 0,
            nb::sig("def prepare(self, n_threads: int = 0) -> None"),
            "Makes the clusters of search='clusters' now, not in the second marking. They take 41 bytes per node.")

@@ -45,7 +45,8 @@ struct Adjacency : Handle<riis_adjacency, riis_adjacency_destroy> {
 
 struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
   static constexpr const char *python_name = "Mesh";
-  Points points;            // the caller's coordinates, kept alive
+  Points points;  // the caller's coordinates, kept alive, or the axes of a grid
+  bool is_grid = false;
   std::vector<Array> rows;  // the caller's arrays of rows
   nb::object adjacency;     // an Adjacency whose rows are used, kept alive
   std::int64_t places = new_places();

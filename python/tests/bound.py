@@ -59,6 +59,8 @@ BOUND = {
     "riis_closest_points": "Surface.closest_points",
     "riis_mesh_create": "Mesh.__init__",
     "riis_mesh_update": "Mesh.update",
+    "riis_mesh_create_grid": "Mesh.grid",
+    "riis_mesh_update_grid": "Mesh.update_grid",
     "riis_mesh_destroy": "Mesh.close",
     "riis_mesh_prepare": "Mesh.prepare",
     "riis_mesh_set_adjacency": "Mesh.set_adjacency",
@@ -116,6 +118,7 @@ LEFT_OUT = {
         "riis_crossing_options_init",
         "riis_closest_options_init",
         "riis_closest_arrays_init",
+        "riis_grid_init",
         "riis_csr_init",
         "riis_mesh_cells_init",
         "riis_mesh_faces_init",
@@ -146,8 +149,10 @@ LEFT_OUT = {
 # Fields of structs that python/src does not use, with reasons.
 FIELDS_LEFT_OUT = {
     f"{struct}.real_bits": "arrays have 64 bits, the default"
-    for struct in ("riis_points", "riis_surface_arrays", "riis_keyframe_arrays", "riis_landmarks")
+    for struct in ("riis_points", "riis_grid", "riis_surface_arrays", "riis_keyframe_arrays", "riis_landmarks")
 } | {
+    "riis_grid.origin": "numpy makes axes of equal spacing",
+    "riis_grid.spacing": "numpy makes axes of equal spacing",
     "riis_gap.n_ends": "is the size of distance",
     "riis_placement.n_undetermined": "undetermined has the names",
     "riis_resistance_arrays.K_stride": "K is contiguous, the default",

@@ -27,6 +27,48 @@ def test_adjacencies_of_cells_faces_and_grids(dtype):
     assert repr(faces) == "<riis.Adjacency, 3 rows>"
 
 
+def test_a_grid_marks_the_nodes_of_its_points(surface):
+    x, y, z = numpy.linspace(-2, 2, 41), numpy.linspace(-1.9, 2, 38), numpy.sort(numpy.linspace(-1.4, 1.4, 35) ** 3)
+    points = numpy.stack(numpy.meshgrid(x, y, z, indexing="ij"), axis=-1).reshape(-1, 3)
+    expected = riis.mark(surface, riis.Mesh(points), R=3.0)
+    mesh = riis.Mesh.grid(x, y, z)
+    marks = riis.mark(surface, mesh, R=3.0)
+    assert len(expected) > 100 and numpy.array_equal(marks.ids, expected.ids)
+    assert numpy.array_equal(marks.distance, expected.distance) and numpy.array_equal(marks.K, expected.K)
+    assert len(mesh) == mesh.n_nodes == 41 * 38 * 35 and repr(mesh) == "<riis.Mesh, grid of 41 x 38 x 35 nodes>"
+    assert mesh.axes[1] is y
+    K = numpy.zeros((len(x), len(y), len(z)))
+    K.reshape(-1)[marks.ids] = marks.K
+    i, j, k = numpy.unravel_index(K.argmax(), K.shape)
+    assert surface.closest_point([x[i], y[j], z[k]]).distance == marks.distance[marks.K.argmax()]
+
+    # A halo of one node, in Fortran's order.
+    stride = numpy.array([1, 43, 43 * 40])
+    mesh.update_grid(x, y, z, first=int(stride.sum()), stride=stride, n_nodes=43 * 40 * 37)
+    riis.mark(surface, mesh, into=marks)
+    index = numpy.unravel_index(expected.ids, K.shape)
+    assert numpy.array_equal(numpy.sort(stride.sum() + stride @ numpy.array(index)), marks.ids) and len(mesh) == 43 * 40 * 37
+    mesh.update(points)
+    riis.mark(surface, mesh, into=marks)
+    assert numpy.array_equal(marks.ids, expected.ids) and mesh.xyz is points and not hasattr(mesh, "axes")
+
+
+def test_grids_are_refused_by_name(surface):
+    x = numpy.linspace(-1, 1, 5)
+    mesh = riis.Mesh.grid(x, x, x)
+    with pytest.raises(riis.InvalidMeshError, match=r"^y\[1\] is 0.5, after 1; the axis must strictly ascend$"):
+        riis.Mesh.grid(x, x[::-1].copy(), x)
+    with pytest.raises(riis.InvalidArgumentError, match=r"^stride\[1\] is 4; it must be above 4,"):
+        riis.Mesh.grid(x, x, x, stride=numpy.array([1, 4, 25]))
+    with pytest.raises(riis.InvalidArgumentError, match="search is 'neighbor', which needs memory for each node"):
+        riis.mark(surface, mesh, search="neighbor")
+    with pytest.raises(riis.InvalidArgumentError, match="xyz: must be given, because the mesh is a grid"):
+        mesh.update()
+    with pytest.raises(AttributeError, match="a grid stores no coordinates of nodes"):
+        mesh.xyz
+    assert len(riis.mark(surface, mesh).within_limit.ids) >= 0
+
+
 class Rows:
     """Sparse rows with the same attributes as scipy's."""
 

@@ -220,6 +220,22 @@ TEST(test_structs) {
   FIELD(riis_closest_arrays, leaflet_id, 48, 8);
   FIELD(riis_closest_arrays, side, 56, 8);
 
+  SIZE(riis_grid, 152);
+  FIELD(riis_grid, struct_size, 0, 8);
+  FIELD(riis_grid, ni, 8, 8);
+  FIELD(riis_grid, nj, 16, 8);
+  FIELD(riis_grid, nk, 24, 8);
+  FIELD(riis_grid, x, 32, 8);
+  FIELD(riis_grid, y, 40, 8);
+  FIELD(riis_grid, z, 48, 8);
+  FIELD(riis_grid, origin, 56, 24);
+  FIELD(riis_grid, spacing, 80, 24);
+  FIELD(riis_grid, first, 104, 8);
+  FIELD(riis_grid, stride, 112, 24);
+  FIELD(riis_grid, n_nodes, 136, 8);
+  FIELD(riis_grid, real_bits, 144, 4);
+  FIELD(riis_grid, reserved, 148, 4);
+
   SIZE(riis_csr, 56);
   FIELD(riis_csr, struct_size, 0, 8);
   FIELD(riis_csr, n_rows, 8, 8);
@@ -772,6 +788,9 @@ TEST(test_signatures) {
   SIGNATURE(riis_mesh_update_copy, int32_t, (riis_mesh *, const riis_points *));
   SIGNATURE(riis_mesh_destroy, void, (riis_mesh **));
   SIGNATURE(riis_mesh_prepare, int32_t, (riis_mesh *, int32_t));
+  SIGNATURE(riis_grid_init, int32_t, (riis_grid *, int64_t));
+  SIGNATURE(riis_mesh_create_grid, int32_t, (const riis_grid *, riis_mesh **));
+  SIGNATURE(riis_mesh_update_grid, int32_t, (riis_mesh *, const riis_grid *));
   SIGNATURE(riis_csr_init, int32_t, (riis_csr *, int64_t));
   SIGNATURE(riis_mesh_set_adjacency, int32_t, (riis_mesh *, const riis_csr *));
   SIGNATURE(riis_mesh_cells_init, int32_t, (riis_mesh_cells *, int64_t));

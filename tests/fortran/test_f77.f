@@ -1003,6 +1003,76 @@ C     Makes meshes that copy coordinates of both precisions.
       CALL OK(STAT)
       CALL RIISF_MESH_DESTROY(MESH)
       CALL RIISF_MARKS_DESTROY(RES)
+      CALL GRIDS(SURF, NN, XYZ, N, NODE)
+      END
+
+C     Makes meshes from the axes of the box. With a halo, the numbers
+C     are those of K(0:M+1, 0:M+1, 0:M+1). Node 1 has left the box, so
+C     a grid does not mark it.
+      SUBROUTINE GRIDS(SURF, NN, XYZ, N, NODE)
+      INTEGER*8 SURF, MESH, RES, B(7)
+      INTEGER NN, N, NODE(N), M, W, L1, I, J, K, L, N2, STAT
+      INTEGER NODE2(10000)
+      DOUBLE PRECISION XYZ(3,NN), DIST(10000)
+      DOUBLE PRECISION X(100), Y(100), Z(100)
+      SAVE NODE2, DIST
+      INCLUDE 'riisf.h'
+      MESH = 0
+      RES = 0
+      M = NINT(DBLE(NN)**(1D0 / 3D0))
+      W = M + 2
+      L1 = 0
+      IF (NODE(1) .EQ. 1) L1 = 1
+      DO 10 I = 1, M
+        X(I) = XYZ(1,M + I)
+        Y(I) = XYZ(2,2 + (I - 1) * M)
+        Z(I) = XYZ(3,2 + (I - 1) * M**2)
+   10 CONTINUE
+      CALL RIISF_MESH_CREATE_GRID(M, M, M, X, Y, Z, 64, 1 + 1 + W + W**2
+     &  , 1, W, W**2, W**3, MESH, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MARK_NODES(SURF, MESH, RIIS_AUTO, RIIS_SEARCH_AUTO, 1,
+     &  RES, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MARKED(RES, 10000, N2, NODE2, DIST, STAT)
+      CALL OK(STAT)
+      IF (N2 .NE. N - L1) CALL FAILED('as many in a grid')
+      DO 20 L = 1, N2
+        I = MOD(NODE(L1 + L) - 1, M)
+        J = MOD((NODE(L1 + L) - 1) / M, M)
+        K = (NODE(L1 + L) - 1) / M**2
+        IF (NODE2(L) .NE. I + 2 + W * (J + 1) + W**2 * (K + 1))
+     &    CALL FAILED('the same nodes in a grid')
+   20 CONTINUE
+      DO 30 I = 1, 3
+        B(I) = M
+        B(3 + I) = 0
+   30 CONTINUE
+      B(7) = NN
+      CALL RIISF_MESH_UPDATE_GRID(MESH, M, M, M, X, Y, Z, 64, 1, 0, 0,
+     &  0, 0, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MARK_NODES(SURF, MESH, RIIS_AUTO, RIIS_SEARCH_AUTO, 1,
+     &  RES, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MARKED(RES, 10000, N2, NODE2, DIST, STAT)
+      CALL OK(STAT)
+      IF (N2 .NE. N - L1) CALL FAILED('as many after updates')
+      DO 40 L = 1, N2
+        IF (NODE2(L) .NE. NODE(L1 + L)) CALL FAILED('without halo')
+   40 CONTINUE
+      CALL RIISF_MESH_UPDATE_GRID_64(MESH, B(1), B(2), B(3), X, Y, Z,
+     &  64, 1_8, B(4), B(5), B(6), B(7), STAT)
+      CALL OK(STAT)
+      CALL RIISF_MESH_UPDATE_GRID(MESH, M, M, M, X, Y, Z, 64, 0, 0, 0,
+     &  0, 0, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'grid.first is -1')
+      CALL RIISF_MESH_DESTROY(MESH)
+      CALL RIISF_MESH_CREATE_GRID_64(B(1), B(2), B(3), X, Y, Z, 64, 1_8,
+     &  B(4), B(5), B(6), B(7), MESH, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MESH_DESTROY(MESH)
+      CALL RIISF_MARKS_DESTROY(RES)
       END
 
 C     Gives the rows, the cells and the faces between neighbours of a

@@ -22,6 +22,7 @@ program test_meshes
   call test_in_place()
   call test_mesh_errors()
   call test_copies()
+  call test_grids()
   call test_rows()
   call test_row_errors()
   call test_adjacencies()
@@ -199,6 +200,67 @@ contains
     call mesh%destroy()
     call marks%destroy()
   end subroutine test_copies
+
+  ! Tests meshes from axes: the marks are those of the box, also with a halo, in another order and in single precision.
+  subroutine test_grids()
+    type(riis_mesh) :: mesh
+    type(riis_marks) :: marks
+    integer(int64), pointer :: node_id(:)
+    real(c_double), pointer :: distance(:)
+    real(c_double) :: axis(per_side)
+    integer :: i, number(n_nodes), at(3)
+    integer, parameter :: n = per_side, with_halo = (n + 4)**3
+    axis = -1.4d0 + 0.14d0 * [(i, i=0, n - 1)]
+    call mesh%create_grid(axis, axis + 0d0, axis)
+    call check(mesh%n_nodes() == n_nodes, 'the number of nodes of a grid')
+    call check_marking(mesh, 'a grid')
+    call mesh%update_grid(real(axis, real32), real(axis, real32), real(axis, real32))
+    call mesh%update(xyz)
+    call check_marking(mesh, 'a grid that became points')
+
+    ! A halo of two layers, as in K(-1:n+2, -1:n+2, -1:n+2).
+    call mesh%update_grid(axis, axis, axis, halo=2)
+    call check(mesh%n_nodes() == with_halo, 'the number of nodes with a halo')
+    do i = 0, n_nodes - 1
+      at = [mod(i, n), mod(i / n, n), i / n**2] + 2
+      number(i + 1) = at(1) + (n + 4) * (at(2) + (n + 4) * at(3))
+    end do
+    call riis_mark_nodes(surface, mesh, marks)
+    call marks%marked(node_id, distance)
+    call check(size(node_id) == size(expected), 'as many marks with a halo')
+    call check(all(node_id == number(expected + 1)) .and. all(same(distance, expected_distance)), 'marks with a halo')
+    call mesh%destroy()
+    call mesh%create_grid(axis, axis, axis, first=1 + 2 * (1 + (n + 4) + (n + 4)**2), &
+      stride=[1_int64, int(n + 4, int64), int(n + 4, int64)**2], n_nodes=with_halo)
+    call riis_mark_nodes(surface, mesh, marks)
+    call marks%marked(node_id, distance)
+    call check(all(node_id == number(expected + 1)), 'strides instead of a halo')
+    call mesh%destroy()
+    call mesh%create_grid(real(axis, real32), real(axis, real32), real(axis, real32), stride=[1, n, n**2])
+    call check(mesh%n_nodes() == n_nodes, 'axes of single precision')
+    call mesh%update_grid(axis, axis, axis)
+    call check_marking(mesh, 'another update')
+
+    call mesh%update_grid(axis, axis(n:1:-1), axis, status=status)
+    call check_refused(status, RIIS_INVALID_MESH, 'grid.y[1] is')
+    call mesh%update_grid(axis, axis, axis, halo=1, first=2, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'halo stands for first, stride and n_nodes')
+    call mesh%update_grid(axis, axis, axis, halo=-1, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'halo is -1')
+    call mesh%update_grid(axis, axis, axis, halo=2**20, status=status)
+    call check_refused(status, RIIS_LIMIT_EXCEEDED, 'grid.n_nodes is')
+    call mesh%update_grid(axis, axis, axis, first=0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'first is 0; it must be at least 1')
+    call mesh%update_grid(axis, axis, axis, stride=[1, 2], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of stride is 2')
+    call mesh%update_grid(axis(:0), axis, axis, status=status)
+    call check_refused(status, RIIS_INVALID_MESH, 'grid.ni is 0')
+    call mesh%create_grid(axis, axis, axis, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the mesh was already created')
+    call check_marking(mesh, 'a grid after refused updates')
+    call mesh%destroy()
+    call marks%destroy()
+  end subroutine test_grids
 
   subroutine test_rows()
     type(riis_mesh) :: mesh

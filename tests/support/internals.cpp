@@ -339,17 +339,18 @@ std::int64_t order_found_nodes(const riis_surface *surface, std::int64_t n_nodes
                                const std::int64_t *triangle, std::int64_t *within_node, double *within_distance,
                                std::int64_t *within_triangle, std::int64_t *marked_node, double *marked_distance) {
   static FoundNodes found;
+  found.numbers = {0, n_nodes};
   static OrderScratch scratch;
   const Surface &content = content_of(surface);
   found.prepare(n_lists);
   for (int list = 0; list < n_lists; ++list)
     for (std::int64_t i = list == 0 ? 0 : end[list - 1]; i < end[list]; ++i)
       view(found.by_thread)[list].push_back({node[i], distance[i], triangle[i]});
-  const OrderScratch::Counts n = prepare_order(content, found, limit_is_wider, n_nodes, n_threads, scratch);
+  const OrderScratch::Counts n = prepare_order(content, found, limit_is_wider, n_threads, scratch);
   NodeList within, marked;
   within.resize(n.n_within);
   marked.resize(n.n_marked);
-  put_in_order(content, limit_is_wider, n_nodes, n_threads, scratch, within, marked);
+  put_in_order(content, limit_is_wider, found.numbers, n_threads, scratch, within, marked);
   std::copy(within.node_id.begin(), within.node_id.end(), within_node);
   std::copy(within.distance.begin(), within.distance.end(), within_distance);
   std::copy(within.triangle_id.begin(), within.triangle_id.end(), within_triangle);

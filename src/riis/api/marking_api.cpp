@@ -188,10 +188,9 @@ std::optional<riis::Resistance> resistance_of(const riis::SearchRequest &request
   return checked;
 }
 
-const riis::Adjacency &require_adjacency(const riis::Mesh &mesh, const char *purpose) {
-  if (!mesh.adjacency().has_value())
+void require_edges(const riis::Mesh &mesh, const char *purpose) {
+  if (!mesh.nodes().grid && !mesh.adjacency().has_value())
     riis::fail(RIIS_INVALID_ARGUMENT, "mesh has no adjacency, ", purpose, ": see riis_mesh_set_adjacency");
-  return *mesh.adjacency();
 }
 
 // Refuses marks of a mesh with another number of nodes. A mesh with the same number of nodes passes, even if it is a different
@@ -206,7 +205,7 @@ void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
 // Refuses marks of a mesh with another number of nodes, or of a surface with another half thickness. Other differences
 // pass.
 void check_are_of_marking(const riis::SearchRequest &request, const riis::Marks &marks) {
-  require_adjacency(request.mesh, "which a search for leaks needs");
+  require_edges(request.mesh, "which a search for leaks needs");
   check_are_of_mesh(request.mesh, marks);
   const riis::Band &now = request.surface.band();
   if (marks.band.half_thickness != now.half_thickness)
@@ -227,6 +226,8 @@ riis::ArrayView<const std::int64_t> checked_end(const riis::SearchRequest &reque
     if (ids[i] < 0 || ids[i] >= n_nodes)
       riis::fail(RIIS_INVALID_ARGUMENT, "ends.", name, "[", i, "] is ", ids[i], "; the mesh has ", n_nodes,
                  " nodes, from 0");
+    if (!request.mesh.nodes().has_node(ids[i]))
+      riis::fail(RIIS_INVALID_ARGUMENT, "ends.", name, "[", i, "] is ", ids[i], ", which is no node of the grid");
     if (request.is_masked_out(ids[i]))
       riis::fail(RIIS_INVALID_ARGUMENT, "ends.", name, "[", i, "] is node ", ids[i],
                  ", which options.node_mask leaves out");
@@ -258,9 +259,9 @@ riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, 
         request,
         {whole.search, whole.fields, resistance ? &*resistance : nullptr, lists_marked ? &content.band() : nullptr},
         marks->marks);
-    riis::check_proportions(
-        {mesh->mesh.nodes().n, mesh->mesh.bounds(), request.surface.scene().bounds(), request.surface.half_thickness()},
-        surface->number, mesh->mesh.warned_surfaces());
+    riis::check_proportions({mesh->mesh.nodes().n_nodes(), mesh->mesh.bounds(), request.surface.scene().bounds(),
+                             request.surface.half_thickness()},
+                            surface->number, mesh->mesh.warned_surfaces());
   });
 }
 
@@ -368,10 +369,10 @@ riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh
     const riis::Mesh &nodes = require_handle(mesh, "mesh")->mesh;
     riis::check_struct_size<riis_cells_across>(struct_size, "cells");
     require(cells, "cells");
-    const riis::Adjacency &adjacency = require_adjacency(nodes, "whose edges are measured");
+    require_edges(nodes, "whose edges are measured");
     check_are_of_mesh(nodes, content);
     const int n_threads = riis::threads_for(0, nodes.nodes().n, riis::nodes_per_thread);
-    riis::write_struct(cells, struct_size, "cells", riis::cells_across(content, nodes, adjacency, n_threads));
+    riis::write_struct(cells, struct_size, "cells", riis::cells_across(content, nodes, n_threads));
   });
 }
 
@@ -414,15 +415,17 @@ riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_marks *mar
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     const riis_mark_options whole = whole_of(options);
     const int n_threads = threads_of(whole, nodes);
-    const riis::Adjacency &adjacency = require_adjacency(nodes, "which a search for regions needs");
+    require_edges(nodes, "which a search for regions needs");
     check_are_of_mesh(nodes, content);
     check_search(whole.search);
     limit_of(whole, content.band);
     instructions_asked_for(whole.instructions);
     check_n_nodes("n_nodes", n_nodes, content);
     if (n_nodes > 0) require(label, "label");
-    riis::put(n_regions, riis::label_open_regions({adjacency, whole.node_mask, content.marked_nodes().node_id},
-                                                  n_threads, {label, n_nodes}));
+    riis::put(n_regions, riis::with_edges(nodes, [&](const auto &edges) {
+                return riis::label_open_regions(edges, {nodes.nodes(), whole.node_mask, content.marked_nodes().node_id},
+                                                n_threads, {label, n_nodes});
+              }));
   });
 }
 
@@ -437,7 +440,7 @@ riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh
     const riis::SearchRequest request = request_of(content, mesh, whole_of(options));
     riis::check_struct_size<riis_passage>(struct_size, "passage");
     require(passage, "passage");
-    require_adjacency(request.mesh, "which a search for a passage needs");
+    require_edges(request.mesh, "which a search for a passage needs");
     const riis::PassageEnds sets{checked_end(request, "from", whole.n_from, whole.from),
                                  checked_end(request, "to", whole.n_to, whole.to)};
     riis::write_struct(passage, struct_size, "passage", riis::find_passage(request, sets));

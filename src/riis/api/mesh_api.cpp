@@ -2,6 +2,8 @@
 // Checks the arguments of riis_mesh_*, riis_csr_* and riis_adjacency_*: the caller's nodes and their neighbours.
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "api/handles.hpp"
 #include "api/structs.hpp"
@@ -14,6 +16,8 @@ using riis::require_handle;
 
 namespace {
 
+const riis_grid default_grid{sizeof(riis_grid), 0,         0, 0,         nullptr, nullptr, nullptr,
+                             {0, 0, 0},         {1, 1, 1}, 0, {0, 0, 0}, 0,       64,      0};
 const riis_csr default_csr{sizeof(riis_csr), 0, 0, nullptr, nullptr, 32, 32, 0, 0};
 const riis_mesh_cells default_cells{sizeof(riis_mesh_cells), 0, 0, nullptr, nullptr, 4, 32, 0, 0};
 const riis_mesh_faces default_faces{sizeof(riis_mesh_faces), 0, 0, nullptr, nullptr, 1, 32, 0, 0, 0};
@@ -40,6 +44,56 @@ void copy_nodes(const riis_points *given, riis::Mesh &mesh) {
         nodes.n == 0 ? riis::Bounds{} : riis::check_points(nodes, "node", RIIS_INVALID_MESH, "nodes.");
     mesh.copy_nodes(nodes, bounds);
   });
+}
+
+// Fails with RIIS_INVALID_MESH for the first coordinate of an axis that is not usable or does not ascend.
+void check_axis(const char *name, const std::vector<double> &axis) {
+  for (std::int64_t i = 0; i < riis::view(axis).size(); ++i) {
+    const double x = riis::view(axis)[i];
+    if (!riis::is_usable(x))
+      riis::fail(RIIS_INVALID_MESH, "grid.", name, "[", i, "] is ", x, "; it must be finite and at most ",
+                 riis::max_coordinate, " in magnitude");
+    if (i > 0 && !(x > riis::view(axis)[i - 1]))
+      riis::fail(RIIS_INVALID_MESH, "grid.", name, "[", i, "] is ", x, ", after ", riis::view(axis)[i - 1],
+                 "; the axis must strictly ascend");
+  }
+}
+
+std::unique_ptr<const riis::Grid> checked_grid(const riis_grid *given) {
+  const riis_grid whole = riis::completed(require(given, "grid"), "grid", default_grid);
+  riis::check_bits("grid.real_bits", whole.real_bits);
+  riis::check_reserved("grid.reserved", whole.reserved);
+  const riis::GridIndex n{whole.ni, whole.nj, whole.nk};
+  const char *const names[] = {"x", "y", "z"}, *const counts[] = {"ni", "nj", "nk"};
+  for (int axis = 0; axis < 3; ++axis)
+    if (n[axis] < 1) riis::fail(RIIS_INVALID_MESH, "grid.", counts[axis], " is ", n[axis], "; it must be at least 1");
+  std::int64_t n_numbers = whole.n_nodes;
+  const riis::GridIndex stride =
+      riis::checked_strides(n, whole.first, {whole.stride[0], whole.stride[1], whole.stride[2]}, n_numbers);
+  const void *const arrays[] = {whole.x, whole.y, whole.z};
+  riis::Grid::Axes axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> &made = riis::view(axes)[axis];
+    riis::resize(made, n[axis]);
+    const auto *const doubles = static_cast<const double *>(arrays[axis]);
+    const auto *const floats = static_cast<const float *>(arrays[axis]);
+    for (std::int64_t i = 0; i < n[axis]; ++i)
+      riis::view(made)[i] = !doubles                ? whole.origin[axis] + static_cast<double>(i) * whole.spacing[axis]
+                            : whole.real_bits == 32 ? static_cast<double>(floats[i])
+                                                    : doubles[i];
+    check_axis(names[axis], made);
+  }
+  return std::make_unique<const riis::Grid>(std::move(axes), whole.first, stride, n_numbers);
+}
+
+// Refuses an edge of a number that has no node.
+void check_rows_of_grid(const riis::Adjacency &rows, const riis::MeshNodes &nodes) {
+  for (std::int64_t i = 0; i < rows.n_rows; ++i)
+    rows.for_each_neighbor(i, [&](std::int64_t j) {
+      if (!nodes.has_node(i) || !nodes.has_node(j))
+        riis::fail(RIIS_INVALID_MESH, "row ", i, " of the adjacency has the column ", j + rows.base, ", but ",
+                   nodes.has_node(i) ? "this" : "the row", " is no node of the grid");
+    });
 }
 
 }  // namespace
@@ -83,11 +137,27 @@ riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads) {
   return guarded([&] {
     const riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
     const int n = riis::threads_for(n_threads, "n_threads", content.nodes().n, riis::nodes_per_thread);
+    if (content.nodes().grid) return;
     if (content.nodes().n > riis::max_clustered_nodes)
       riis::fail(RIIS_LIMIT_EXCEEDED, "a mesh of ", content.nodes().n,
                  " nodes is too large for clusters, which hold at most ", riis::max_clustered_nodes);
     if (content.nodes().n > 0) content.clusters(n);
   });
+}
+
+RIIS_DEFINE_INIT(riis_grid_init, riis_grid, grid, default_grid)
+
+riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh) {
+  return guarded([&] {
+    require(mesh, "mesh");
+    auto made = std::make_unique<riis_mesh>(riis::StridedPoints{0, nullptr, nullptr, nullptr, 1}, riis::Bounds{});
+    made->mesh.take_grid(checked_grid(grid));
+    *mesh = made.release();
+  });
+}
+
+riis_status riis_mesh_update_grid(riis_mesh *mesh, const riis_grid *grid) {
+  return guarded([&] { require_handle(mesh, "mesh")->mesh.take_grid(checked_grid(grid)); });
 }
 
 void riis_mesh_destroy(riis_mesh **mesh) { riis::destroy_handle(mesh, "mesh"); }
@@ -97,10 +167,10 @@ RIIS_DEFINE_INIT(riis_csr_init, riis_csr, csr, default_csr)
 riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr) {
   return guarded([&] {
     riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
-    if (csr)
-      content.set_adjacency(riis::checked_adjacency(riis::completed(csr, "csr", default_csr), content.nodes().n));
-    else
-      content.set_adjacency(std::nullopt);
+    if (!csr) return content.set_adjacency(std::nullopt);
+    const riis::Adjacency rows = riis::checked_adjacency(riis::completed(csr, "csr", default_csr), content.nodes().n);
+    if (content.nodes().grid) check_rows_of_grid(rows, content.nodes());
+    content.set_adjacency(rows);
   });
 }
 

@@ -34,6 +34,7 @@ constexpr std::int64_t first_size_of(const riis_crossing_list *) { return 112; }
 constexpr std::int64_t first_size_of(const riis_closest *) { return 96; }
 constexpr std::int64_t first_size_of(const riis_closest_options *) { return 56; }
 constexpr std::int64_t first_size_of(const riis_closest_arrays *) { return 64; }
+constexpr std::int64_t first_size_of(const riis_grid *) { return 152; }
 constexpr std::int64_t first_size_of(const riis_csr *) { return 56; }
 constexpr std::int64_t first_size_of(const riis_mesh_cells *) { return 56; }
 constexpr std::int64_t first_size_of(const riis_mesh_faces *) { return 64; }

@@ -259,7 +259,7 @@ class TriangleFields {
   const TriangleSet &set_;
   TrianglePositions positions_;
   const double *corners_;  // corners of the triangles, nine numbers for each
-  const StridedPoints &nodes_;
+  const MeshNodes &nodes_;
   const Kernels &simd_;
   std::int32_t fields_;
   const Pseudonormals *normals_;  // null if no field needs them

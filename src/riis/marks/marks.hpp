@@ -170,12 +170,12 @@ struct OrderScratch {
 
 // Counts the nodes of both lists. The lists must have these sizes when put_in_order fills them. Only this function allocates
 // memory.
-OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider,
-                                   std::int64_t n_nodes, int n_threads, OrderScratch &scratch);
+OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, int n_threads,
+                                   OrderScratch &scratch);
 
-// Fills the lists. Fills `marked` only if the limit is wider than the half thickness. Call prepare_order with the same
-// arguments before this function.
-void put_in_order(const Surface &surface, bool limit_is_wider, std::int64_t n_nodes, int n_threads,
+// Fills the lists. Fills `marked` only if the limit is wider than the half thickness. `numbers` is that of the found nodes. Call
+// prepare_order with the same arguments before this function.
+void put_in_order(const Surface &surface, bool limit_is_wider, const Range &numbers, int n_threads,
                   OrderScratch &scratch, NodeList &within, NodeList &marked);
 
 // The data that a marking computes for its nodes, besides their distances.
@@ -216,6 +216,7 @@ struct Marks {
   // Memory that the next marking reuses.
   FoundNodes found;
   NeighborScratch neighbor_scratch;
+  GridClusters grid_clusters;
   ClusterScratch cluster_scratch;
   OrderScratch order_scratch;
   FieldScratch field_scratch;

@@ -46,13 +46,14 @@ std::uint32_t n_bits(std::uint64_t x) {
 
 class Ordering {
  public:
-  Ordering(const Surface &surface, bool limit_is_wider, std::int64_t n_nodes, std::int64_t n_within, int n_threads,
+  Ordering(const Surface &surface, bool limit_is_wider, const Range &numbers, std::int64_t n_within, int n_threads,
            OrderScratch &scratch)
       : triangles_(surface.triangles()),
         other_(surface.other_distance()),
         half_thickness_(surface.half_thickness()),
         limit_is_wider_(limit_is_wider),
-        bins_(n_nodes),
+        first_number_(numbers.begin),
+        bins_(numbers.end - numbers.begin),
         n_threads_(threads_for_order(n_within, n_threads)),
         scratch_(scratch) {}
 
@@ -176,7 +177,7 @@ class Ordering {
 
   void put(const FoundNode &found, std::int64_t at, NodeList &list) const {
     const std::int64_t position = found.triangle;
-    list.set(at, static_cast<std::int64_t>(found.node), found.distance,
+    list.set(at, first_number_ + static_cast<std::int64_t>(found.node), found.distance,
              other_ ? -1 : view(triangles_.triangle_id)[position],
              other_ ? view(other_->patches().patches)[position].leaflet_id : view(triangles_.leaflet_id)[position]);
   }
@@ -185,6 +186,7 @@ class Ordering {
   const PatchDistance *other_;
   double half_thickness_;
   bool limit_is_wider_;
+  std::int64_t first_number_;
   Bins bins_;
   int n_threads_;
   OrderScratch &scratch_;
@@ -225,14 +227,14 @@ std::int64_t NodeRanks::rank(std::int64_t node) const {
   return view(before_)[word] + n_bits(view(words_)[word] & (bit_of(node) - 1));
 }
 
-OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider,
-                                   std::int64_t n_nodes, int n_threads, OrderScratch &scratch) {
-  return Ordering(surface, limit_is_wider, n_nodes, found.size(), n_threads, scratch).gather(found);
+OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, int n_threads,
+                                   OrderScratch &scratch) {
+  return Ordering(surface, limit_is_wider, found.numbers, found.size(), n_threads, scratch).gather(found);
 }
 
-void put_in_order(const Surface &surface, bool limit_is_wider, std::int64_t n_nodes, int n_threads,
+void put_in_order(const Surface &surface, bool limit_is_wider, const Range &numbers, int n_threads,
                   OrderScratch &scratch, NodeList &within, NodeList &marked) {
-  Ordering(surface, limit_is_wider, n_nodes, within.size(), n_threads, scratch).write(within, marked);
+  Ordering(surface, limit_is_wider, numbers, within.size(), n_threads, scratch).write(within, marked);
 }
 
 }  // namespace riis

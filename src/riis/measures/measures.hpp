@@ -129,9 +129,9 @@ SweptVolumes swept_volumes(const Valve &valve, double opening_from, double openi
 
 // Estimates how many mesh edges fit across the band. Divides the band's thickness by the shortest, the mean and the longest of
 // the mesh edges with a marked node.
-// In: a marking, the mesh with its adjacency. Out: counts and lengths.
+// In: a marking, the mesh with its edges. Out: counts and lengths.
 
 // Computes the number of mesh edges across the band. Fails with RIIS_INVALID_MESH if a coordinate is not finite or too large.
-riis_cells_across cells_across(const Marks &marks, const Mesh &mesh, const Adjacency &adjacency, int n_threads);
+riis_cells_across cells_across(const Marks &marks, const Mesh &mesh, int n_threads);
 
 }  // namespace riis

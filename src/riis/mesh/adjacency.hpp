@@ -14,6 +14,8 @@
 namespace riis {
 
 struct Adjacency {
+  static constexpr bool is_symmetric = false;  // not for certain
+
   std::int64_t n_rows = 0;
   IntegerArray offsets, columns;
   std::int64_t base = 0;

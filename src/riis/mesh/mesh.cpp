@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "base/log.hpp"
@@ -14,13 +15,13 @@
 namespace riis {
 namespace {
 
-EdgeBlocks::Block block_of(const StridedPoints &nodes, const Adjacency &adjacency, std::int64_t begin) {
+EdgeBlocks::Block block_of(const MeshNodes &nodes, const Adjacency &adjacency, std::int64_t begin) {
   EdgeBlocks::Block made;
   const std::int64_t end = std::min(begin + EdgeBlocks::rows_per_block, nodes.n);
   for (std::int64_t i = begin; i < end; ++i) {
-    const Vec3 p = checked_point(nodes, i, "node", RIIS_INVALID_MESH);
+    const Vec3 p = checked_node(nodes, i);
     adjacency.for_each_neighbor(i, [&](std::int64_t j) {
-      const Vec3 q = checked_point(nodes, j, "node", RIIS_INVALID_MESH);
+      const Vec3 q = checked_node(nodes, j);
       made.longest = std::max(made.longest, distance(p, q));
       made.bounds.add(p);
       made.bounds.add(q);
@@ -29,7 +30,7 @@ EdgeBlocks::Block block_of(const StridedPoints &nodes, const Adjacency &adjacenc
   return made;
 }
 
-EdgeBlocks edge_blocks(const StridedPoints &nodes, const Adjacency &adjacency, int n_threads) {
+EdgeBlocks edge_blocks(const MeshNodes &nodes, const Adjacency &adjacency, int n_threads) {
   constexpr std::int64_t blocks_per_task = 64;
   EdgeBlocks made;
   const std::int64_t n_blocks = (nodes.n + EdgeBlocks::rows_per_block - 1) / EdgeBlocks::rows_per_block;
@@ -49,14 +50,21 @@ void Mesh::borrow_nodes(const StridedPoints &nodes, const Bounds &bounds) {
   own_xyz_ = {};
 }
 
-void Mesh::set_nodes(const StridedPoints &nodes, const Bounds &bounds) {
-  if (nodes.n != nodes_.n) {
+void Mesh::take_grid(std::unique_ptr<const Grid> grid) {
+  set_nodes(MeshNodes(*grid), grid->bounds());
+  own_grid_ = std::move(grid);
+  own_xyz_ = {};
+}
+
+void Mesh::set_nodes(const MeshNodes &nodes, const Bounds &bounds) {
+  if (nodes.n != nodes_.n || nodes.grid || nodes_.grid) {
     adjacency_.reset();
     balls_.forget().order.clear();
     clusters_.forget().n_nodes = 0;
     was_marked_.store(false, std::memory_order_relaxed);
   }
   nodes_ = nodes;
+  if (!nodes.grid) own_grid_.reset();
   bounds_ = bounds;
   forget_places();
 }
@@ -64,17 +72,17 @@ void Mesh::set_nodes(const StridedPoints &nodes, const Bounds &bounds) {
 const NodeBalls &Mesh::balls(int n_threads) const {
   return balls_.get([&](NodeBalls &balls) {
     // Nodes that moved keep their order. The order stays good while near nodes stay together.
-    if (balls.order.empty()) sort_into_balls(nodes_, bounds_, n_threads, balls);
-    enclose(nodes_, n_threads, balls);
+    if (balls.order.empty()) sort_into_balls(points(), bounds_, n_threads, balls);
+    enclose(points(), n_threads, balls);
   });
 }
 
 const Clusters &Mesh::clusters(int n_threads) const {
   return clusters_.get([&](Clusters &clusters) {
     if (clusters.n_nodes == 0)
-      sort_into_clusters(nodes_, bounds_, n_threads, clusters);
+      sort_into_clusters(points(), bounds_, n_threads, clusters);
     else
-      place_clusters(nodes_, bounds_, n_threads, clusters);
+      place_clusters(points(), bounds_, n_threads, clusters);
     was_marked_.store(true, std::memory_order_relaxed);
   });
 }

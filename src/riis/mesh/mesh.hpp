@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "geometry/vec3.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/clusters.hpp"
+#include "mesh/grid.hpp"
 #include "parallel/threads.hpp"
 
 namespace riis {
@@ -81,11 +83,34 @@ struct Sizes {
 // far from the surface.
 void check_proportions(const Sizes &sizes, std::uint64_t surface_number, WarnedSurfaces &warned);
 
+// The nodes of a mesh: points, or a grid.
+struct MeshNodes {
+  std::int64_t n = 0;    // of points, or of a grid's numbers
+  StridedPoints points;  // none with a grid
+  const Grid *grid = nullptr;
+
+  MeshNodes(const StridedPoints &given) : n(given.n), points(given) {}  // NOLINT(google-explicit-constructor)
+  explicit MeshNodes(const Grid &given) : n(given.n_numbers()), points{0, nullptr, nullptr, nullptr, 1}, grid(&given) {}
+  std::int64_t n_nodes() const { return grid ? grid->all().n_nodes() : n; }
+  // Returns node i. A grid must have a node with this number.
+  Vec3 operator[](std::int64_t i) const { return grid ? (*grid)[i] : points[i]; }
+  void prefetch(std::int64_t i) const {
+    if (!grid) points.prefetch(i);
+  }
+  bool has_node(std::int64_t i) const { return !grid || grid->has_node(i); }
+};
+
+// Returns node i. Fails with RIIS_INVALID_MESH if the caller has changed a coordinate since it was checked.
+inline Vec3 checked_node(const MeshNodes &nodes, std::int64_t i) {
+  return nodes.grid ? (*nodes.grid)[i] : checked_point(nodes.points, i, "node", RIIS_INVALID_MESH);
+}
+
 class Mesh {
  public:
   Mesh(const StridedPoints &nodes, const Bounds &bounds) : nodes_(nodes), bounds_(bounds) {}
 
-  const StridedPoints &nodes() const { return nodes_; }
+  const MeshNodes &nodes() const { return nodes_; }
+  const StridedPoints &points() const { return nodes_.points; }
   // Returns the box that the nodes had when the caller last gave them.
   const Bounds &bounds() const { return bounds_; }
   const std::optional<Adjacency> &adjacency() const { return adjacency_; }
@@ -99,6 +124,7 @@ class Mesh {
 
   // Both functions set new coordinates, of the same nodes or of other nodes. A different number of nodes removes the adjacency.
   void borrow_nodes(const StridedPoints &nodes, const Bounds &bounds);
+  void take_grid(std::unique_ptr<const Grid> grid);
   // Copies the nodes. After a failure the mesh keeps its old nodes.
   template <class Real>
   void copy_nodes(const StridedReals<Real> &nodes, const Bounds &bounds) {
@@ -110,8 +136,8 @@ class Mesh {
       const Vec3 p = nodes[i];
       xyz[3 * i] = p.x, xyz[3 * i + 1] = p.y, xyz[3 * i + 2] = p.z;
     }
-    if (nodes.n == 0) return set_nodes({0, nullptr, nullptr, nullptr, 3}, bounds);
-    set_nodes({nodes.n, xyz, xyz + 1, xyz + 2, 3}, bounds);
+    if (nodes.n == 0) return set_nodes(StridedPoints{0, nullptr, nullptr, nullptr, 3}, bounds);
+    set_nodes(StridedPoints{nodes.n, xyz, xyz + 1, xyz + 2, 3}, bounds);
   }
   void set_adjacency(const std::optional<Adjacency> &adjacency) {
     adjacency_ = adjacency;
@@ -139,9 +165,10 @@ class Mesh {
     made.reserve(n);
     return made;
   }
-  void set_nodes(const StridedPoints &nodes, const Bounds &bounds);
+  void set_nodes(const MeshNodes &nodes, const Bounds &bounds);
 
-  StridedPoints nodes_;
+  MeshNodes nodes_;
+  std::unique_ptr<const Grid> own_grid_;
   std::vector<double> own_xyz_;  // (3, n), used if the nodes are copied
   Bounds bounds_;
   std::optional<Adjacency> adjacency_;
@@ -151,5 +178,11 @@ class Mesh {
   mutable std::atomic<bool> was_marked_{false};
   mutable WarnedSurfaces warned_surfaces_;
 };
+
+// Calls use(edges) with the edges of a mesh, which must have an adjacency or be a grid.
+template <class Use>
+auto with_edges(const Mesh &mesh, const Use &use) {
+  return mesh.adjacency().has_value() ? use(*mesh.adjacency()) : use(GridEdges{*mesh.nodes().grid});
+}
 
 }  // namespace riis

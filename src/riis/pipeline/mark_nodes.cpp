@@ -16,6 +16,7 @@ namespace {
 // the first marking of a mesh.
 bool do_clusters_pay_off(const SearchRequest &request, bool is_first) {
   if (request.surface.other_distance()) return false;
+  if (request.mesh.nodes().grid) return true;
   return has_few_near(request) ? !is_first : are_enough_for_clusters(request.mesh.nodes().n, request.surface);
 }
 
@@ -29,6 +30,10 @@ std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   if (asked_for == RIIS_SEARCH_AUTO)
     asked_for = do_clusters_pay_off(request, is_first) ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
   const bool walks = asked_for == RIIS_SEARCH_NEIGHBOR || asked_for == RIIS_SEARCH_PAPER;
+  if (walks && request.mesh.nodes().grid)
+    fail(RIIS_INVALID_ARGUMENT, "options.search is ",
+         asked_for == RIIS_SEARCH_NEIGHBOR ? "RIIS_SEARCH_NEIGHBOR" : "RIIS_SEARCH_PAPER",
+         ", which needs memory for each node, but the mesh is a grid: use RIIS_SEARCH_AUTO");
   if (walks && !request.mesh.adjacency().has_value())
     fail(RIIS_INVALID_ARGUMENT, "options.search is ", asked_for,
          ", which walks along the mesh's adjacency, but the mesh has none: see riis_mesh_set_adjacency");
@@ -53,8 +58,42 @@ SearchRun run_clusters(const SearchRequest &request, Marks &marks) {
   return {RIIS_SEARCH_EXHAUSTIVE, search_exhaustively(request, marks.found)};
 }
 
+// Returns the nodes of a grid that may be within the limit. The margin is several times the rounding.
+GridBox box_near(const SearchRequest &request, const Grid &grid) {
+  const TriangleScene &scene = request.surface.scene();
+  Bounds bounds = scene.bounds();
+  const double reach = request.distance_limit + request.surface.triangle_error() + 8 * scene.rounding();
+  const double margin = reach + 1e-12 * (reach + bounds.largest_coordinate());
+  bounds.lower = bounds.lower - Vec3{margin, margin, margin};
+  bounds.upper = bounds.upper + Vec3{margin, margin, margin};
+  return grid.within(bounds);
+}
+
+SearchRun run_on_grid(const SearchRequest &request, const Grid &grid, std::int32_t search, Marks &marks) {
+  constexpr std::int64_t most_by_other_distances = 100000000;
+  const PatchDistance *const other = request.surface.other_distance();
+  if (other && grid.all().n_nodes() > most_by_other_distances)
+    fail(RIIS_LIMIT_EXCEEDED, "the surface's distances are by ", other->name(), ", for which a grid has at most ",
+         most_by_other_distances, " nodes; this grid has ", grid.all().n_nodes());
+  const GridBox box = box_near(request, grid);
+  if (box.is_empty()) {
+    marks.found.prepare(1);
+    return {search, {0, 1, true, 0}};
+  }
+  marks.found.numbers = {grid.number(box.begin), grid.number({box.end[0] - 1, box.end[1] - 1, box.end[2] - 1}) + 1};
+  if (search == RIIS_SEARCH_CLUSTERS) {
+    marks.grid_clusters.make(grid, box);
+    if (separates_in_single_precision(request, marks.grid_clusters.frame()))
+      return {search, search_clusters(request, marks.grid_clusters, kernels(request.instructions),
+                                      marks.cluster_scratch, marks.found)};
+  }
+  return {RIIS_SEARCH_EXHAUSTIVE, search_exhaustively(request, grid, box, marks.found)};
+}
+
 SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   static const std::vector<std::int64_t> nowhere;
+  marks.found.numbers = {0, request.mesh.nodes().n};
+  if (const Grid *const grid = request.mesh.nodes().grid) return run_on_grid(request, *grid, search, marks);
   if (request.mesh.nodes().n == 0) {
     // A process of a parallel solver may have no nodes. Every search is then complete and finds nothing.
     marks.found.prepare(1);
@@ -157,11 +196,11 @@ void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks
   marks.field_scratch.prepare(request, data.fields, marks.found);
   if (need_normals(request.surface, data.fields, marks.found.size())) request.surface.pseudonormals();
   marks.leaflet_ids.reserve(request.surface.leaflet_ids().size());
-  OrderScratch::Counts n = prepare_order(request.surface, marks.found, sorts_marked, request.mesh.nodes().n,
-                                         request.n_threads, marks.order_scratch);
+  OrderScratch::Counts n =
+      prepare_order(request.surface, marks.found, sorts_marked, request.n_threads, marks.order_scratch);
   if (limit_is_wider && !sorts_marked) n.n_marked = n.n_within;
   make_room(data, n, marks);
-  put_in_order(request.surface, sorts_marked, request.mesh.nodes().n, request.n_threads, marks.order_scratch,
+  put_in_order(request.surface, sorts_marked, marks.found.numbers, request.n_threads, marks.order_scratch,
                marks.within.nodes, marks.marked.nodes);
   make_fields(request, data.fields, marks.within.nodes, marks.field_scratch, marks.within.fields);
   if (marking.listed) take_marked(*marking.listed, data.field_set(), marks.within, marks.within);

@@ -32,8 +32,10 @@ double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
 }
 
 // The search of one thread and its memory.
+template <class Edges>
 struct alignas(64) Finder {
   const SearchRequest *request = nullptr;
+  const Edges *edges = nullptr;
   const std::vector<std::int64_t> *marked = nullptr;
   const NodePlaces *places = nullptr;
   double too_short = 0;
@@ -77,16 +79,36 @@ struct alignas(64) Finder {
     for (std::int64_t i = begin; i < end; ++i) search_row(i);
   }
 
+  // Searches the edges from the nodes of a box of a grid to nodes with higher numbers.
+  void search_box(const Grid &grid, const GridBox &box) {
+    constexpr std::int64_t few = 64;
+    GridBox ends = box;
+    for (int axis = 0; axis < 3; ++axis) ends.end[axis] = std::min(box.end[axis] + 1, grid.size(axis));
+    const Bounds bounds{grid.at(box.begin), grid.at({ends.end[0] - 1, ends.end[1] - 1, ends.end[2] - 1})};
+    if (grid.longest_edge(ends) <= too_short || !overlap(bounds, request->surface.scene().bounds())) return;
+    if (!may_be_within(bounds.middle(), length(bounds.half_extent()))) return;
+    const std::int64_t n = box.n_nodes();
+    if (n <= few) {
+      for (std::int64_t t = 0; t < n; ++t) search_row(grid.number(box[t]));
+      return;
+    }
+    int axis = 0;
+    for (int other = 1; other < 3; ++other)
+      if (box.size(other) > box.size(axis)) axis = other;
+    GridBox halves[2] = {box, box};
+    halves[0].end[axis] = halves[1].begin[axis] = box.begin[axis] + box.size(axis) / 2;
+    for (const GridBox &half : halves) search_box(grid, half);
+  }
+
   void search_row(std::int64_t i) {
-    const StridedPoints &nodes = request->mesh.nodes();
-    const Adjacency &adjacency = *request->mesh.adjacency();
-    const Vec3 p = checked_point(nodes, i, "node", RIIS_INVALID_MESH);
+    const MeshNodes &nodes = request->mesh.nodes();
+    const Vec3 p = checked_node(nodes, i);
     double longest = 0;
-    adjacency.for_each_neighbor(i, [&](std::int64_t j) { longest = std::max(longest, distance(p, nodes[j])); });
+    edges->for_each_neighbor(i, [&](std::int64_t j) { longest = std::max(longest, distance(p, nodes[j])); });
     if (longest <= too_short || !is_open(i) || !may_be_within(p, longest)) return;
-    adjacency.for_each_neighbor(i, [&](std::int64_t j) {
-      if (j < i && adjacency.has_neighbor(j, i)) return;  // the edge was found in row j
-      const Vec3 q = checked_point(nodes, j, "node", RIIS_INVALID_MESH);
+    edges->for_each_neighbor(i, [&](std::int64_t j) {
+      if (j < i && edges->has_neighbor(j, i)) return;  // the edge was found in row j
+      const Vec3 q = checked_node(nodes, j);
       const double length = distance(p, q);
       if (length <= too_short || !is_open(j)) return;
       // Each edge is followed from the end with the lower number, even if the edge was found in the other end's row.
@@ -96,28 +118,55 @@ struct alignas(64) Finder {
   }
 };
 
-std::vector<Edge> leaking_edges(const SearchRequest &request, const Marks &marks) {
+// Searches the edges of points, block by block.
+void search_edges(const SearchRequest &request, double too_short, std::vector<Finder<Adjacency>> &finders) {
   constexpr std::int64_t blocks_per_task = 16;
-  std::vector<Edge> found;
-  const double too_short = length_that_cannot_leak(request.surface, marks);
   const EdgeBlocks &edges = request.mesh.edges(request.n_threads);
-  if (edges.longest <= too_short) return found;
-  std::vector<Finder> finders;
-  resize(finders, request.n_threads);
-  const NodePlaces places(request);
-  for (Finder &finder : finders) {
-    finder.request = &request;
-    finder.marked = &marks.marked_nodes().node_id;
-    finder.places = &places;
-    finder.too_short = too_short;
-  }
-  const auto n_blocks = view(edges.blocks).size();
+  if (edges.longest <= too_short) return;
   const auto search = [&](const Range &range, int thread) {
     for (std::int64_t k = range.begin; k < range.end; ++k)
       view(finders)[thread].search_block(view(edges.blocks)[k], k * EdgeBlocks::rows_per_block);
   };
-  parallel_for_ranges(n_blocks, blocks_per_task, request.n_threads, search);
-  for (const Finder &finder : finders) found.insert(found.end(), finder.found.begin(), finder.found.end());
+  parallel_for_ranges(view(edges.blocks).size(), blocks_per_task, request.n_threads, search);
+}
+
+// Searches the edges of a grid in cubes of nodes.
+void search_edges(const SearchRequest &request, double, std::vector<Finder<GridEdges>> &finders) {
+  constexpr std::int64_t side = 16;
+  const Grid &grid = *request.mesh.nodes().grid;
+  GridBox box = grid.within(request.surface.scene().bounds());
+  GridBox cubes{{0, 0, 0}, {0, 0, 0}};
+  for (int axis = 0; axis < 3; ++axis) {
+    box.begin[axis] = std::max<std::int64_t>(box.begin[axis] - 1, 0);  // an edge from this node leads into the box
+    cubes.end[axis] = (box.size(axis) + side - 1) / side;
+  }
+  parallel_for(cubes.n_nodes(), request.n_threads, [&](std::int64_t i, int thread) {
+    const GridIndex cube = cubes[i];
+    GridBox nodes = box;
+    for (int axis = 0; axis < 3; ++axis) {
+      nodes.begin[axis] = box.begin[axis] + side * cube[axis];
+      nodes.end[axis] = std::min(nodes.begin[axis] + side, box.end[axis]);
+    }
+    view(finders)[thread].search_box(grid, nodes);
+  });
+}
+
+template <class Edges>
+std::vector<Edge> leaking_edges(const SearchRequest &request, const Edges &edges, const Marks &marks) {
+  std::vector<Edge> found;
+  const double too_short = length_that_cannot_leak(request.surface, marks);
+  std::vector<Finder<Edges>> finders;
+  resize(finders, request.n_threads);
+  const NodePlaces places(request);
+  for (Finder<Edges> &finder : finders) {
+    finder.request = &request;
+    finder.edges = &edges;
+    finder.marked = &marks.marked_nodes().node_id;
+    finder.places = &places;
+    finder.too_short = too_short;
+  }
+  search_edges(request, too_short, finders);
+  for (const Finder<Edges> &finder : finders) found.insert(found.end(), finder.found.begin(), finder.found.end());
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());  // the caller's rows may repeat columns
   return found;
@@ -126,7 +175,7 @@ std::vector<Edge> leaking_edges(const SearchRequest &request, const Marks &marks
 Leaks listed(const SearchRequest &request, const std::vector<Edge> &edges) {
   constexpr std::int64_t edges_per_task = 64, few = 512;
   const int n_threads = request.n_threads.for_part(view(edges).size(), few);
-  const StridedPoints &nodes = request.mesh.nodes();
+  const MeshNodes &nodes = request.mesh.nodes();
   const NodePlaces places(request);
   Leaks list;
   list.node_id.resize(2 * edges.size());
@@ -146,7 +195,7 @@ Leaks listed(const SearchRequest &request, const std::vector<Edge> &edges) {
   return list;
 }
 
-void find_longest(const StridedPoints &nodes, Leaks &leaks) {
+void find_longest(const MeshNodes &nodes, Leaks &leaks) {
   if (leaks.length.empty()) return;
   const std::int64_t longest = std::max_element(leaks.length.begin(), leaks.length.end()) - leaks.length.begin();
   for (int end = 0; end < 2; ++end) leaks.longest_node_id[end] = view(leaks.node_id)[2 * longest + end];
@@ -160,7 +209,8 @@ void find_longest(const StridedPoints &nodes, Leaks &leaks) {
 Leaks find_leaks(const SearchRequest &request, const Marks &marks) {
   const auto start = std::chrono::steady_clock::now();
   if (request.mesh.nodes().n == 0) return {};
-  Leaks leaks = listed(request, leaking_edges(request, marks));
+  Leaks leaks = listed(
+      request, with_edges(request.mesh, [&](const auto &edges) { return leaking_edges(request, edges, marks); }));
   find_longest(request.mesh.nodes(), leaks);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   leaks.seconds = elapsed.count();

@@ -30,7 +30,7 @@ double largest_thickness(const SearchRequest &request, const char *name, ArrayVi
   resize(marking, ids.size());
   parallel_for_ranges(ids.size(), nodes_per_task, n_threads, [&](const Range &range, int) {
     for (std::int64_t i = range.begin; i < range.end; ++i) {
-      const Vec3 p = checked_point(request.mesh.nodes(), ids[i], "node", RIIS_INVALID_MESH);
+      const Vec3 p = checked_node(request.mesh.nodes(), ids[i]);
       const double d = view(marking)[i] = places.of(p).half_thickness;
       if (!(d > half_thickness))
         fail(RIIS_INVALID_ARGUMENT, "ends.", name, "[", i, "] is node ", ids[i], ", in the band: ",
@@ -61,11 +61,12 @@ struct OneWayEdge {
 };
 
 // Opens nodes in the order from far to near, until they join the ends.
+template <class Edges>
 class Opening {
  public:
-  Opening(const SearchRequest &request, const PassageEnds &ends)
+  Opening(const SearchRequest &request, const Edges &edges, const PassageEnds &ends)
       : request_(request),
-        adjacency_(*request.mesh.adjacency()),
+        edges_(edges),
         from_(request.mesh.nodes().n),
         to_(from_ + 1),
         from_ids_(ends.from.begin(), ends.from.end()),
@@ -81,7 +82,8 @@ class Opening {
     SearchRequest within = request_;
     within.distance_limit = band.reach();
     mark_nodes(within, {RIIS_SEARCH_AUTO, 0, nullptr, band.steps_aside() ? &band : nullptr}, near_);
-    label_open_regions({adjacency_, request_.node_mask, near_.within.nodes.node_id}, request_.n_threads, view(parent_));
+    label_open_regions(edges_, {request_.mesh.nodes(), request_.node_mask, near_.within.nodes.node_id},
+                       request_.n_threads, view(parent_));
     OpenSets sets = this->sets();
     sets.open(from_);
     sets.open(to_);
@@ -100,7 +102,7 @@ class Opening {
     for (const Candidate &next : candidates(nearest)) {
       const std::int64_t node = next.node;
       sets.open(node);
-      adjacency_.for_each_neighbor(node, [&](std::int64_t other) {
+      edges_.for_each_neighbor(node, [&](std::int64_t other) {
         if (sets.is_open(other)) sets.unite(node, other);
       });
       for (auto edge = std::lower_bound(one_way.begin(), one_way.end(), OneWayEdge{node, 0});
@@ -135,13 +137,14 @@ class Opening {
   // symmetric and have no such edges.
   std::vector<OneWayEdge> one_way_edges() {
     constexpr std::int64_t rows_per_task = 4096;
+    if (Edges::is_symmetric) return {};
     std::vector<std::vector<OneWayEdge>> by_thread;
     resize(by_thread, request_.n_threads);
     const OpenSets sets = this->sets();
-    parallel_for_ranges(adjacency_.n_rows, rows_per_task, request_.n_threads, [&](const Range &range, int thread) {
+    parallel_for_ranges(edges_.n_rows, rows_per_task, request_.n_threads, [&](const Range &range, int thread) {
       for (std::int64_t i = range.begin; i < range.end; ++i)
-        adjacency_.for_each_neighbor(i, [&](std::int64_t j) {
-          if (!sets.is_open(j) && !adjacency_.has_neighbor(j, i)) view(by_thread)[thread].push_back({j, i});
+        edges_.for_each_neighbor(i, [&](std::int64_t j) {
+          if (!sets.is_open(j) && !edges_.has_neighbor(j, i)) view(by_thread)[thread].push_back({j, i});
         });
     });
     std::vector<OneWayEdge> all;
@@ -151,7 +154,7 @@ class Opening {
   }
 
   const SearchRequest &request_;
-  const Adjacency &adjacency_;
+  const Edges &edges_;
   std::int64_t from_, to_;  // two extra nodes, each of which is joined to all nodes of one end
   std::vector<std::int64_t> from_ids_, to_ids_;
   Marks near_;
@@ -161,15 +164,14 @@ class Opening {
 // Returns a half thickness that marks every node.
 double thickest(const Band &band) { return 10 * max_coordinate / (1 - std::abs(band.offset)); }
 
-}  // namespace
-
-riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends) {
+template <class Edges>
+riis_passage find_passage_along(const SearchRequest &request, const Edges &edges, const PassageEnds &ends) {
   const auto start = std::chrono::steady_clock::now();
   const double half_thickness = request.surface.half_thickness(), beyond_all = thickest(request.surface.band());
   // The least half thickness that marks a node of a path is at most the half thickness that marks either end.
   const double widest =
       std::min(largest_thickness(request, "from", ends.from), largest_thickness(request, "to", ends.to));
-  Opening opening(request, ends);
+  Opening<Edges> opening(request, edges, ends);
   double limit = half_thickness, beyond = -1, growth = 2;
   for (int step = 0; opening.joins_beyond(limit); ++step) {
     beyond = limit;
@@ -192,19 +194,27 @@ riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends)
   return passage;
 }
 
-std::int64_t label_open_regions(const OpenNodes &nodes, int n_threads, ArrayView<std::int64_t> label) {
+}  // namespace
+
+riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends) {
+  return with_edges(request.mesh, [&](const auto &edges) { return find_passage_along(request, edges, ends); });
+}
+
+template <class Edges>
+std::int64_t label_open_regions(const Edges &edges, const OpenNodes &open, int n_threads,
+                                ArrayView<std::int64_t> label) {
   constexpr std::int64_t rows_per_task = 4096;
-  const std::int64_t n = nodes.adjacency.n_rows;
+  const std::int64_t n = edges.n_rows;
   OpenSets sets(label);
   parallel_for_ranges(n, rows_per_task, n_threads, [&](const Range &range, int) {
     for (std::int64_t i = range.begin; i < range.end; ++i)
-      label[i] = nodes.node_mask && !nodes.node_mask[i] ? OpenSets::closed : i;
+      label[i] = !open.nodes.has_node(i) || (open.node_mask && !open.node_mask[i]) ? OpenSets::closed : i;
   });
-  for (const std::int64_t i : nodes.closed_id) label[i] = OpenSets::closed;
+  for (const std::int64_t i : open.closed_id) label[i] = OpenSets::closed;
   parallel_for_ranges(n, rows_per_task, n_threads, [&](const Range &range, int) {
     for (std::int64_t i = range.begin; i < range.end; ++i) {
       if (!sets.is_open(i)) continue;
-      nodes.adjacency.for_each_neighbor(i, [&](std::int64_t j) {
+      edges.for_each_neighbor(i, [&](std::int64_t j) {
         if (sets.is_open(j)) sets.unite(i, j);
       });
     }
@@ -217,5 +227,8 @@ std::int64_t label_open_regions(const OpenNodes &nodes, int n_threads, ArrayView
   });
   return n_regions;
 }
+
+template std::int64_t label_open_regions(const Adjacency &, const OpenNodes &, int, ArrayView<std::int64_t>);
+template std::int64_t label_open_regions(const GridEdges &, const OpenNodes &, int, ArrayView<std::int64_t>);
 
 }  // namespace riis

@@ -43,17 +43,19 @@ bool segment_meets_triangle(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners);
 Leaks find_leaks(const SearchRequest &request, const Marks &marks);
 
 // Open regions: the connected components of the nodes that are neither closed nor masked out.
-// In: an adjacency, the closed nodes. Out: for each node, the lowest node of its region.
+// In: an adjacency or a grid, the closed nodes. Out: for each node, the lowest node of its region.
 
 struct OpenNodes {
-  const Adjacency &adjacency;
+  const MeshNodes &nodes;
   const std::uint8_t *node_mask;               // or null
   const std::vector<std::int64_t> &closed_id;  // in any order
 };
 
-// Writes a label for each row of the adjacency, and returns the number of regions. The label is the lowest node of the region,
-// or OpenSets::closed for a node in no region. An edge may be in the row of one node or of both.
-std::int64_t label_open_regions(const OpenNodes &nodes, int n_threads, ArrayView<std::int64_t> label);
+// Writes a label for each row of the edges, and returns the number of regions. The label is the lowest node of the region,
+// or OpenSets::closed for a node in no region and for a number without a node. An edge may be in the row of one node or of both.
+template <class Edges>
+std::int64_t label_open_regions(const Edges &edges, const OpenNodes &nodes, int n_threads,
+                                ArrayView<std::int64_t> label);
 
 // Disjoint sets of nodes that several threads unite at the same time without locks. An array holds each node's parent, which is
 // a lower node. So the root of a set is its lowest node, in any order of the unions.

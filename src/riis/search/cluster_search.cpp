@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <type_traits>
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
@@ -59,15 +60,77 @@ ClosestTriangle closer_of(const ClosestTriangle &a, const ClosestTriangle &b) {
 }
 #endif
 
-class ClusterSearch {
+// Nodes whose clusters are stored. GridClusters has the same functions, and its clusters are made when they are needed.
+class StoredClusters {
  public:
-  ClusterSearch(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels, ClusterScratch &scratch,
+  typedef GridClusters::Room Room;  // is not used
+
+  explicit StoredClusters(const Clusters &clusters) : clusters_(clusters) {}
+  const Clusters &stored() const { return clusters_; }
+  const NodeFrame &frame() const { return clusters_.frame; }
+  std::int64_t n_clusters() const { return view(clusters_.clusters).size(); }
+  const Boxes &region(std::int64_t region, Room *) const { return view(clusters_.regions)[region]; }
+  const Boxes &cluster(std::int64_t cluster, Room *) const { return view(clusters_.clusters)[cluster]; }
+
+ private:
+  const Clusters &clusters_;
+};
+
+// One cluster while it is searched. Nodes are given by their positions in the cluster.
+template <class Nodes>
+class OpenCluster;
+
+template <>
+class OpenCluster<StoredClusters> {
+ public:
+  OpenCluster(const StoredClusters &nodes, std::int64_t cluster, std::uint32_t, GridClusters::Room *)
+      : clusters_(nodes.stored()), first_leaf_(cluster * leaves_per_cluster) {}
+  const Leaf &leaf(int i) const { return clusters_.leaves.get()[first_leaf_ + i]; }
+  const LeafPoints &points(int i) const { return clusters_.points.get()[first_leaf_ + i]; }
+  std::uint32_t lanes(int i) const {
+    const int n = clusters_.n_nodes_of(first_leaf_ + i);
+    return n == nodes_per_leaf ? 0xffffffffu : (1u << n) - 1;
+  }
+  // Returns the numbers of a leaf's nodes.
+  const std::uint32_t *numbers(int i) const { return leaf(i).node; }
+  void fill_points(int, std::uint32_t) const {}
+
+ private:
+  const Clusters &clusters_;
+  std::int64_t first_leaf_;
+};
+
+template <>
+class OpenCluster<GridClusters> {
+ public:
+  OpenCluster(const GridClusters &nodes, std::int64_t cluster, std::uint32_t near_leaves, GridClusters::Room *room)
+      : nodes_(nodes), room_(*room) {
+    nodes.open(cluster, near_leaves, *room);
+  }
+  const Leaf &leaf(int i) const { return room_.leaves[i]; }
+  const LeafPoints &points(int i) const { return room_.points[i]; }
+  std::uint32_t lanes(int i) const { return nodes_.lanes(i, room_); }
+  GridClusters::Numbers numbers(int i) const { return nodes_.numbers(i, room_); }
+  void fill_points(int i, std::uint32_t lanes) const { nodes_.fill_points(i, lanes, room_); }
+
+ private:
+  const GridClusters &nodes_;
+  GridClusters::Room &room_;
+};
+
+template <class Nodes>
+class ClusterSearch {
+  static constexpr bool is_stored = std::is_same_v<Nodes, StoredClusters>;
+  typedef OpenCluster<Nodes> Open;
+
+ public:
+  ClusterSearch(const NodeSearch &request, const Nodes &nodes, const Kernels &kernels, ClusterScratch &scratch,
                 FoundNodes &found)
       : request_(request),
         scene_(request.surface.scene()),
         groups_(scene_.groups()),
-        clusters_(clusters),
-        placing_(clusters.frame, groups_.frame),
+        nodes_(nodes),
+        placing_(nodes.frame(), groups_.frame),
         limit_(std::min(request.distance_limit * groups_.frame.scale, large)),
         kernels_(kernels),
         found_(found),
@@ -86,33 +149,22 @@ class ClusterSearch {
     for (auto i = view(own_.all_groups).size(); i < n_groups; ++i)
       own_.all_groups.push_back(static_cast<std::int32_t>(i));
     found.prepare(request.n_threads, request.ties);
-    own_.prepare(request.n_threads);
+    own_.prepare(request.n_threads, !is_stored);
   }
 
   // Finds the clusters that may be near the surface. For each of them, lists the groups that may be near the cluster. For each of
   // these groups, sets a bit for each leaf of the cluster that may be near the group.
   void find_near_clusters() {
-    const Bounds &bounds = scene_.bounds();
-    const Vec3 lower = groups_.frame(bounds.lower), upper = groups_.frame(bounds.upper);
-    const float surface_lower[3] = {round_down(lower.x), round_down(lower.y), round_down(lower.z)};
-    const float surface_upper[3] = {round_up(upper.x), round_up(upper.y), round_up(upper.z)};
-    const auto n_regions = view(clusters_.regions).size();
-    own_.near_regions.clear();
-    own_.near_regions.reserve(static_cast<std::size_t>(n_regions));
-    for (std::int64_t region = 0; region < n_regions; ++region) {
-      const Clusters::Box &box = view(clusters_.boxes)[region];
-      float gap_sq = 0;
-      for (int i = 0; i < 3; ++i) {
-        const auto [from, to] = placed(box, i);
-        const float gap = std::max({from - surface_upper[i], surface_lower[i] - to, 0.0f});
-        gap_sq += gap * gap;
-      }
-      if (gap_sq <= task_.limits.reach_sq) own_.near_regions.push_back(region);
+    std::int64_t n_near;
+    if constexpr (is_stored) {
+      list_near_regions();
+      n_near = view(own_.near_regions).size();
+    } else {
+      n_near = nodes_.n_regions();  // the grid's box is around the surface
     }
     constexpr std::int64_t few = 64;  // searching this many regions takes a few tenths of a millisecond
-    const auto n_near = view(own_.near_regions).size();
     const int n_ran = parallel_for(n_near, request_.n_threads.for_part(n_near, few), [&](std::int64_t i, int thread) {
-      search_region(view(own_.near_regions)[i], view(own_.threads)[thread]);
+      search_region(is_stored ? view(own_.near_regions)[i] : i, view(own_.threads)[thread]);
     });
     n_threads_ = std::max(n_threads_, n_ran);
   }
@@ -129,7 +181,8 @@ class ClusterSearch {
     const auto n = view(items).size();
     const int n_ran = parallel_for(n, request_.n_threads.for_part(n, few), [&](std::int64_t i, int thread) {
       search_cluster(view(items)[i], view(own_.threads)[thread], thread, nullptr,
-                     i + 1 < n ? leaves_ahead(view(items)[i + 1]) : LeavesAhead{nullptr, 0});
+                     i + 1 < n ? leaves_ahead(view(items)[i + 1].cluster, view(items)[i + 1].near_leaves)
+                               : LeavesAhead{nullptr, 0});
     });
     n_threads_ = std::max(n_threads_, n_ran);
   }
@@ -137,7 +190,7 @@ class ClusterSearch {
   // Searches with a limit that excludes few triangles, or none. A point of the surface near each box takes the place of the
   // limit (docs/theory/clusters.md, "Every distance").
   void search_every_cluster() {
-    const auto n = view(clusters_.clusters).size();
+    const auto n = nodes_.n_clusters();
     // A thread compares a region again if another thread had some of its clusters.
     const std::int64_t per_block = n < 64 * request_.n_threads ? 1 : Clusters::clusters_per_region;
     constexpr std::int64_t few = 4;  // searching this many takes about half a millisecond
@@ -163,6 +216,27 @@ class ClusterSearch {
     return {box.lower[axis] * task_.ratio + task_.shift[axis], box.upper[axis] * task_.ratio + task_.shift[axis]};
   }
 
+  void list_near_regions() {
+    const Bounds &bounds = scene_.bounds();
+    const Vec3 lower = groups_.frame(bounds.lower), upper = groups_.frame(bounds.upper);
+    const float surface_lower[3] = {round_down(lower.x), round_down(lower.y), round_down(lower.z)};
+    const float surface_upper[3] = {round_up(upper.x), round_up(upper.y), round_up(upper.z)};
+    const Clusters &clusters = nodes_.stored();
+    const auto n_regions = view(clusters.regions).size();
+    own_.near_regions.clear();
+    own_.near_regions.reserve(static_cast<std::size_t>(n_regions));
+    for (std::int64_t region = 0; region < n_regions; ++region) {
+      const Clusters::Box &box = view(clusters.boxes)[region];
+      float gap_sq = 0;
+      for (int i = 0; i < 3; ++i) {
+        const auto [from, to] = placed(box, i);
+        const float gap = std::max({from - surface_upper[i], surface_lower[i] - to, 0.0f});
+        gap_sq += gap * gap;
+      }
+      if (gap_sq <= task_.limits.reach_sq) own_.near_regions.push_back(region);
+    }
+  }
+
   // Appends the groups of all packs that have a bit.
   void add_groups_of_packs(const std::vector<std::uint16_t> &bits, std::vector<std::int32_t> &to) const {
     for (std::int64_t pack = 0; pack < view(groups_.packs).size(); ++pack) {
@@ -178,17 +252,18 @@ class ClusterSearch {
     own.candidates.clear();
     // A group's box is within its pack's box, also after rounding. So no group near a cluster is in a pack that is not.
     own.bits.resize(groups_.packs.size());
-    if (!kernels_.near_boxes(of_packs_, view(clusters_.regions)[region], own_.all_groups.data(),
+    const Boxes &clusters = nodes_.region(region, own.room.get());
+    if (!kernels_.near_boxes(of_packs_, clusters, own_.all_groups.data(),
                              static_cast<std::int32_t>(groups_.packs.size()), own.bits.data()))
       return;
     add_groups_of_packs(own.bits, own.candidates);
     own.bits.resize(own.candidates.size());
-    if (!kernels_.near_boxes(task_, view(clusters_.regions)[region], own.candidates.data(),
-                             static_cast<std::int32_t>(own.candidates.size()), own.bits.data()))
+    if (!kernels_.near_boxes(task_, clusters, own.candidates.data(), static_cast<std::int32_t>(own.candidates.size()),
+                             own.bits.data()))
       return;
-    const Range of_region = clusters_.clusters_of(region);
-    for (std::int64_t cluster = of_region.begin; cluster < of_region.end; ++cluster)
-      add_cluster(cluster, cluster - of_region.begin, own);
+    const std::int64_t first = region * Clusters::clusters_per_region;
+    const std::int64_t end = std::min(first + Clusters::clusters_per_region, nodes_.n_clusters());
+    for (std::int64_t cluster = first; cluster < end; ++cluster) add_cluster(cluster, cluster - first, own);
   }
 
   // Appends each numbers[k] whose bits[k] has the given bit. Returns how many were appended.
@@ -220,7 +295,7 @@ class ClusterSearch {
         add_marked(own.candidates.data(), own.bits.data(), own.candidates.size(), bit, own.near_groups);
     if (n == 0) return;
     own.leaf_bits.resize(first + n);
-    const Boxes &leaves = view(clusters_.clusters)[cluster];
+    const Boxes &leaves = nodes_.cluster(cluster, own.room.get());
     const std::int32_t *const near_groups = own.near_groups.data() + first;
     std::uint16_t *const leaf_bits = own.leaf_bits.data() + first;
     const auto n_near = static_cast<std::int32_t>(n);
@@ -255,18 +330,27 @@ class ClusterSearch {
       near &= near - 1;
     }
   };
-  LeavesAhead leaves_ahead(const ClusterScratch::Item &item) const {
-    return {&clusters_.leaves.get()[clusters_.leaves_of(item.cluster).begin], item.near_leaves};
+  // Returns the near leaves of a cluster. Leaves of a grid need no request, because a thread fills them.
+  LeavesAhead leaves_ahead(std::int64_t cluster, std::uint32_t near) const {
+    if constexpr (is_stored)
+      return {&nodes_.stored().leaves.get()[cluster * leaves_per_cluster], near};
+    else
+      return {nullptr, 0};
   }
   LeavesAhead every_leaf_ahead(std::int64_t cluster) const {
-    const Range leaves = clusters_.leaves_of(cluster);
-    return {&clusters_.leaves.get()[leaves.begin], (1u << (leaves.end - leaves.begin)) - 1};
+    if constexpr (is_stored) {
+      if (cluster == nodes_.n_clusters()) return {nullptr, 0};
+      const Range leaves = nodes_.stored().leaves_of(cluster);
+      return leaves_ahead(cluster, (1u << (leaves.end - leaves.begin)) - 1);
+    } else {
+      return {nullptr, 0};
+    }
   }
 
   // The pairs of node and triangle in a cluster that the filter did not dismiss. They are stored until double precision decides
   // them.
   struct Pairs {
-    std::int64_t first_leaf;
+    const Open &cluster;
     Ties *ties;  // or null
     LeavesAhead ahead;
     std::int32_t n = 0;
@@ -394,34 +478,36 @@ class ClusterSearch {
     const std::size_t n_groups = groups_.groups.size();
     if (own.region != region) {
       own.bits.resize(n_groups);
-      compare(view(clusters_.regions)[region], own_.all_groups.data(), n_groups, own.bits.data());
+      compare(nodes_.region(region, own.room.get()), own_.all_groups.data(), n_groups, own.bits.data());
       own.region = region;
     }
+    const Boxes &leaves = nodes_.cluster(cluster, own.room.get());
+    if (!(leaves.lower[0][0] <= leaves.upper[0][0])) return;  // a cluster beyond the end of a grid
     ++own.n_queries;
     own.near_groups.clear();
     const std::size_t n = add_marked(own_.all_groups.data(), own.bits.data(), n_groups,
                                      cluster % Clusters::clusters_per_region, own.near_groups);
     own.leaf_bits.resize(n);
-    const UpperBounds bounds =
-        compare(view(clusters_.clusters)[cluster], own.near_groups.data(), n, own.leaf_bits.data());
+    const UpperBounds bounds = compare(leaves, own.near_groups.data(), n, own.leaf_bits.data());
     if (limit_ < large) {
       own.bits_within.resize(n);
-      kernels_.near_boxes(task_, view(clusters_.clusters)[cluster], own.near_groups.data(),
-                          static_cast<std::int32_t>(n), own.bits_within.data());
+      kernels_.near_boxes(task_, leaves, own.near_groups.data(), static_cast<std::int32_t>(n), own.bits_within.data());
       for (std::size_t k = 0; k < n; ++k)
         own.leaf_bits[k] = static_cast<std::uint16_t>(own.leaf_bits[k] & own.bits_within[k]);
     }
-    const bool is_last = cluster + 1 == view(clusters_.clusters).size();
     search_cluster({cluster, 0, n, thread, near_leaves(own.leaf_bits.data(), n)}, own, thread, &bounds,
-                   is_last ? LeavesAhead{nullptr, 0} : every_leaf_ahead(cluster + 1));
+                   every_leaf_ahead(cluster + 1));
   }
 
   // Queries the nodes of a leaf one by one.
-  void query_nodes(std::int64_t number, ClusterScratch::Thread &own, int thread) {
-    const Leaf &leaf = clusters_.leaves.get()[number];
-    const double *const xyz = clusters_.points.get()[number].xyz;
-    for (int lane = 0; lane < clusters_.n_nodes_of(number); ++lane) {
-      const std::int64_t node = leaf.node[lane];
+  void query_nodes(const Open &cluster, int leaf, ClusterScratch::Thread &own, int thread) {
+    const std::uint32_t lanes = cluster.lanes(leaf);
+    cluster.fill_points(leaf, lanes);
+    const double *const xyz = cluster.points(leaf).xyz;
+    const auto numbers = cluster.numbers(leaf);
+    for (std::uint32_t rest = lanes; rest; rest &= rest - 1) {
+      const int lane = __builtin_ctz(rest);
+      const std::int64_t node = found_.numbers.begin + numbers[lane];
       const Vec3 p{xyz[3 * lane], xyz[3 * lane + 1], xyz[3 * lane + 2]};
       if (request_.is_masked_out(node) || !scene_.may_be_within(p, request_.distance_limit)) continue;
       ++own.n_queries;
@@ -436,17 +522,17 @@ class ClusterSearch {
     const ClusterScratch::Thread &from = view(own_.threads)[item.thread];
     const std::int32_t *candidates = from.near_groups.data() + item.first;
     const std::uint16_t *leaf_bits = from.leaf_bits.data() + item.first;
-    const Range leaves = clusters_.leaves_of(item.cluster);
     std::uint32_t near = item.near_leaves;
+    const Open cluster(nodes_, item.cluster, near, own.room.get());
     if (bounds)
       for (std::uint32_t rest = near; rest; rest &= rest - 1) {
         const int bit = __builtin_ctz(rest);
         const bool has_many = item.n > most_groups && n_marked(leaf_bits, item.n, bit) > most_groups;
         if (is_separated(bounds->of_box[bit]) && !has_many) continue;
-        query_nodes(leaves.begin + bit, own, thread);
+        query_nodes(cluster, bit, own, thread);
         near &= ~(1u << bit);
       }
-    Pairs pairs{leaves.begin, found_.ties_of(thread), ahead};
+    Pairs pairs{cluster, found_.ties_of(thread), ahead};
     ClusterTask &task = own.task;
     // The bounds of so many pairs of a leaf and a group take 8 kB, so they stay in the processor's first cache.
     constexpr std::size_t many = 64;
@@ -460,7 +546,7 @@ class ClusterSearch {
         const std::int32_t n_groups =
             kernels_.select(candidates, leaf_bits, static_cast<std::int32_t>(item.n), bit, near_groups);
         LeafTask &leaf = task.leaf[task.n_leaves++];
-        leaf = leaf_task(leaves.begin, bit, near_groups, n_groups);
+        leaf = leaf_task(cluster, bit, near_groups, n_groups);
         if (bounds) limits_within(std::min(bounds->of_box[bit], limit_), leaf.limits);
         n_listed += static_cast<std::size_t>(n_groups);
       }
@@ -476,14 +562,13 @@ class ClusterSearch {
     for (const std::uint32_t nodes : pairs.nodes) n_paired += static_cast<std::size_t>(__builtin_popcount(nodes));
     found.resize(n_before + n_paired);
     FoundNode *next = found.data() + n_before;
-    for (std::int64_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
-      const std::int64_t i = leaf - leaves.begin;
-      const Leaf &of_leaf = clusters_.leaves.get()[leaf];
+    for (int i = 0; i < leaves_per_cluster; ++i) {
+      const auto numbers = cluster.numbers(i);
       const ClosestTriangle *const of_nodes = own.closest.data() + nodes_per_leaf * i;
       for (std::uint32_t rest = pairs.nodes[i]; rest; rest &= rest - 1) {
         const int lane = __builtin_ctz(rest);
         const double distance = std::sqrt(of_nodes[lane].distance_sq);
-        *next = FoundNode(of_leaf.node[lane], distance, of_nodes[lane].triangle);
+        *next = FoundNode(numbers[lane], distance, of_nodes[lane].triangle);
         next += distance <= request_.distance_limit;
       }
     }
@@ -498,7 +583,8 @@ class ClusterSearch {
       return std::sqrt(closest.distance_sq) <= request_.distance_limit ? closest : nothing;
     };
     pairs.ties->settle(closest_to, [&](std::int64_t node) -> std::int64_t {
-      return clusters_.leaves.get()[pairs.first_leaf + node / nodes_per_leaf].node[node % nodes_per_leaf];
+      const auto at = static_cast<int>(node);
+      return found_.numbers.begin + pairs.cluster.numbers(at / nodes_per_leaf)[at % nodes_per_leaf];
     });
   }
 
@@ -509,15 +595,15 @@ class ClusterSearch {
     return limits_within(std::min(limit, limit_), limits) <= useful;
   }
 
-  LeafTask leaf_task(std::int64_t first_leaf, int position, const std::int32_t *near_groups,
-                     std::int32_t n_groups) const {
-    const Leaf &leaf = clusters_.leaves.get()[first_leaf + position];
-    const int n_nodes = clusters_.n_nodes_of(first_leaf + position);
-    std::uint32_t wanted = n_nodes == nodes_per_leaf ? 0xffffffffu : (1u << n_nodes) - 1;
+  LeafTask leaf_task(const Open &cluster, int position, const std::int32_t *near_groups, std::int32_t n_groups) const {
+    std::uint32_t wanted = cluster.lanes(position);
+    const auto numbers = cluster.numbers(position);
     if (request_.node_mask)
-      for (int lane = 0; lane < n_nodes; ++lane)
-        if (!request_.node_mask[leaf.node[lane]]) wanted &= ~(1u << lane);
-    return {&leaf, position, wanted, near_groups, n_groups, task_.limits, true, 0};
+      for (std::uint32_t rest = wanted; rest; rest &= rest - 1) {
+        const int lane = __builtin_ctz(rest);
+        if (!request_.node_mask[found_.numbers.begin + numbers[lane]]) wanted &= ~(1u << lane);
+      }
+    return {&cluster.leaf(position), position, wanted, near_groups, n_groups, task_.limits, true, 0};
   }
 
   // Filters the leaves of own.task, and prepares `closest` for their nodes.
@@ -533,8 +619,10 @@ class ClusterSearch {
     for (std::int32_t i = 0; i < task.n_leaves; ++i) {
       const LeafTask &leaf = task.leaf[i];
       if (!leaf.may_be_near) continue;
-      request(&clusters_.points.get()[pairs.first_leaf + leaf.position], sizeof(LeafPoints));
-      request(leaf.leaf->node, sizeof(Leaf::node));
+      if (is_stored) {
+        request(&pairs.cluster.points(leaf.position), sizeof(LeafPoints));
+        request(leaf.leaf->node, sizeof(Leaf::node));
+      }
       std::fill_n(own.closest.begin() + leaf.position * nodes_per_leaf, nodes_per_leaf, nothing);
     }
     while (!task.is_done) {
@@ -542,6 +630,8 @@ class ClusterSearch {
       if (room - pairs.n < enough) decide(own, pairs);
       pairs.n += kernels_.filter_cluster(
           task_, task, {own.pair_nodes.data() + pairs.n, own.pair_triangles.data() + pairs.n}, room - pairs.n);
+      for (std::int32_t i = 0; i < task.n_leaves; ++i)
+        pairs.cluster.fill_points(task.leaf[i].position, task.leaf[i].found);
     }
     for (std::int32_t i = 0; i < task.n_leaves; ++i) pairs.nodes[task.leaf[i].position] = task.leaf[i].found;
   }
@@ -551,8 +641,7 @@ class ClusterSearch {
     for (std::int32_t i = 0; i < pairs.n; i += at_once) {
       pairs.ahead.request_one();
       kernels_.decide(std::min(at_once, pairs.n - i), own.pair_nodes.data() + i, own.pair_triangles.data() + i,
-                      clusters_.points.get()[pairs.first_leaf].xyz, groups_.corners.data(),
-                      own.pair_decided.data() + i);
+                      pairs.cluster.points(0).xyz, groups_.corners.data(), own.pair_decided.data() + i);
     }
     if (pairs.ties) {
       take_closest_and_ties(own, pairs);
@@ -589,7 +678,7 @@ class ClusterSearch {
   const NodeSearch &request_;
   const TriangleScene &scene_;
   const TriangleGroups &groups_;
-  const Clusters &clusters_;
+  const Nodes &nodes_;
   const Placing placing_;
   const double limit_;  // in the surface's frame; `large` if the limit excludes nothing that single precision separates
   const Kernels &kernels_;
@@ -601,7 +690,7 @@ class ClusterSearch {
 
 }  // namespace
 
-void ClusterScratch::prepare(int n_threads) {
+void ClusterScratch::prepare(int n_threads, bool needs_room) {
   if (view(threads).size() < n_threads) resize(threads, n_threads);
   const auto make_room_for = [this](auto member) {
     make_room(
@@ -615,6 +704,7 @@ void ClusterScratch::prepare(int n_threads) {
   make_room_for(&Thread::leaf_groups);
   make_room_for(&Thread::lower_bounds);
   for (Thread &thread : threads) {
+    if (needs_room && !thread.room) thread.room.reset(new GridClusters::Room);
     thread.items.clear();
     thread.near_groups.clear();
     thread.leaf_bits.clear();
@@ -645,9 +735,12 @@ bool has_few_near(const NodeSearch &request) {
   return request.distance_limit <= 0.2 * std::max({extent.x, extent.y, extent.z});
 }
 
-SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
-                             ClusterScratch &scratch, FoundNodes &found) {
-  ClusterSearch search(request, clusters, kernels, scratch, found);
+namespace {
+
+template <class Nodes>
+SearchReport search_nodes(const NodeSearch &request, const Nodes &nodes, const Kernels &kernels,
+                          ClusterScratch &scratch, FoundNodes &found) {
+  ClusterSearch<Nodes> search(request, nodes, kernels, scratch, found);
   if (has_few_near(request)) {
     search.find_near_clusters();
     search.search_near_clusters();
@@ -655,6 +748,18 @@ SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters
     search.search_every_cluster();
   }
   return search.report();
+}
+
+}  // namespace
+
+SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
+                             ClusterScratch &scratch, FoundNodes &found) {
+  return search_nodes(request, StoredClusters(clusters), kernels, scratch, found);
+}
+
+SearchReport search_clusters(const NodeSearch &request, const GridClusters &clusters, const Kernels &kernels,
+                             ClusterScratch &scratch, FoundNodes &found) {
+  return search_nodes(request, clusters, kernels, scratch, found);
 }
 
 }  // namespace riis

@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "geometry/point_triangle.hpp"
 #include "kernels/kernels.hpp"
+#include "mesh/grid_clusters.hpp"
 #include "search/search.hpp"
 
 namespace riis {
@@ -31,6 +33,7 @@ struct ClusterScratch {
     std::vector<std::uint16_t> leaf_bits;   // for each near group, a bit for each near leaf of the cluster
     std::vector<std::int32_t> leaf_groups;  // the near groups of the leaves that are filtered together
     ClusterTask task;
+    std::unique_ptr<GridClusters::Room> room;  // for the clusters of a grid
     struct alignas(64) NodeBounds {
       float of_node[nodes_per_leaf];
     };
@@ -57,7 +60,7 @@ struct ClusterScratch {
   std::vector<std::int32_t> all_groups;  // 0, 1, 2, ...
   std::vector<float> ends_of_band;       // OneSide::end_of_band
 
-  void prepare(int n_threads);
+  void prepare(int n_threads, bool needs_room);
 };
 
 // Returns false if single precision cannot separate near from far. This happens if the mesh or its distance from the surface is
@@ -74,6 +77,8 @@ bool has_few_near(const NodeSearch &request);
 // Searches over clusters. The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels`
 // must use the request's instructions. Only ./run bench roofline passes other kernels, which count operations.
 SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
+                             ClusterScratch &scratch, FoundNodes &found);
+SearchReport search_clusters(const NodeSearch &request, const GridClusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found);
 
 }  // namespace riis

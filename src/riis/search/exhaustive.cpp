@@ -14,9 +14,26 @@ namespace {
 // cheaply.
 constexpr std::int64_t nodes_per_block = 2048;
 
-template <class Distances>
-SearchReport query_every_node(const SearchRequest &request, const Distances &distances, FoundNodes &found) {
-  const StridedPoints &nodes = request.mesh.nodes();
+struct EveryPoint {
+  const StridedPoints &points;
+  std::int64_t n = points.n;
+
+  std::int64_t number(std::int64_t i) const { return i; }
+  Vec3 at(std::int64_t i) const { return checked_point(points, i, "node", RIIS_INVALID_MESH); }
+};
+
+struct NodesOfBox {
+  const Grid &grid;
+  GridBox box;
+  std::int64_t n = box.n_nodes();
+
+  std::int64_t number(std::int64_t i) const { return grid.number(box[i]); }
+  Vec3 at(std::int64_t i) const { return grid.at(box[i]); }
+};
+
+template <class Nodes, class Distances>
+SearchReport query_every_node(const NodeSearch &request, const Nodes &nodes, const Distances &distances,
+                              FoundNodes &found) {
   const double limit = request.distance_limit;
 
   found.prepare(request.n_threads, request.ties);
@@ -26,12 +43,13 @@ SearchReport query_every_node(const SearchRequest &request, const Distances &dis
     Ties *const ties = found.ties_of(thread);
     std::int64_t n_queries_here = 0;
     for (std::int64_t i = range.begin; i < range.end; ++i) {
-      if (request.is_masked_out(i)) continue;
-      const Vec3 p = checked_point(nodes, i, "node", RIIS_INVALID_MESH);
+      const std::int64_t node = nodes.number(i);
+      if (request.is_masked_out(node)) continue;
+      const Vec3 p = nodes.at(i);
       if (!distances.may_be_within(p, limit)) continue;
       ++n_queries_here;
       const ClosestTriangle closest = distances.closest(p, limit, ties);
-      if (closest.triangle >= 0) found.add(thread, i, closest);
+      if (closest.triangle >= 0) found.add(thread, node, closest);
     }
     n_queries.fetch_add(n_queries_here, std::memory_order_relaxed);
   });
@@ -41,8 +59,15 @@ SearchReport query_every_node(const SearchRequest &request, const Distances &dis
 }  // namespace
 
 SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found) {
-  return with_distances(request.surface, request.instructions,
-                        [&](const auto &distances) { return query_every_node(request, distances, found); });
+  return with_distances(request.surface, request.instructions, [&](const auto &distances) {
+    return query_every_node(request, EveryPoint{request.mesh.points()}, distances, found);
+  });
+}
+
+SearchReport search_exhaustively(const NodeSearch &request, const Grid &grid, const GridBox &box, FoundNodes &found) {
+  return with_distances(request.surface, request.instructions, [&](const auto &distances) {
+    return query_every_node(request, NodesOfBox{grid, box}, distances, found);
+  });
 }
 
 }  // namespace riis

@@ -24,7 +24,7 @@ class NeighborSearch {
  public:
   NeighborSearch(const SearchRequest &request, const Distances &distances, NeighborScratch &scratch, FoundNodes &found)
       : request_(request),
-        nodes_(request.mesh.nodes()),
+        nodes_(request.mesh.points()),
         adjacency_(*request.mesh.adjacency()),
         distances_(distances),
         limit_(request.distance_limit),
@@ -227,7 +227,7 @@ SearchReport search_neighbors(const SearchRequest &request, const std::vector<st
 }
 
 SearchReport search_as_the_paper(const SearchRequest &request, NeighborScratch &scratch, FoundNodes &found) {
-  const StridedPoints &nodes = request.mesh.nodes();
+  const StridedPoints &nodes = request.mesh.points();
   const Vec3 start = request.surface.triangles().corners(0)[0];
   std::int64_t nearest = -1;
   double least = std::numeric_limits<double>::infinity();

@@ -53,6 +53,7 @@ void make_room(Threads &threads, const ListOf &list_of) {
 
 // One list for each thread. The order within a list means nothing.
 struct FoundNodes {
+  Range numbers{0, 0};  // contains the nodes' numbers, which are counted from its beginning
   std::vector<UnfilledVector<FoundNode>> by_thread;
   std::vector<Ties> ties_by_thread;  // stay empty unless the rule requests ties
 
@@ -83,7 +84,7 @@ struct FoundNodes {
 
   // Adds a node with its closest triangle and its ties. All candidates for ties must belong to this node.
   void add(int thread, std::int64_t node, const ClosestTriangle &closest) {
-    view(by_thread)[thread].push_back({node, std::sqrt(closest.distance_sq), closest.triangle});
+    view(by_thread)[thread].push_back({node - numbers.begin, std::sqrt(closest.distance_sq), closest.triangle});
     if (Ties *const ties = ties_of(thread))
       ties->settle(
           [&](std::int64_t) -> auto & { return closest; }, [&](std::int64_t) { return node; });
@@ -125,6 +126,8 @@ struct SearchReport {
 
 // Queries every node (paper, 4.2.1 "Exhaustive node iteration").
 SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found);
+// Queries the nodes of a grid's box.
+SearchReport search_exhaustively(const NodeSearch &request, const Grid &grid, const GridBox &box, FoundNodes &found);
 
 // The two ways to measure distances in a search: to a surface's triangles, or by the surface's other method. Searches are
 // compiled once for each way, so that distances to triangles need no virtual call.
