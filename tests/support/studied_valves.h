@@ -59,10 +59,10 @@ static inline riis_surface *surface_at(riis_valve *valve, double opening, const 
   return new_surface(valve, options);
 }
 
-/* Changes every size by a random share of it, at most `spread`. The order is that of the list, so a size that follows another one
- * is changed about the value that follows. A leaflet's size that follows the valve's already changes with the valve's, so its own
- * share is smaller. A shift or a stretch that is 0 becomes a share itself. A size at the end of its range stays within it. Returns
- * the first status that is not RIIS_OK. */
+/* Changes every size by a random share of it, at most `spread`. The order is that of the list, so a size that follows another
+ * one is changed about the value that follows. A leaflet's size that follows the valve's already changes with the valve's, so
+ * its own share is smaller. A shift or a stretch that is 0 becomes a share itself. A size at the end of its range stays within
+ * it. Returns the first status that is not RIIS_OK. */
 static inline riis_status vary_sizes(random_source *random, riis_valve *valve, double spread) {
   int64_t n;
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));

@@ -43,7 +43,8 @@ _CUSPS = ["right cusp", "left cusp", "non-coronary cusp"]
 _MITRAL = ["anterior leaflet", "posterior leaflet"]
 _LEAFLETS = {
     "aortic": _CUSPS, "coapting": _CUSPS, "trileaflet": _CUSPS, "mitral": _MITRAL, "mitral_coapting": _MITRAL,
-    "tricuspid": ["anterior leaflet", "septal leaflet", "posterior leaflet"], "bileaflet": ["leaflet at x > 0", "leaflet at x < 0"],
+    "tricuspid": ["anterior leaflet", "septal leaflet", "posterior leaflet"],
+    "bileaflet": ["leaflet at x > 0", "leaflet at x < 0"],
 }  # fmt: skip
 
 

@@ -89,9 +89,10 @@ CLI::Option *declare_unit_of(Command &command, const char *name, const char *hel
 
 void declare_valve(Command &command, ValveOptions &options) {
   command.group("Valve");
-  command.text("--valve", "KIND|DISEASE|FILE.json",
-               "aortic (default), coapting, mitral or another (riis help valves, riis help diseases), or a file of patches",
-               options.valve);
+  command.text(
+      "--valve", "KIND|DISEASE|FILE.json",
+      "aortic (default), coapting, mitral or another (riis help valves, riis help diseases), or a file of patches",
+      options.valve);
   command.text("--params,--params-closed", "FILE.json", "Parameters of the valve, or of its closed state",
                options.params);
   declare_settings(command, "Set one parameter to a number or X,Y,Z; may be repeated", options);

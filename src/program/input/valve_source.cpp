@@ -80,7 +80,8 @@ Valve make_kind(const std::string &kind, const std::string &subject) {
   Valve valve;
   const riis_status status = riis_valve_create(kind.c_str(), valve.out());
   if (status == RIIS_INVALID_PARAMETER) {
-    refuse_data(subject + ": " + riis_last_error() + ", diseases (riis help diseases), and files of patches, FILE.json");
+    refuse_data(subject + ": " + riis_last_error() +
+                ", diseases (riis help diseases), and files of patches, FILE.json");
   }
   check(status);
   return valve;

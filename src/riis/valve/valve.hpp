@@ -82,8 +82,8 @@ struct ValveKind {
   // True if leaflets meet only at common vertices of their triangles, such as at commissures. Otherwise leaflets may touch
   // anywhere, and their triangles may then go through each other by as much as the triangles' error.
   bool has_exact_contacts = false;
-  // True if the orifice is seen along the valve's z axis. Otherwise it is seen along the vector area of the edges that are farthest
-  // from its middle. If cusps differ and their open edges reach beyond the attachment, that area would be oblique.
+  // True if the orifice is seen along the valve's z axis. Otherwise it is seen along the vector area of the edges that are
+  // farthest from its middle. If cusps differ and their open edges reach beyond the attachment, that area would be oblique.
   bool is_seen_along_z = false;
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
@@ -98,8 +98,8 @@ struct ValveKind {
 // Adds the parameter "skirt_length" to a kind.
 ValveKind with_skirt(ValveKind kind, SkirtAxis axis);
 
-// The kinds of valves that are defined by parameters. Each is in a file of its name. But valve/coapting.cpp has the kinds with two
-// to four coapting cusps, and valve/atrioventricular.cpp the kinds with coapting leaflets on an annulus.
+// The kinds of valves that are defined by parameters. Each is in a file of its name. But valve/coapting.cpp has the kinds with
+// two to four coapting cusps, and valve/atrioventricular.cpp the kinds with coapting leaflets on an annulus.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bicuspid_valve_kind();
 const ValveKind &bileaflet_valve_kind();
