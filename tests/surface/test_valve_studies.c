@@ -63,7 +63,7 @@ static void study_row(const studied *of, double spread, sickness has, int n, rii
 }
 
 /* Returns how often too many sets cross or are refused. Shares are those of each row with many sets, else of all rows. */
-static int broken_bounds(double spread, const double *most_crossing, double most_refused) {
+static int broken_bounds(double spread, const double *most_crossing, const double *most_refused) {
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));
   own(crossings);
@@ -78,7 +78,7 @@ static int broken_bounds(double spread, const double *most_crossing, double most
         study_row(of, spread, has, trials(of->has_cusps ? 2 : 5, 300), crossings, &count);
       if (!is_long_test() && row + 1 < n_studied) continue;
       const int too_many_cross = count.crossing > at_most(most_crossing[has], count.accepted);
-      const int too_many_refused = count.refused > at_most(most_refused, count.accepted + count.refused);
+      const int too_many_refused = count.refused > at_most(most_refused[has], count.accepted + count.refused);
       if (too_many_cross || too_many_refused)
         printf("too many: %d of %d cross, %d refused\n", count.crossing, count.accepted, count.refused);
       broken += too_many_cross + too_many_refused;
@@ -89,9 +89,11 @@ static int broken_bounds(double spread, const double *most_crossing, double most
 }
 
 TEST(random_valves_do_not_cross) {
-  static const double none_crosses[n_sicknesses] = {0, 0, 0}, few_cross[n_sicknesses] = {0.01, 0.01, 0.02};
-  assert_int_equal(broken_bounds(0.1, none_crosses, 0.1), 0);
-  assert_int_equal(broken_bounds(0.2, few_cross, 0.35), 0);
+  /* Bumps of random places and widths fold a quarter of the bicuspid valves even beside nearly usual sizes. */
+  static const double none_crosses[n_sicknesses] = {0, 0, 0}, few_cross[n_sicknesses] = {0.01, 0.01, 0.02},
+                      few_refused[n_sicknesses] = {0.1, 0.1, 0.35}, some_refused[n_sicknesses] = {0.35, 0.35, 0.35};
+  assert_int_equal(broken_bounds(0.1, none_crosses, few_refused), 0);
+  assert_int_equal(broken_bounds(0.2, few_cross, some_refused), 0);
 }
 
 /* --- Sealing ----------------------------------------------------------------------------------------------------------- */
