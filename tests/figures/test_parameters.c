@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The drawings that explain the parameters. Each valve's drawing names all its parameters that riis_valve_get_parameter lists.
+ * The drawings that explain the parameters. Each valve's drawing names its parameters that riis_valve_get_parameter lists, up to "skirt_length".
  * So does the copy in docs/. The script refuses to draw if a parameter would be missing or have a different value. The test is
  * skipped where Python lacks matplotlib. */
 #include <ctype.h>
@@ -51,7 +51,8 @@ static int setup(void **state) {
   return -1;
 }
 
-/* Calls visit with every parameter of the valve. */
+/* Calls visit with every parameter of the valve up to "skirt_length". The drawings do not show later ones, which change single
+ * cusps, commissures and places. */
 static void for_each_parameter(const char *kind, void (*visit)(const riis_parameter *, void *), void *what) {
   riis_valve *valve = NULL;
   assert_int_equal(riis_valve_create(kind, &valve), RIIS_OK);
@@ -62,6 +63,7 @@ static void for_each_parameter(const char *kind, void (*visit)(const riis_parame
     riis_parameter parameter;
     assert_int_equal(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
     visit(&parameter, what);
+    if (strcmp(parameter.name, "skirt_length") == 0) break;
   }
   riis_valve_destroy(&valve);
 }

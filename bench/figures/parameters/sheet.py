@@ -44,7 +44,10 @@ class Sheet:
     """A drawing of several panels for one kind of valve. If the three cusps differ, the drawing shows `cusp`."""
 
     def __init__(self, title, parameters, size, cusp=None):
-        self.parameters = {each["name"]: each for each in parameters}
+        # The drawings show parameters up to the skirt's length. Later ones change single cusps, commissures and places.
+        names = [each["name"] for each in parameters]
+        n_drawn = names.index("skirt_length") + 1 if "skirt_length" in names else len(names)
+        self.parameters = {each["name"]: each for each in parameters[:n_drawn]}
         self.cusp, self.size, self.named = cusp, size, set()
         self.texts = []
         self.figure = pyplot.figure(figsize=size)

@@ -76,22 +76,21 @@ Naming naming(const ParameterSpec &spec, std::string_view name) {
   return by_own.names_it || !spec.other.name ? by_own : names(spec.other.name, spec.other.factor);
 }
 
-// A parameter that a name means, by its position.
-struct Meant {
-  std::size_t position;
-  Naming naming;
-};
-
-// Returns all parameters that a name means: the one that it names alone or, without such a one, each leaflet's.
-Vector<Meant> all_meant(const ValveKind &kind, std::string_view name) {
-  Vector<Meant> meant;
-  for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
-    const Naming named = naming(kind.parameters[i], name);
-    if (named.is_whole) return {{i, named}};
-    if (named.names_it) meant.push_back({i, named});
+// Calls action(position, naming) for all parameters that a name means: the one that it names alone or, without such a one, each
+// leaflet's. Allocates nothing, because a solver sets the opening in each time step.
+template <class Action>
+void for_each_meant(const ValveKind &kind, std::string_view name, const Action &action) {
+  const auto &specs = kind.parameters;
+  const auto is_whole = [&](const ParameterSpec &spec) { return naming(spec, name).is_whole; };
+  const bool names_one = std::any_of(specs.begin(), specs.end(), is_whole);
+  bool names_any = false;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    const Naming named = naming(specs[i], name);
+    if (names_one ? !named.is_whole : !named.names_it) continue;
+    names_any = true;
+    action(i, named);
   }
-  if (meant.empty()) fail_unknown(kind, name);
-  return meant;
+  if (!names_any) fail_unknown(kind, name);
 }
 
 void check_n_values(const ParameterSpec &spec, std::string_view name, std::int64_t n_values) {
@@ -169,27 +168,26 @@ std::uint64_t Valve::next_revision() {
 
 void Valve::set(std::string_view name, std::int64_t n_values, const double *new_values) {
   revision_ = next_revision();
-  const Vector<Meant> meant = all_meant(*kind_, name);
-  for (const auto &[position, named] : meant) {
+  for_each_meant(*kind_, name, [&](std::size_t position, const Naming &named) {
     const ParameterSpec &spec = kind_->parameters[position];
     check_n_values(spec, name, n_values);
     for (int k = 0; k < spec.n_values; ++k) check_range(spec, name, named.factor, new_values[k]);
-  }
-  for (const auto &[position, named] : meant) {
+  });
+  for_each_meant(*kind_, name, [&](std::size_t position, const Naming &named) {
     for (int k = 0; k < kind_->parameters[position].n_values; ++k)
       view(state_.values[position])[k] = new_values[k] / named.factor;
     state_.is_set[position] = 1;
-  }
+  });
   if (name == "skirt_length") skirt_lengths_.clear();
   derive();
 }
 
 void Valve::unset(std::string_view name) {
   revision_ = next_revision();
-  for (const Meant &meant : all_meant(*kind_, name)) {
-    state_.values[meant.position] = kind_->parameters[meant.position].default_values;
-    state_.is_set[meant.position] = 0;
-  }
+  for_each_meant(*kind_, name, [&](std::size_t position, const Naming &) {
+    state_.values[position] = kind_->parameters[position].default_values;
+    state_.is_set[position] = 0;
+  });
   if (name == "skirt_length") skirt_lengths_.clear();
   derive();
 }
