@@ -316,6 +316,7 @@ class StagedSteps {
 
   void search(const riis::Kernels &kernels) {
     const riis::SearchRequest request{{content(), half_thickness, nullptr, 1, riis::best_instruction_set()}, mesh_};
+    found_.numbers = {0, mesh_.nodes().n};
     riis::search_clusters(request, mesh_.clusters(1), kernels, marks_.cluster_scratch, found_);
   }
   void put_in_order() {

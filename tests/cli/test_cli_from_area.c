@@ -98,8 +98,8 @@ TEST(test_diseases) {
     const char *kind, *area, *solve, *opening, *settings[2], *range[4];
   } cases[] = {
       {"coapting", "3.7", "bump_0.open", "1", {"bump_0.leaflet=0", "bump_0.width=1"}, {"--from", "0", "--to", "1"}},
-      {"coapting", "3.6", "cusp_0.open_radius_ratio", "1", {NULL}, {"--from", "0.4", "--to", "0.85"}},
-      {"coapting", "3.2", "commissure_0.fusion", "1", {NULL}, {"--from", "0.05", "--to", "0.35"}},
+      {"coapting", "4", "cusp_0.open_radius_ratio", "1", {NULL}, {"--from", "0.4", "--to", "0.85"}},
+      {"coapting", "4", "commissure_0.fusion", "1", {NULL}, {"--from", "0.05", "--to", "0.35"}},
       {"coapting", "0.12", "bump_0.closed", "0", {"bump_0.commissure=0"}, {NULL}},
       {"bicuspid", "0.3", "bump_0.closed", "0", {"bump_0.leaflet=0", "bump_0.width=0.6"}, {NULL}},
       {"mitral_coapting", "0.3", "bump_0.closed", "0", {"bump_0.leaflet=1"}, {NULL}},

@@ -90,7 +90,7 @@ const Disease diseases[] = {
      R"({"bump_0": {"leaflet": 1, "width": 0.5, "closed": 0.494}})",
      0, 0.5, "the same"},
     {"mitral_tethering", "mitral_coapting",
-     R"({"bump_0": {"leaflet": 0}, "bump_1": {"leaflet": 1}, "width": 0.6, "closed": 0.141, "lift": -0.4})",
+     R"({"bump_0": {"leaflet": 0}, "bump_1": {"leaflet": 1}, "width": 0.6, "closed": 0.174, "lift": -0.4})",
      0, 0.4, "chords pull both leaflets into the ventricle"},
     {"mitral_clip", "mitral_coapting",
      R"({"bump_0": {"leaflet": 0}, "bump_1": {"leaflet": 1}, "width": 0.205, "open": 0})",
