@@ -319,8 +319,8 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   const double posterior_z =
       std::min_element(points.begin(), points.end(), [](const Vec3 &a, const Vec3 &b) { return a.y < b.y; })->z;
   const Vec3 horn_there = back * to_horn;
-  const double depth = horn_there.y - lower.y, width = upper.x - lower.x;
-  const auto y_of = [&](std::size_t i) { return (back * (landmarks.at(i) - middle)).y - lower.y; };
+  const double low_y = lower.y, depth = horn_there.y - low_y, width = upper.x - lower.x;
+  const auto y_of = [&](std::size_t i) { return (back * (landmarks.at(i) - middle)).y - low_y; };
   check_sides(landmarks, horn, depth, y_of);
   const auto posterior_horns = landmarks.with_role(RIIS_LANDMARK_POSTERIOR_HORN),
              trigones = landmarks.with_role(RIIS_LANDMARK_TRIGONE);
