@@ -38,7 +38,7 @@ demo_parts() {
 # The demo's valves and the place of each. The valve that the demo calls aortic is the coapting valve in its root. The stenotic
 # valve is this valve with a disease.
 demo_valves=(aortic stenotic mitral)
-declare -A demo_kind=([aortic]=coapting [stenotic]=aortic_stenosis_severe [mitral]=mitral)
+declare -A demo_kind=([aortic]=coapting [stenotic]=aortic_stenosis_rheumatic [mitral]=mitral)
 declare -A demo_place=([aortic]=aortic [stenotic]=aortic [mitral]=mitral)
 demo_openings=(0 0.25 0.5 0.75 1)
 # For each place, the mesh, and a point on each side of the valve. demo_states looks for a path between them through the closed
@@ -174,7 +174,7 @@ demo_story() {
 gmsh has made meshes that the valves fill: an aortic root of $(number_of aortic_0 n_nodes) nodes, and a tube of
 $(number_of mitral_0 n_nodes) nodes along the mitral annulus. riis has marked the nodes within
 $(number_of aortic_0 half_thickness) cm of a leaflet. A flow solver resists the flow at these nodes. The stenotic valve is
-the aortic valve with stiff cusps, which riis calls ${demo_kind[stenotic]}.
+the aortic valve with fused commissures, which riis calls ${demo_kind[stenotic]}.
 
 $(printf '  %-28s' ''; printf ' %7s' closed "${demo_openings[@]:1:3}" open)
 $(demo_row aortic)
