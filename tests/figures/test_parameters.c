@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * The drawings that explain the parameters. Each valve's drawing names its parameters that riis_valve_get_parameter lists, up to
- * "skirt_length". So does the copy in docs/. The script refuses to draw if a parameter would be missing or have a different value. The test is
- * skipped where Python lacks matplotlib. */
+ * "skirt_length". So does the copy in docs/. The script refuses to draw if a parameter would be missing or have a different
+ * value. The test is skipped where Python lacks matplotlib. */
 #include <ctype.h>
 #include <riis/riis.h>
 #include <stdlib.h>
