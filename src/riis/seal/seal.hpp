@@ -54,7 +54,7 @@ struct OpenNodes {
 // Writes a label for each row of the edges, and returns the number of regions. The label is the lowest node of the region,
 // or OpenSets::closed for a node in no region and for a number without a node. An edge may be in the row of one node or of both.
 template <class Edges>
-std::int64_t label_open_regions(const Edges &edges, const OpenNodes &nodes, int n_threads,
+std::int64_t label_open_regions(const Edges &edges, const OpenNodes &open, int n_threads,
                                 ArrayView<std::int64_t> label);
 
 // Disjoint sets of nodes that several threads unite at the same time without locks. An array holds each node's parent, which is

@@ -64,7 +64,7 @@ Rule coaptation_height_rule(const ParameterValues &values) {
 Rule gap_rule(const ParameterValues &values) { return {0.016 * values[commissure_radius][0]}; }
 
 template <std::size_t n_cusps>
-void check_values(const ParameterValues &values);
+void check_values(const ParameterValues &list);
 template <std::size_t n_cusps>
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
