@@ -56,8 +56,9 @@ riis_orifice orifice_of(const riis_surface *surface, double moved) {
 }  // namespace
 
 void warn_of_bridged_gap(const ValveOptions &options, const riis_valve *valve, const std::string &part) {
-  const Valve sick = copy_of(valve), healthy = copy_of(valve);
+  const Valve healthy = copy_of(valve);
   if (!remove_bumps(healthy)) return;
+  const Valve sick = copy_of(valve);
   const Surface with_gap = closed_surface(options, sick), without_gap = closed_surface(options, healthy);
   if (!with_gap || !without_gap) return;
   const double bridged = 1 - options.surface_options.offset;  // in half thicknesses, on either side of the gap

@@ -10,6 +10,7 @@
 #include "base/errors.hpp"
 #include "landmarks/fit.hpp"
 #include "landmarks/order.hpp"
+#include "valve/cusp_numbers.hpp"
 
 namespace riis {
 namespace {
@@ -215,8 +216,6 @@ Pose start_of(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift, cons
 }
 
 // ---- Sectors, and heights of commissures ----
-
-constexpr double least_sector = 50, most_sector = 240;
 
 // Returns the angles between the commissures that the landmarks show.
 std::vector<double> shown_sectors(const Landmarks &landmarks, const CuspAxes &axes) {

@@ -123,11 +123,14 @@ class Annulus {
     leaflets_.back()[n_cells].hinge = leaflets_.front()[0].hinge;
   }
 
-  // Commissures lead towards the point where all leaflets meet, so that neighbours stay on their sides of one plane.
-  void turn_commissures(Vec3 to) {
+  // Sets the point where all leaflets meet, seen along z. Commissures then lead towards it, so that neighbours stay on their
+  // sides of one plane.
+  void set_meeting(Vec3 at) {
+    meeting_ = at;
     for (AtPlaces<Place> &leaflet : leaflets_)
-      for (Hinge *hinge : {&leaflet[0].hinge, &leaflet[n_cells].hinge}) hinge->inwards = unit(level(to - hinge->point));
+      for (Hinge *hinge : {&leaflet[0].hinge, &leaflet[n_cells].hinge}) hinge->inwards = unit(level(at - hinge->point));
   }
+  Vec3 meeting() const { return meeting_; }
 
   const Hinge &hinge(std::size_t leaflet, std::size_t place) const { return leaflets_[leaflet][place].hinge; }
   Curve between_places(std::size_t leaflet, std::size_t place) const {
@@ -149,6 +152,7 @@ class Annulus {
 
   Curve laps_;
   Vector<AtPlaces<Place>> leaflets_;
+  Vec3 meeting_{0, 0, 0};
 };
 
 // The control points of a leaflet, as vectors from the hinges at their places.
@@ -206,7 +210,7 @@ Vec3 meeting_point(const Sizes &sizes, const Annulus &annulus) {
 
 Annulus annulus_of(const Sizes &sizes) {
   Annulus annulus(sizes.annulus(), sizes.commissures());
-  annulus.turn_commissures(meeting_point(sizes, annulus));
+  annulus.set_meeting(meeting_point(sizes, annulus));
   return annulus;
 }
 
@@ -230,7 +234,7 @@ double closed_length(const Sizes &sizes, Vec3 hinge, Vec3 on_line) {
 
 // Closed leaflets lie side by side in vertical coaptation zones.
 Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, const Bumps &bumps) {
-  const Vec3 hinge = annulus.hinge(k, middle).point, meeting = meeting_point(sizes, annulus);
+  const Vec3 hinge = annulus.hinge(k, middle).point, meeting = annulus.meeting();
   const Vec3 away = unit(level(hinge) - meeting);
   // Three leaflets meet in straight lines to the commissures. Two meet in a smile, which is straight in the middle.
   const auto along = [&](std::size_t end) -> Vec3 {
@@ -315,8 +319,8 @@ double middle_length(const Leaflet &leaflet) {
 }
 
 // Returns the leaflet with every place at a share of its way. Each control point swings about its hinge. Then the leaflet is
-// stretched so that its middle has its length, and by less towards the commissures. At last
-// bumps lift it along z. So seen along z, lifted leaflets keep as far apart as healthy ones.
+// stretched so that its middle has its length. The stretch decreases towards the commissures. At last bumps lift the leaflet
+// along z, so that lifted leaflets keep as far apart as healthy ones, seen along z.
 Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double> &shares) {
   Leaflet made = closed;
   for (std::size_t i = 0; i < n_places; ++i) {
@@ -365,12 +369,17 @@ LeafletCurves curves_of(const Leaflet &leaflet, const Annulus &annulus, std::siz
 class Motion {
  public:
   Motion(const ValveState &closed, const ValveState &open, std::size_t n_leaflets)
-      : closed_(closed.values, n_leaflets), open_(open.values, n_leaflets), has_one_annulus_(&closed == &open) {
-    const Annulus of_closed = annulus_of(closed_), of_open = annulus_of(open_);
+      : closed_(closed.values, n_leaflets),
+        open_(open.values, n_leaflets),
+        has_one_state_(&closed == &open),
+        annulus_when_closed_(annulus_of(closed_)) {
+    const Annulus of_open = has_one_state_ ? annulus_when_closed_ : annulus_of(open_);
     const Bumps bumps = closed_.bumps(), bumps_when_open = open_.bumps();
     for (std::size_t k = 0; k < n_leaflets; ++k) {
-      closed_leaflets_.push_back(closed_leaflet(closed_, of_closed, k, bumps));
-      open_leaflets_.push_back(open_leaflet(open_, of_open, k, closed_leaflet(open_, of_open, k, bumps_when_open)));
+      closed_leaflets_.push_back(closed_leaflet(closed_, annulus_when_closed_, k, bumps));
+      const Leaflet of_open_sizes =
+          has_one_state_ ? closed_leaflets_.back() : closed_leaflet(open_, of_open, k, bumps_when_open);
+      open_leaflets_.push_back(open_leaflet(open_, of_open, k, of_open_sizes));
       local_.emplace_back();
       for (std::size_t i = 0; i < n_places; ++i)
         local_.back()[i] = {bumps.at(k, u_of(i)).closed, bumps_when_open.at(k, u_of(i)).open, 0};
@@ -378,9 +387,9 @@ class Motion {
   }
 
   Annulus annulus(double opening) const {
+    if (has_one_state_) return annulus_when_closed_;
     std::array<Bezier, 4> lap = closed_.annulus();
     Vector<double> commissures = closed_.commissures();
-    if (has_one_annulus_) return {lap, commissures};
     const std::array<Bezier, 4> open_lap = open_.annulus();
     const Vector<double> open_commissures = open_.commissures();
     for (std::size_t i = 0; i < lap.size(); ++i) view(lap)[i] = riis::blend(view(lap)[i], view(open_lap)[i], opening);
@@ -406,7 +415,8 @@ class Motion {
 
  private:
   Sizes closed_, open_;
-  bool has_one_annulus_;
+  bool has_one_state_;
+  Annulus annulus_when_closed_;
   Vector<Leaflet> closed_leaflets_, open_leaflets_;
   Vector<AtPlaces<LocalOpening>> local_;
 };
@@ -479,13 +489,13 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
            " to one leaflet; it must be at least ", least_ratio, ": look at ", name_of(flat_ratio),
            " and anterior_ratio");
   const Annulus annulus = annulus_of(sizes);
-  const Vec3 meeting = meeting_point(sizes, annulus);
+  const Vec3 meeting = annulus.meeting();
   const Bumps bumps = sizes.bumps();
   for (std::size_t k = 0; k < n_leaflets; ++k) {
     const double to_meeting = distance(level(annulus.hinge(k, middle).point), meeting);
     if (!(to_meeting >= least_way * across.size && to_meeting <= (1 - least_way) * across.size))
       fail(RIIS_INVALID_PARAMETER, "the leaflets would meet at a distance of ", to_meeting,
-           " from the middle of the annulus of ", "the leaflet of ", name(k), "; it must be from ", least_way, " to ",
+           " from the middle of the annulus of the leaflet of ", name(k), "; it must be from ", least_way, " to ",
            1 - least_way, " times ", across.name, ", which is ", across.size, ": look at the leaflets' lengths");
     const double inwards = sizes.of(commissure_length) * sine_cosine_degrees(sizes.of(commissure_angle)).cosine,
                  room = distance(level(annulus.hinge(k, n_cells).point), meeting);

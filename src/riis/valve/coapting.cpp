@@ -31,8 +31,6 @@ enum OfCommissure { height, fusion, n_of_commissure };
 enum OfCusp { sector, own_effective_height, own_coaptation_height, own_open_radius_ratio, n_of_cusp };
 // clang-format on
 
-// The sector of a cusp in degrees.
-constexpr double least_sector = 50, most_sector = 240;
 // If an open free edge does not hang, it must be shorter than this share of the closed free edge.
 constexpr double most_of_edge = 0.998;
 // The free edge must stay this high above the root while the valve opens, times root_radius.

@@ -138,9 +138,9 @@ HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
   return half;
 }
 
-// Returns the closed numbers with the open free edge. The edge is round, like an arc of a circle seen along the axis. An edge
-// that is too short for an arc leaves the commissure the straighter, the less it opens. A fused edge is shorter than the arc, and
-// its straight direction leads to the inner control point at the middle.
+// Returns the closed numbers with the open free edge. The edge is round, like an arc of a circle seen along the axis. The
+// less an edge opens that is too short for an arc, the straighter it leaves the commissure. A fused edge is shorter than the arc,
+// and its straight direction leads to the inner control point at the middle.
 HalfNumbers with_open_edge(const CuspSizes &sizes, const CuspSizes::Side &side, const HalfNumbers &closed,
                            double ratio) {
   const HalfSector &sector = sizes.sector;

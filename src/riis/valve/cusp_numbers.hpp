@@ -28,11 +28,14 @@ struct AttachmentArc {
   double reach;  // the length of its end tangents, divided by the second piece's start tangent
 };
 
+// The range of a cusp's sector in degrees.
+inline constexpr double least_sector = 50, most_sector = 240;
+
 // Half of a cusp's sector: the angle theta from its symmetry plane to a commissure.
 struct HalfSector {
   double sine, cosine;
-  double
-      arc_reach;  // the distance of the inner control points from the ends of a cubic that approximates an arc of theta, in radii
+  // The distance of the inner control points from the ends of a cubic that approximates an arc of theta, in radii.
+  double arc_reach;
   double attachment_factor;  // factor of the attachment's start tangent, which keeps its middle on the cylinder
   std::optional<AttachmentArc> arc;
 };

@@ -76,17 +76,18 @@ Naming naming(const ParameterSpec &spec, std::string_view name) {
   return by_own.names_it || !spec.other.name ? by_own : names(spec.other.name, spec.other.factor);
 }
 
-// Calls action(position, naming) for all parameters that a name means: the one that it names alone or, without such a one, each
-// leaflet's. Allocates nothing, because a solver sets the opening in each time step.
+// Calls action(position, naming) for all parameters that a name means. A parameter's whole name means only this parameter.
+// Another name means the parameter of each leaflet. The function allocates nothing, because a solver sets the opening in each
+// time step.
 template <class Action>
 void for_each_meant(const ValveKind &kind, std::string_view name, const Action &action) {
   const auto &specs = kind.parameters;
-  const auto is_whole = [&](const ParameterSpec &spec) { return naming(spec, name).is_whole; };
-  const bool names_one = std::any_of(specs.begin(), specs.end(), is_whole);
+  for (std::size_t i = 0; i < specs.size(); ++i)
+    if (const Naming named = naming(specs[i], name); named.is_whole) return action(i, named);
   bool names_any = false;
   for (std::size_t i = 0; i < specs.size(); ++i) {
     const Naming named = naming(specs[i], name);
-    if (names_one ? !named.is_whole : !named.names_it) continue;
+    if (!named.names_it) continue;
     names_any = true;
     action(i, named);
   }
