@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_same_bits.sh STATE_DIGESTS DIGESTS
 # The bits of 60 states must be those in the file DIGESTS, with every compiler, number of threads and set of instructions, and
-# with the C library's code for other processors. Prints the first states that differ. After an intended change of bits, the output of
-# STATE_DIGESTS replaces the file.
+# with the C library's code for other processors. Prints the first states that differ. After an intended change of bits, the
+# output of STATE_DIGESTS replaces the file.
 set -euo pipefail
 program=$1 expected=$2
 folder=$(mktemp -d)
