@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cfenv>
+#include <cstdint>
 
 namespace riis {
 
@@ -13,6 +14,13 @@ class FloatEnvironment {
   FloatEnvironment() noexcept {
     std::fegetenv(&caller_);
     std::fesetenv(FE_DFL_ENV);
+#if defined(__aarch64__)
+    // The C library's default leaves "default NaN" as it is, with which operations lose the bits of a NaN.
+    constexpr std::uint64_t default_nan = std::uint64_t{1} << 25;
+    std::uint64_t control;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(control));
+    if (control & default_nan) __asm__ volatile("msr fpcr, %0" : : "r"(control & ~default_nan));
+#endif
   }
   ~FloatEnvironment() { std::fesetenv(&caller_); }
   FloatEnvironment(const FloatEnvironment &) = delete;

@@ -216,6 +216,7 @@ check_bits() { # argument: prefix
     # shellcheck disable=SC2046
     quietly "$FC" "${fortran_flags[@]}" "$sources/marks.f90" -o "$out/fortran" $(flags --cflags --libs riis-fortran)
   fi
+  [ "$kind" != static ] || quietly "$source/tests/install/check_functions.sh" "$out/c"
   # shellcheck disable=SC2153
   "$STRANGER" >"$out/expected.txt"
   (($(wc -l <"$out/expected.txt") > 1000)) || problem "$STRANGER marks too few nodes"

@@ -324,6 +324,8 @@ static void compare(const riis_surface *at, const placed_valve *state, const cha
 TEST(derivatives_are_central_differences) {
   static double xyz[3 * n_points], gradient[n_points], K_gradient[n_points];
   const int n_trials = is_long_test() ? 20 : 1;
+  /* Points at kinks are a larger share of a single valve's points. */
+  const double most_off = is_long_test() ? 0.01 : 0.05;
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
       if (is_sanitized() && fixed != kind % 2) continue;
@@ -390,9 +392,9 @@ TEST(derivatives_are_central_differences) {
              kinds[kind], fixed, (long long)t.n_vertices, 100. * (double)t.n_off_vertices / (double)t.n_vertices,
              t.worst_vertex, t.worst_area);
       assert_true(t.n > 0);
-      if ((double)t.n_off > 0.01 * (double)t.n) fail_msg("%lld of %lld", (long long)t.n_off, (long long)t.n);
+      if ((double)t.n_off > most_off * (double)t.n) fail_msg("%lld of %lld", (long long)t.n_off, (long long)t.n);
       assert_true(t.n_vertices > 0);
-      if ((double)t.n_off_vertices > 0.01 * (double)t.n_vertices)
+      if ((double)t.n_off_vertices > most_off * (double)t.n_vertices)
         fail_msg("%lld of %lld vertices", (long long)t.n_off_vertices, (long long)t.n_vertices);
       CHECK_AT_MOST(t.worst_area, 1e-5);
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "program/base/handles.hpp"
 
 namespace riis::program {
@@ -14,7 +15,7 @@ constexpr double n_wanted = 20'000;
 
 double area_of(const double *a, const double *b, const double *c) {
   const double p[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, q[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-  return 0.5 * std::hypot(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]);
+  return 0.5 * hypotenuse(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]);
 }
 
 // Points that fill a triangle with the corners (0, 0), (1, 0) and (0, 1) evenly, one after the other (Roberts's sequence). With

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/elementary.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 
@@ -61,7 +62,7 @@ void ResistanceSum::set_arrays(const std::string &prefix, riis_vtk_mesh *file) c
   if (!K_u_surface_.empty()) set(prefix + "_K_u_surface", 3, K_u_surface_, K_u_surface_unit_);
 }
 
-double distance_between(const double *p, const double *q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
+double distance_between(const double *p, const double *q) { return hypotenuse(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
 
 FileNodes::FileNodes(const riis_vtk_mesh *file, std::string path) : file_(file), path_(std::move(path)) {
   check(riis_vtk_mesh_get_nodes(file, &n_, nullptr, &xyz_));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "program/base/refusal.hpp"
 #include "program/mark/crossings.hpp"
 #include "program/mark/mesh_marking.hpp"
@@ -66,7 +67,7 @@ double MovingValve::largest_speed() const {
   const double *velocity = triangles.velocity;
   double largest = 0;
   for (int64_t i = 0; velocity && i < triangles.n_vertices; ++i)
-    largest = std::max(largest, std::hypot(velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]));
+    largest = std::max(largest, hypotenuse(velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]));
   return largest;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_source.hpp"
@@ -119,7 +120,7 @@ void UrisLeaflets::find_forward(double opening) {
     const Point area = twice_area(vertex_of(xyz, corners[0]), vertex_of(xyz, corners[1]), vertex_of(xyz, corners[2]));
     for (std::size_t k = 0; k < 3; ++k) forward_[k] += area[k];
   }
-  const double length = std::hypot(forward_[0], forward_[1], forward_[2]);
+  const double length = hypotenuse(forward_[0], forward_[1], forward_[2]);
   if (!(length > 0))
     refuse_data((subject_.empty() ? "" : subject_ + ": ") +
                 "the leaflets' normals cancel, so they tell no direction of forward flow");
@@ -283,7 +284,7 @@ void FinerTriangles::measure(const std::vector<double> &xyz) {
   const auto at = view(xyz);
   for (Edge &edge : edges_) {
     const std::int64_t a = 3 * edge.ends.a, b = 3 * edge.ends.b;
-    edge.length = std::max(edge.length, std::hypot(at[a] - at[b], at[a + 1] - at[b + 1], at[a + 2] - at[b + 2]));
+    edge.length = std::max(edge.length, hypotenuse(at[a] - at[b], at[a + 1] - at[b + 1], at[a + 2] - at[b + 2]));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/mark/mesh_marking.hpp"
@@ -226,7 +227,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
 
 double delta_of(double distance, double half_thickness) {
   if (!(distance < half_thickness)) return 0;
-  return (1 + std::cos(pi * distance / half_thickness)) / (2 * half_thickness * half_thickness);
+  return (1 + cosine_of_pi(distance / half_thickness)) / (2 * half_thickness * half_thickness);
 }
 
 double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
@@ -328,7 +329,7 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
       const std::int64_t node = mesh.nodes_of(e)[a];
       const Point off = difference(mesh.point(node), mesh.point(mesh.nodes_of(e)[0]));
       nearest = std::min(nearest, view(near)[node]);
-      size = std::max(size, std::hypot(off[0], off[1], off[2]));
+      size = std::max(size, hypotenuse(off[0], off[1], off[2]));
     }
     if (!(nearest <= half_thickness + 2 * size)) continue;
     for (std::size_t g = 0; g < points.size(); ++g) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/surface_options.hpp"
 
-#include <cmath>
-
 #include "api/structs.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
@@ -38,7 +36,7 @@ void check_placement(const riis_surface_options &options, const char *name) {
   for (const double value : options.rotation_axis) check_range(name, "rotation_axis", value, -1e50, 1e50);
   for (const double value : options.translation) check_range(name, "translation", value, -1e50, 1e50);
   const double *axis = options.rotation_axis;
-  if (!(std::hypot(axis[0], axis[1], axis[2]) >= 1e-50))
+  if (!(length(Vec3{axis[0], axis[1], axis[2]}) >= 1e-50))
     fail(RIIS_INVALID_ARGUMENT, name, ".rotation_axis is (", axis[0], ", ", axis[1], ", ", axis[2],
          "); it must be at least 1e-50 long");
 }
@@ -68,11 +66,7 @@ void check_options(const riis_surface_options &options) {
 
 Placement placement_of(const riis_surface_options &options) {
   const double *axis = options.rotation_axis, *t = options.translation;
-  // hypot scales before it squares, so very long and very short axes are safe.
-  const double size = std::hypot(axis[0], axis[1], axis[2]);
-  return {options.scale,
-          rotation_about({axis[0] / size, axis[1] / size, axis[2] / size}, options.rotation_angle),
-          {t[0], t[1], t[2]}};
+  return {options.scale, rotation_about({axis[0], axis[1], axis[2]}, options.rotation_angle), {t[0], t[1], t[2]}};
 }
 
 double half_thickness_of(const riis_surface_options &options) {

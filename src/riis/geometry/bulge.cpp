@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "geometry/vec3.hpp"
 
 namespace riis {
@@ -138,7 +139,7 @@ std::optional<Along> along_span(const Bezier &span, double speed) {
     ahead = std::max(ahead, 0.5 * std::abs(by));
     sideways = std::max(sideways, 0.5 * length(d.second[i] - by * direction));
   }
-  const double least = size - ahead, largest = std::hypot(size + ahead, sideways);
+  const double least = size - ahead, largest = hypotenuse(size + ahead, sideways);
   if (!(least > 0)) return std::nullopt;
   const Ball second = is_cubic ? Ball{0.5 * (d.second[0] + d.second[1]), 0.5 * length(d.third)} : Ball{d.second[0], 0};
   return along({direction, sideways / least}, least, largest, second, d.third, speed);
@@ -193,7 +194,7 @@ class OffsetDerivatives {
     const Interval along_normal = size2 - w_size_ * turn;
     const Interval rate = size1_ - w_size_ * m_inverse_ * dot(normal_, m1_);
     const Ball across_normal = m_inverse_ * (2 * rate * across1_ + w_size_ * across(m2, normal_));
-    const double bound = std::abs(factor_) * std::hypot(along_normal.magnitude(), across_normal.largest_length());
+    const double bound = std::abs(factor_) * hypotenuse(along_normal.magnitude(), across_normal.largest_length());
     return bound >= 0 ? bound : infinity;  // the bound is NaN if numbers beyond the range of doubles cancelled
   }
 

@@ -3,24 +3,6 @@
 
 namespace riis {
 
-SineCosine sine_cosine_degrees(double degrees) {
-  // The reduction to a number of quarter turns and an angle in [-45, 45] degrees is exact.
-  const double turned = std::remainder(degrees, 360.0);
-  const double quarters = std::nearbyint(turned / 90.0);
-  const double radians = (turned - 90.0 * quarters) * (pi / 180.0);
-  const double s = std::sin(radians), c = std::cos(radians);
-  switch (static_cast<int>(quarters) & 3) {
-    case 0:
-      return {s, c};
-    case 1:
-      return {c, -s};
-    case 2:
-      return {-s, -c};
-    default:
-      return {-c, s};
-  }
-}
-
 Rotation rotation_about(Vec3 axis, double degrees) {
   const auto [s, c] = sine_cosine_degrees(degrees);
   const Vec3 n = (1.0 / length(axis)) * axis;

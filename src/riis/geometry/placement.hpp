@@ -2,6 +2,7 @@
 // Rotations and the placement x -> scale * rotation * x + translation.
 #pragma once
 
+#include "common/elementary.hpp"
 #include "geometry/vec3.hpp"
 
 namespace riis {
@@ -37,11 +38,5 @@ struct Placement {
 inline Vec3 place(const Placement &placement, Vec3 a) {
   return placement.scale * (placement.rotation * a) + placement.translation;
 }
-
-// Sine and cosine of degrees, exact at multiples of 90.
-struct SineCosine {
-  double sine, cosine;
-};
-SineCosine sine_cosine_degrees(double degrees);
 
 }  // namespace riis

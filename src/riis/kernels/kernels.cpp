@@ -28,7 +28,7 @@ InstructionSet best_instruction_set() {
   return best;
 }
 
-const Kernels &kernels(InstructionSet set) {
+const Kernels &kernels([[maybe_unused]] InstructionSet set) {
 #if defined(RIIS_X86_KERNELS)
   static const Kernels tables[n_instruction_sets] = {{filter_kernels_baseline, decision_kernels_baseline},
                                                      {filter_kernels_avx2, decision_kernels_avx2},

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "common/elementary.hpp"
 #include "geometry/curve.hpp"
 #include "landmarks/annuli.hpp"
 #include "landmarks/fit.hpp"
@@ -23,8 +24,8 @@ namespace riis {
 double checked_flow(const Landmarks &landmarks, Vec3 normal, const char *whose) {
   const double along = dot(landmarks.flow, normal);
   constexpr double most_degrees = 75;
-  if (std::abs(along) < std::cos(most_degrees * pi / 180))
-    fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is at ", rounded(std::acos(std::abs(along)) * 180 / pi, 3),
+  if (std::abs(along) < sine_cosine_degrees(most_degrees).cosine)
+    fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is at ", rounded(arc_cosine(std::abs(along)) * 180 / pi, 3),
          " degrees to ", whose, " normal; it must be at most ", most_degrees);
   return along;
 }
@@ -176,7 +177,7 @@ std::string advice_for(const LandmarkFit &fit, const Landmarks &landmarks) {
 
 // Refuses a fitted valve that stands obliquely in the annulus.
 void check_axis(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 normal) {
-  const double degrees = std::acos(std::min(1.0, std::abs((transposed(fit.pose.rotation) * normal).z))) * 180 / pi;
+  const double degrees = arc_cosine(std::min(1.0, std::abs((transposed(fit.pose.rotation) * normal).z))) * 180 / pi;
   constexpr double most_degrees = 20;
   if (degrees > most_degrees)
     fail(RIIS_INVALID_ARGUMENT, "the axis of the fitted valve is at ", rounded(degrees, 3),

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "base/errors.hpp"
+#include "common/elementary.hpp"
 #include "landmarks/fit.hpp"
 #include "landmarks/order.hpp"
 #include "valve/cusp_numbers.hpp"
@@ -101,7 +102,7 @@ CuspAxes axes_of(const Landmarks &landmarks, const char *kind, std::size_t n_cus
   const Vec3 axis = unit(up);
   const double against = dot(axis, landmarks.flow);
   if (against < 0)
-    fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is at ", rounded(std::acos(std::max(-1.0, against)) * 180 / pi, 3),
+    fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is at ", rounded(arc_cosine(std::max(-1.0, against)) * 180 / pi, 3),
          " degrees to the direction from the nadirs to the commissures, which must point downstream");
   return {order_around(landmarks, cusps, axis, middle), axis, middle, length(up)};
 }
@@ -211,7 +212,7 @@ Pose start_of(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift, cons
     const Vec3 p = rotation_about({0, 0, 1}, -at[cusp]) * (back * (landmarks.at(axes.order.nadir[cusp]) - axes.middle));
     x += p.x / length(p), y += p.y / length(p);
   }
-  const Rotation rotation = to * rotation_about({0, 0, 1}, std::atan2(y, x) * 180 / pi);
+  const Rotation rotation = to * rotation_about({0, 0, 1}, arc_tangent(y, x) * 180 / pi);
   return {rotation, axes.middle - rotation * shift};
 }
 
@@ -222,7 +223,7 @@ std::vector<double> shown_sectors(const Landmarks &landmarks, const CuspAxes &ax
   const Rotation back = transposed(rotation_to(landmarks.at(axes.order.nadir[0]) - axes.middle, axes.axis));
   const auto direction = [&](std::size_t cusp) {
     const Vec3 p = back * (landmarks.at(axes.order.commissure[cusp]) - axes.middle);
-    return std::atan2(p.y, p.x) * 180 / pi;
+    return arc_tangent(p.y, p.x) * 180 / pi;
   };
   std::vector<double> shown;
   for (std::size_t cusp = 0; cusp < axes.n_cusps(); ++cusp) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "common/elementary.hpp"
 #include "landmarks/annuli.hpp"
 #include "landmarks/fit.hpp"
 
@@ -23,7 +24,7 @@ class HousingModel : public LandmarkModel {
     out.clear();
     for (std::size_t i = 0; i < roles_.size(); ++i) {
       const Vec3 &p = local[i];
-      const double r = std::hypot(p.x, p.y), beyond = r > 0 ? 1 - values[radius_] / r : 0;
+      const double r = hypotenuse(p.x, p.y), beyond = r > 0 ? 1 - values[radius_] / r : 0;
       if (roles_[i] == RIIS_LANDMARK_HINGE)
         out.push_back({i, {p.x - std::copysign(values[offset], p.x), 0, p.z - values[height]}});
       else
@@ -62,7 +63,7 @@ KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmar
          " from their middle, which does not show their direction; they must be more than ",
          rounded(landmarks.scale * 0.2 * radius, 3), " from it");
   if (std::abs(dot(y, up)) > 0.5)
-    fail(RIIS_INVALID_ARGUMENT, "the hinges are at ", rounded(std::acos(std::abs(dot(y, up))) * 180 / pi, 3),
+    fail(RIIS_INVALID_ARGUMENT, "the hinges are at ", rounded(arc_cosine(std::abs(dot(y, up))) * 180 / pi, 3),
          " degrees to the ring's normal; they must be across it");
   // If the landmarks belong to only one hinge, it is the hinge of the leaflet at x > 0.
   const Vec3 hinge_middle = landmarks.mean_of(hinges) - middle;

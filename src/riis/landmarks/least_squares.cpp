@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "common/elementary.hpp"
 #include "landmarks/fit.hpp"
 
 #include <algorithm>
@@ -150,8 +151,8 @@ Eigen symmetric_eigen(std::vector<double> a, std::size_t n) {
       for (std::size_t q = p + 1; q < n; ++q) {
         if (a[p * n + q] == 0) continue;
         const double theta = (a[q * n + q] - a[p * n + p]) / (2 * a[p * n + q]);
-        const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::hypot(theta, 1));
-        const double c = 1 / std::hypot(t, 1), s = t * c;
+        const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + hypotenuse(theta, 1));
+        const double c = 1 / hypotenuse(t, 1), s = t * c;
         for (std::size_t k = 0; k < n; ++k) {
           const double kp = a[k * n + p], kq = a[k * n + q];
           a[k * n + p] = c * kp - s * kq;
@@ -168,7 +169,9 @@ Eigen symmetric_eigen(std::vector<double> a, std::size_t n) {
   }
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return a[i * n + i] < a[j * n + j]; });
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return a[i * n + i] != a[j * n + j] ? a[i * n + i] < a[j * n + j] : i < j;
+  });
   Eigen sorted;
   for (const std::size_t i : order) {
     sorted.values.push_back(a[i * n + i]);

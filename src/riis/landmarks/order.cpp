@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "common/elementary.hpp"
 #include "landmarks/fit.hpp"
 
 namespace riis {
@@ -67,10 +68,12 @@ Order turn_of(const Landmarks &landmarks, Vec3 axis, Vec3 middle) {
   for (const auto *list : {&nadirs, &commissures})
     for (const std::size_t i : *list) {
       const Vec3 p = back * (landmarks.at(i) - middle);
-      const double angle = std::atan2(p.y, p.x);
+      const double angle = arc_tangent(p.y, p.x);
       seen.push_back({i == start ? 0 : angle < 0 ? angle + 2 * pi : angle, i});
     }
-  std::sort(seen.begin(), seen.end(), [](const Seen &a, const Seen &b) { return a.angle < b.angle; });
+  std::sort(seen.begin(), seen.end(), [](const Seen &a, const Seen &b) {
+    return a.angle != b.angle ? a.angle < b.angle : a.landmark < b.landmark;
+  });
   Order order{};
   for (std::size_t k = 0; k < seen.size(); ++k) {
     const std::size_t i = seen[k].landmark;

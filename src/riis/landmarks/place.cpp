@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "common/elementary.hpp"
 #include "landmarks/fit.hpp"
 #include "valve/skirt.hpp"
 #include "valve/warp.hpp"
@@ -86,7 +87,7 @@ bool grows(const ParameterSpec &spec, const std::array<double, 3> &values) {
 std::pair<Vec3, double> axis_and_angle(const Rotation &r) {
   const Vec3 twice{r.row_z.y - r.row_y.z, r.row_x.z - r.row_z.x, r.row_y.x - r.row_x.y};
   const double trace = r.row_x.x + r.row_y.y + r.row_z.z, sine = length(twice);
-  const double angle = std::atan2(sine, trace - 1) * (180 / pi);
+  const double angle = arc_tangent(sine, trace - 1) * (180 / pi);
   if (sine > 1e-6) return {unit(twice), angle};
   if (trace > 1) return {{0, 0, 1}, 0};
   // The angle is half a turn. Then each column of R + 1 that is not 0 has the direction of the axis.

@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
+#include "common/elementary.hpp"
 #include "geometry/vec3.hpp"
 
 namespace riis {
@@ -85,7 +86,7 @@ double checked_step(double before, double time, double pressure_difference, doub
 // Returns the new value of a first-order filter. `before` is NaN if there was no value yet.
 double filtered(double before, double now, double step, double filter_time) {
   if (std::isnan(before) || filter_time == 0) return now;
-  return before - std::expm1(-step / filter_time) * (now - before);
+  return before - exponential_minus_one(-step / filter_time) * (now - before);
 }
 
 void check_phase(std::int32_t phase) {
@@ -156,9 +157,9 @@ class AngleLaw {
   AngleState derivative(AngleState at, double share) const {
     const double pressure = (1 - share) * from_.pressure_difference + share * to_.pressure_difference;
     const double flow = (1 - share) * from_.flow + share * to_.flow;
-    return {at.rate, -law_.friction * at.rate +
-                         (law_.pressure_gain * pressure + law_.flow_gain * flow) * std::cos(at.angle) -
-                         law_.vortex_gain * std::max(flow, 0.0) * std::sin(2 * at.angle)};
+    const auto [sine, cosine] = sine_cosine(at.angle);
+    return {at.rate, -law_.friction * at.rate + (law_.pressure_gain * pressure + law_.flow_gain * flow) * cosine -
+                         law_.vortex_gain * std::max(flow, 0.0) * (2 * sine * cosine)};
   }
 
   // Bounds the rate at which the motion changes. The number of steps follows from this bound.

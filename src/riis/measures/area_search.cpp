@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/elementary.hpp"
+
 namespace riis {
 namespace {
 
@@ -39,7 +41,7 @@ void AreaSearch::sample(double from, double to, std::int32_t n_samples, bool gro
   bool is_after_refused = false;
   for (std::int32_t i = 0; i < n_samples; ++i) {
     const double share = static_cast<double>(i) / (n_samples - 1);
-    const double between = grows ? from * std::pow(to / from, share) : (1 - share) * from + share * to;
+    const double between = grows ? from * power_to_share(to / from, share) : (1 - share) * from + share * to;
     const double value = i == 0 ? from : i == n_samples - 1 ? to : between;
     if (const std::optional<double> area = area_(value)) {
       points_.push_back({value, *area});

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "common/sets.hpp"
 #include "landmarks/fit.hpp"
 #include "scene/edges.hpp"
@@ -152,7 +153,7 @@ class FarthestEdges {
       const auto &[a, b] = edges[i];
       const double turning = cross_of(a, b);
       if (!(std::abs(turning) > 1e-14 * std::sqrt(dot_of(a, a) * dot_of(b, b)))) continue;  // seen from its end
-      const double at_a = std::atan2(a[1], a[0]), at_b = std::atan2(b[1], b[0]);
+      const double at_a = arc_tangent(a[1], a[0]), at_b = arc_tangent(b[1], b[0]);
       turns.push_back(turning > 0 ? Turn{i, at_a, at_b} : Turn{i, at_b, at_a});
       for (const double angle : {at_a, at_b}) angles_.push_back(angle);
     }
@@ -193,7 +194,10 @@ class FarthestEdges {
     double distance;
   };
 
-  static PlanePoint ray_at(double angle) { return {std::cos(angle), std::sin(angle)}; }
+  static PlanePoint ray_at(double angle) {
+    const auto [sine, cosine] = sine_cosine(angle);
+    return {cosine, sine};
+  }
 
   // Returns the angle between a direction and the next one.
   double width(std::size_t at) const {
@@ -203,8 +207,8 @@ class FarthestEdges {
   // Returns the share of the edge at which the ray in a direction meets it.
   double share_at(std::size_t edge, double angle) const {
     const auto &[a, b] = edges_[edge];
-    if (std::atan2(a[1], a[0]) == angle) return 0;
-    if (std::atan2(b[1], b[0]) == angle) return 1;
+    if (arc_tangent(a[1], a[0]) == angle) return 0;
+    if (arc_tangent(b[1], b[0]) == angle) return 1;
     return share_on(edge, ray_at(angle));
   }
   double share_on(std::size_t edge, const PlanePoint &ray) const {

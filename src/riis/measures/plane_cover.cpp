@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 
 namespace riis {
 namespace {
@@ -152,7 +153,7 @@ IntervalsOfLines covered(const Cover &cover, double reach, const ScanLines &line
   }
   if (!(reach > 0)) return std::move(made.intervals);
   for (const auto &[a, b] : cover.rim) {
-    const double dx = b[0] - a[0], dy = b[1] - a[1], size = std::hypot(dx, dy);
+    const double dx = b[0] - a[0], dy = b[1] - a[1], size = hypotenuse(dx, dy);
     made.begin_shape();
     made.add_disc(a, reach);
     made.add_disc(b, reach);

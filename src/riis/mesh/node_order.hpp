@@ -14,6 +14,7 @@
 
 #include "base/recycled.hpp"
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "geometry/strided.hpp"
 #include "geometry/vec3.hpp"
 #include "kernels/kernels.hpp"
@@ -252,7 +253,7 @@ class NodeSorter {
     const float middle = side[1] / side[2], least = side[0] / side[2];  // not numbers if all nodes are in one place
     float edge = 1 / n_leaves;                                          // as a share of the longest side
     if (middle > edge) edge = std::sqrt(middle / n_leaves);
-    if (least > edge) edge = std::cbrt(middle * least / n_leaves);
+    if (least > edge) edge = static_cast<float>(cube_root(middle * least / n_leaves));
     return 1 / edge;
   }
 

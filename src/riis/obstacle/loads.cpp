@@ -11,6 +11,7 @@
 #include "base/errors.hpp"
 #include "base/recycled.hpp"
 #include "base/sum.hpp"
+#include "common/elementary.hpp"
 #include "landmarks/fit.hpp"
 #include "parallel/parallel_for.hpp"
 
@@ -63,7 +64,7 @@ class Holds {
     const double radius_sq = loads_.radius * loads_.radius;
     if (!(hold.bounds.distance_sq_to(point) < radius_sq)) return 0;
     const double here = distance_sq(loads_.edges, hold.search->of(hold.leaflet, point), point);
-    return here < radius_sq ? (1 + std::cos(pi * (std::sqrt(here) / loads_.radius))) / 2 : 0;
+    return here < radius_sq ? (1 + cosine_of_pi(std::sqrt(here) / loads_.radius)) / 2 : 0;
   }
 
  private:

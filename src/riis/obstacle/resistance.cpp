@@ -8,6 +8,7 @@
 #include "base/errors.hpp"
 #include "base/sum.hpp"
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "obstacle/nearest_edges.hpp"
 #include "parallel/parallel_for.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 double coefficient_at(const Resistance &resistance, double distance) {
   const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;
-  return resistance.factor * (1 + std::cos(pi * (distance / eps))) / (2 * eps);
+  return resistance.factor * (1 + cosine_of_pi(distance / eps)) / (2 * eps);
 }
 
 // Returns the derivative of K with respect to the distance from the middle of the band. The sine is taken from the nearer end of
@@ -27,7 +28,7 @@ double coefficient_at(const Resistance &resistance, double distance) {
 double slope_at(const Resistance &resistance, double distance) {
   const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;
-  const double sine = std::sin(pi * (std::min(distance, eps - distance) / eps));
+  const double sine = sine_of_pi(std::min(distance, eps - distance) / eps);
   return -(resistance.factor / (2 * eps)) * (pi / eps) * sine;
 }
 

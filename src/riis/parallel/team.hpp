@@ -65,8 +65,11 @@ class LoopChoice {
  private:
   double mean_loss(std::int64_t now) const noexcept {
     const double mean = mean_loss_.load(std::memory_order_relaxed);
-    if (mean < 1) return 0;  // this saves the time of exp2
-    return mean * std::exp2(static_cast<double>(recorded_.load(std::memory_order_relaxed) - now) / half_life);
+    if (mean < 1) return 0;
+    const double n_halves = static_cast<double>(now - recorded_.load(std::memory_order_relaxed)) / half_life;
+    // A straight line between whole numbers of half lives.
+    const double whole = std::clamp(std::floor(n_halves), 0.0, 64.0), rest = std::clamp(n_halves - whole, 0.0, 1.0);
+    return std::ldexp(mean * (1 - 0.5 * rest), -static_cast<int>(whole));
   }
 
   std::atomic<std::int64_t> until_{0}, pause_{0}, recorded_{0};

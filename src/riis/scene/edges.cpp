@@ -8,7 +8,6 @@
 #include <optional>
 #include <set>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 #include "common/array_view.hpp"
@@ -93,7 +92,7 @@ class Cancelling {
   // One end of the edges, and the edges that have a vertex there.
   struct Ends {
     std::int64_t OpenEdge::*end;
-    std::unordered_multimap<std::int64_t, std::size_t> with;
+    std::multimap<std::int64_t, std::size_t> with;
 
     void erase(std::int64_t vertex, std::size_t i) {
       for (auto [at, last] = with.equal_range(vertex); at != last; ++at)

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "kernels/kernels.hpp"
 #include "valve/rims.hpp"
 
@@ -26,8 +27,8 @@ std::uint64_t hash(Vec3 p) {
 
 // Computes the third angle from the other two, because an arc tangent takes long.
 std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
-  const double at_a = std::atan2(measures.twice_area[lane], measures.product_at_a[lane]),
-               at_b = std::atan2(measures.twice_area[lane], measures.product_at_b[lane]);
+  const double at_a = arc_tangent(measures.twice_area[lane], measures.product_at_a[lane]),
+               at_b = arc_tangent(measures.twice_area[lane], measures.product_at_b[lane]);
   return {at_a, at_b, std::max(0.0, pi - at_a - at_b)};
 }
 
@@ -239,7 +240,7 @@ struct MovingTriangle {
     const double sine = length(cross(ab, ac)), cosine = dot(ab, ac);
     const double sine_rate = dot(normal, cross(ab_rate, ac) + cross(ab, ac_rate)),
                  cosine_rate = dot(ab_rate, ac) + dot(ab, ac_rate);
-    return {std::atan2(sine, cosine), (cosine * sine_rate - sine * cosine_rate) / (sine * sine + cosine * cosine)};
+    return {arc_tangent(sine, cosine), (cosine * sine_rate - sine * cosine_rate) / (sine * sine + cosine * cosine)};
   }
 };
 

@@ -13,6 +13,7 @@
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "geometry/placement.hpp"
 #include "valve/bumps.hpp"
 #include "valve/patches.hpp"
@@ -116,7 +117,7 @@ class Annulus {
         const double u = riis::blend(commissures[leaflet], commissures[leaflet + 1], u_of(i));
         const PointOnSpan where = laps_.on_span(0.5 * (u + 1));
         const auto [point, along] = laps_.with_tangent(where);
-        leaflets_[leaflet][i] = {where, {point, 1 / std::hypot(along.x, along.y) * Vec3{-along.y, along.x, 0}}};
+        leaflets_[leaflet][i] = {where, {point, 1 / hypotenuse(along.x, along.y) * Vec3{-along.y, along.x, 0}}};
       }
     }
     // Neighbours have the same commissure, even at the end of a lap.

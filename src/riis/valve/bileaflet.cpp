@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "common/elementary.hpp"
 #include "geometry/placement.hpp"
 #include "valve/patches.hpp"
 #include "valve/valve.hpp"
@@ -127,23 +128,27 @@ constexpr int n_spans = 8;
 // cos^2(a/4).
 double arc_deviation(double whole_angle) {
   const double quarter = 0.25 * whole_angle / n_spans;
-  const double sine = std::sin(quarter), cosine = std::cos(quarter);
+  const auto [sine, cosine] = sine_cosine(quarter);
   constexpr double rounding = 1e-3;  // a margin for the bound's own rounding, as a share of the bound
-  return (1 + rounding) * (2.0 / 27.0) * std::pow(sine, 6) / (cosine * cosine);
+  const double cube = sine * sine * sine;
+  return (1 + rounding) * (2.0 / 27.0) * cube * cube / (cosine * cosine);
 }
 
 // Returns the arc of a circle about the axis, from (radius, 0) to the point (last_x, last_y) of the circle, last_y > 0. `placed`
 // takes points of the plane, such as control points, to space.
 template <class ToSpace>
 Curve make_arc(double circle_radius, double whole_angle, double last_x, double last_y, const ToSpace &placed) {
-  const double step = whole_angle / n_spans, reach = 4.0 / 3.0 * std::tan(0.25 * step);
+  const double step = whole_angle / n_spans;
+  const SineCosine quarter = sine_cosine(0.25 * step);
+  const double reach = 4.0 / 3.0 * quarter.sine / quarter.cosine;
   struct Point {
     double x, y;
   };
   const auto on_circle = [&](int i) {
     if (i == 0) return Point{circle_radius, 0};
     if (i == n_spans) return Point{last_x, last_y};
-    return Point{circle_radius * std::cos(i * step), circle_radius * std::sin(i * step)};
+    const SineCosine at = sine_cosine(i * step);
+    return Point{circle_radius * at.cosine, circle_radius * at.sine};
   };
   Vector<Bezier> spans;
   for (int i = 0; i < n_spans; ++i) {
@@ -172,7 +177,7 @@ PatchImage image_of(bool is_mirrored, bool is_turned, std::int32_t leaflet_id, s
 void add_leaflets(const Shape &shape, PatchSet &set) {
   const Turn turn(shape);
   const double R = shape.radius, x0 = 0.5 * shape.gap, y_end = std::sqrt((R - x0) * (R + x0));
-  const double whole_angle = std::atan2(y_end, x0);
+  const double whole_angle = arc_tangent(y_end, x0);
   const Vec3 apex = turn(R, 0), middle = turn(x0, 0), end = turn(x0, y_end);
   const Side rim = set.add(make_arc(R, whole_angle, x0, y_end, turn)), edge = set.add(Bezier::line(middle, end));
   const Side symmetry = set.add(Bezier::line(apex, middle)), corner = set.add(Bezier::point(end));

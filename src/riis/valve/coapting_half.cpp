@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 
 namespace riis {
 namespace {
@@ -150,7 +151,7 @@ void put_attachment(const HalfNumbers &numbers, const Bezier &one_piece, HalfCus
   const auto &[sine, cosine, reach] = *numbers.attachment_arc;
   const double R = numbers.root_radius, width = numbers.attachment_width, drop = numbers.attachment_drop;
   const double height = evaluate(one_piece, 0.5).z, share = height / top.z;
-  const double radius = (1 - share) * R + share * std::hypot(top.x, top.y);
+  const double radius = (1 - share) * R + share * hypotenuse(top.x, top.y);
   const Vec3 joint{radius * cosine, radius * sine, height};
   const Vec3 along{-sine * width, cosine * width, (2 * top.z - drop) / 8};
   part.sinus_start = Bezier::cubic(one_piece.first(), {R, reach * width, 0}, joint - reach * along, joint);

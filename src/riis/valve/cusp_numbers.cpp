@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "geometry/placement.hpp"
 #include "valve/coapting_half.hpp"
 #include "valve/valve.hpp"
@@ -111,7 +112,7 @@ HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
   const Vec3 C{sizes.sector.cosine * Rc, sizes.sector.sine * Rc, h};
   // The edge lies in a vertical plane through the commissure. In the middle, its distance from the plane between the two cusps
   // is half the gap.
-  const double sine_of_plane = sizes.meeting == 0 ? sizes.sector.sine : C.y / std::hypot(C.x - sizes.meeting, C.y);
+  const double sine_of_plane = sizes.meeting == 0 ? sizes.sector.sine : C.y / hypotenuse(C.x - sizes.meeting, C.y);
   const double x_in = sizes.meeting + 0.5 * sizes.gap / sine_of_plane;
   // The tangent becomes shorter if its end would otherwise lie above half the height of the coaptation line, or beyond the zone.
   const auto [sine, cosine] = sine_cosine_degrees(sizes.bottom_angle);
@@ -231,7 +232,7 @@ HalfSector half_sector(double sector_degrees) {
     const double on_cylinder =
         tangent_on_cylinder(sine * arc_cosine - cosine * arc_sine, cosine * arc_cosine + sine * arc_sine);
     made.attachment_factor = on_cylinder / on_cylinder_60;
-    made.arc = AttachmentArc{arc_sine, arc_cosine, arc_reach(std::acos(arc_cosine) / pi * 180) / on_cylinder};
+    made.arc = AttachmentArc{arc_sine, arc_cosine, arc_reach(riis::arc_cosine(arc_cosine) / pi * 180) / on_cylinder};
   }
   return made;
 }
@@ -253,7 +254,7 @@ EdgeLength::EdgeLength(const HalfNumbers &half) {
     const double x = slope(half.edge_x, t), y = slope(half.edge_y, t), z = slope(half.sag, t);
     view(nodes_)[i] = {node.weight / n_panels, x * x + y * y, z * z};
   }
-  chord_ = std::hypot(half.edge_x[3] - half.edge_x[0], half.edge_y[3] - half.edge_y[0]);
+  chord_ = hypotenuse(half.edge_x[3] - half.edge_x[0], half.edge_y[3] - half.edge_y[0]);
 }
 
 EdgeLength::Value EdgeLength::at(double depth) const {

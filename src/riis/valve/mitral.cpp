@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "common/elementary.hpp"
 #include "geometry/bulge.hpp"
 #include "geometry/placement.hpp"
 #include "valve/mitral_annulus.hpp"
@@ -97,7 +98,7 @@ class Annulus {
   // formula, N is multiplied by the angle. The angle would have no effect, because the z component of N is 0.)
   Vec3 below(double u, double x, SineCosine angle) const {
     const auto [A, T] = with_tangent(u);
-    const double in_plane = std::hypot(T.x, T.y);
+    const double in_plane = hypotenuse(T.x, T.y);
     const Vec3 N = in_plane > 0 ? (1 / in_plane) * Vec3{-T.y, T.x, 0} : Vec3{0, 0, 0};
     return A + x * Vec3{angle.cosine * N.x, angle.cosine * N.y, -angle.sine};
   }

@@ -2,6 +2,7 @@
 #include "valve/rims.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "common/array_view.hpp"
 
@@ -49,7 +50,9 @@ Vector<std::uint8_t> rim_sides(const PatchSet &set) {
       add(patch.u0, rim_u0);
       add(patch.u1, rim_u1);
     }
-  std::sort(uses.begin(), uses.end(), [](const Use &a, const Use &b) { return a.curve < b.curve; });
+  std::sort(uses.begin(), uses.end(), [](const Use &a, const Use &b) {
+    return std::tie(a.curve, a.image->patch_id, a.side) < std::tie(b.curve, b.image->patch_id, b.side);
+  });
   Vector<std::uint8_t> sides;
   resize(sides, n_ids);
   for (auto first = uses.begin(); first != uses.end();) {

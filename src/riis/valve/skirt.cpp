@@ -10,6 +10,7 @@
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 
 namespace riis {
 namespace {
@@ -95,8 +96,8 @@ AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const Blen
   Vector<Vec3> corners;
   Vec3 sum{0, 0, 0}, area{0, 0, 0};
   for (int i = 0; i < n_corners; ++i) {
-    const double angle = 2 * pi * i / n_corners;
-    corners.push_back(warp.value(middle + (radius / whole) * (std::cos(angle) * u + std::sin(angle) * v)));
+    const SineCosine angle = sine_cosine(2 * pi * i / n_corners);
+    corners.push_back(warp.value(middle + (radius / whole) * (angle.cosine * u + angle.sine * v)));
     sum = sum + corners.back();
   }
   const Vec3 centre = (1.0 / n_corners) * sum;
@@ -277,7 +278,7 @@ AxisLine between(const AxisLine &a, const AxisLine &b) {
 
 // Returns the angle about the axis from one vector to another, in radians.
 double angle_about(const AxisLine &axis, Vec3 from, Vec3 to) {
-  return std::atan2(dot(cross(from, to), axis.direction), dot(from, to));
+  return arc_tangent(dot(cross(from, to), axis.direction), dot(from, to));
 }
 
 // Returns the angles by which the skirts at two neighbouring ends turn from the outward directions of their own axes, if both
@@ -417,8 +418,8 @@ Vec3 SkirtDirections::at(std::size_t side, double share, Vec3 point) const {
     if (!turned.is_turned) continue;
     const double s = end == 0 ? 1 - share : share, weight = s * s * (3 - 2 * s);
     if (turned.angle) {
-      const double angle = weight * *turned.angle;
-      out = std::cos(angle) * out + std::sin(angle) * cross(axes_[side].direction, out);
+      const SineCosine angle = sine_cosine(weight * *turned.angle);
+      out = angle.cosine * out + angle.sine * cross(axes_[side].direction, out);
     } else {
       out = mix(out, turned.direction, weight);
       out = (1 / length(out)) * out;

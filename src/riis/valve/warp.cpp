@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "kernels/kernels.hpp"
 
 namespace riis {
@@ -35,8 +36,8 @@ void principal_axes(const SymmetricThree &given, Vec3 *axes, double *values) {
       for (int q = p + 1; q < 3; ++q) {
         if (a[p][q] == 0) continue;
         const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-        const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::hypot(theta, 1.0));
-        const double c = 1 / std::hypot(t, 1.0), s = t * c;
+        const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + hypotenuse(theta, 1.0));
+        const double c = 1 / hypotenuse(t, 1.0), s = t * c;
         for (int k = 0; k < 3; ++k) {
           const double kp = a[k][p], kq = a[k][q];
           a[k][p] = c * kp - s * kq, a[k][q] = s * kp + c * kq;
@@ -51,7 +52,7 @@ void principal_axes(const SymmetricThree &given, Vec3 *axes, double *values) {
         }
       }
   std::array<int, 3> order{0, 1, 2};
-  std::sort(order.begin(), order.end(), [&](int i, int j) { return a[i][i] > a[j][j]; });
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return a[i][i] != a[j][j] ? a[i][i] > a[j][j] : i < j; });
   for (int k = 0; k < 3; ++k) {
     const int i = view(order)[k];
     axes[k] = {v[0][i], v[1][i], v[2][i]};
@@ -301,14 +302,12 @@ double WarpLandmarks::smoothing_for_noise() {
     largest = std::max(largest, diagonal_[k] + beside_[k]);
   }
   if (whole <= wanted) return std::numeric_limits<double>::infinity();
-  double low = std::log(1e-16 * largest), high = std::log(1e16 * largest);
-  if (solve(std::exp(low)) >= wanted) return std::exp(low);
-  if (solve(std::exp(high)) <= wanted) return std::exp(high);
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (solve(std::exp(middle)) < wanted ? low : high) = middle;
-  }
-  return std::exp(0.5 * (low + high));
+  double low = 1e-16 * largest, high = 1e16 * largest;
+  if (solve(low) >= wanted) return low;
+  if (solve(high) <= wanted) return high;
+  const auto middle = [&] { return std::sqrt(low) * std::sqrt(high); };  // of the logarithms
+  for (int i = 0; i < 60; ++i) (solve(middle()) < wanted ? low : high) = middle();
+  return middle();
 }
 
 Vector<double> WarpLandmarks::bending_matrix() {
