@@ -151,7 +151,7 @@ TEST(openings_have_the_areas_of_a_raster) {
   for (int kind = 0; kind < n_kinds; kind += trial_step()) {
     riis_valve *valve = new_valve(kinds[kind]);
     riis_area_search search = area_search();
-    search.n_samples = kind == 0 ? 33 : 5;
+    search.n_samples = kind == 0 && !is_sanitized() ? 33 : 5;
     const solution found = solve(valve, "opening", wanted[kind], &search);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", found.value));
     const double area = area_by_raster(new_surface(valve, NULL));
