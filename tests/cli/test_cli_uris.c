@@ -156,6 +156,7 @@ TEST(test_positions) {
     *equals = 0;
     CHECK_OK(riis_valve_set_scalar(valve, name, strtod(equals + 1, NULL)));
     for (int k = 0; k < n_places; ++k) {
+      if (k != i % n_places && !is_long_test()) continue;
       const char *const *w = places[k].words;
       char folder[64];
       snprintf(folder, sizeof folder, "%s_%d", kinds[i].kind, k);
@@ -578,6 +579,7 @@ TEST(test_box) {
       "\"d\": [[1,0,0],[1,0,-1]]}}}");
   for (size_t i = 0; i < sizeof shapes / sizeof shapes[0]; ++i)
     for (size_t t = 0; t < sizeof turns / sizeof turns[0]; ++t) {
+      if ((i + t) % 2 == 0 && !is_long_test()) continue; /* the thick flat prosthesis with a scaffold lies along the axes */
       char folder[32];
       snprintf(folder, sizeof folder, "box_%zu_%zu", i, t);
       const char *word[8];
