@@ -339,7 +339,7 @@ static double delta(double d, double eps) {
 
 /* Marks a grid round the closed valve by the solver's rule and by the library. */
 static rule_marks marks_of_closed(const char *kind) {
-  const double eps = exported.thickness, step = 0.8 * eps;
+  const double eps = exported.thickness, step = 1.1 * eps;
   riis_valve *valve = NULL;
   rule_marks found;
   memset(&found, 0, sizeof found);
@@ -415,7 +415,7 @@ typedef struct {
 } ring_sums;
 
 static ring_sums sums_with_ring(const riis_surface *whole) {
-  const double eps = exported.thickness, step = 0.5 * eps;
+  const double eps = exported.thickness, step = 0.8 * eps;
   riis_surface_info info;
   ring_sums sums = {0, 0, 0, 0};
   CHECK_OK(riis_surface_get_info(whole, &info, sizeof info));
