@@ -169,7 +169,7 @@ TEST(a_valve_that_is_given_back_gets_its_own_skirt) {
       CHECK_AT_MOST(fmax(there, back), share_of_length[kind] * length + 2 * error);
       arrays.skirt_length = 0;
       arrays.attached = NULL;
-      check_same_measures(made, surface_from(&arrays, NULL));
+      if (has_attachment || is_long_test()) check_same_measures(made, surface_from(&arrays, NULL));
     }
     free_owned_after(owned_before);
   }
