@@ -579,7 +579,8 @@ TEST(test_box) {
       "\"d\": [[1,0,0],[1,0,-1]]}}}");
   for (size_t i = 0; i < sizeof shapes / sizeof shapes[0]; ++i)
     for (size_t t = 0; t < sizeof turns / sizeof turns[0]; ++t) {
-      if ((i + t) % 2 == 0 && !is_long_test()) continue; /* the thick flat prosthesis with a scaffold lies along the axes */
+      if ((i + t) % 2 == 0 && !is_long_test())
+        continue; /* the thick flat prosthesis with a scaffold lies along the axes */
       char folder[32];
       snprintf(folder, sizeof folder, "box_%zu_%zu", i, t);
       const char *word[8];
