@@ -110,7 +110,7 @@ TEST(test_diseases) {
     for (int k = 0; k < 2 && cases[i].settings[k]; ++k) more[n++] = "--set", more[n++] = cases[i].settings[k];
     for (int k = 0; k < 4 && cases[i].range[k]; ++k) more[n++] = cases[i].range[k];
     run_program("from-area", "--area", cases[i].area, "--valve", cases[i].kind, "--solve", cases[i].solve, "--opening",
-                cases[i].opening, "--tolerance", "0.1", more[0], more[1], more[2], more[3], more[4], more[5], more[6],
+                cases[i].opening, "--tolerance", "0.3", more[0], more[1], more[2], more[3], more[4], more[5], more[6],
                 more[7], NULL);
     assert_int_equal(program_exit_code, 0);
     const double wanted = atof(cases[i].area), found = said(cases[i].solve);
@@ -125,7 +125,7 @@ TEST(test_diseases) {
 TEST(test_gap_in_band) {
 #define GAP(...)                                                                                                      \
   run_program("from-area", "--area", "0.12", "--valve", "coapting", "--opening", "0", "--set", "bump_0.commissure=0", \
-              "--solve", "bump_0.closed", "--tolerance", "0.1", __VA_ARGS__, NULL);                                   \
+              "--solve", "bump_0.closed", "--tolerance", "0.4", __VA_ARGS__, NULL);                                   \
   assert_int_equal(program_exit_code, 0)
   GAP("--half-thickness", "0.1");
   assert_non_null(strstr(program_err, "bumps leave a gap of 0.0"));
@@ -246,7 +246,7 @@ TEST(test_refused_areas) {
 /* A line on stderr tells where the area turns. With --strict this changes the exit status. */
 TEST(test_turns) {
   run_program("from-area", "--area", "10.7", "--valve", "mitral", "--solve", "leaflet_inward_angle", "--from", "100",
-              "--to", "176", "--tolerance", "0.05", "--strict", NULL);
+              "--to", "176", "--tolerance", "0.3", "--strict", NULL);
   assert_int_equal(program_exit_code, 4);
   if (!strstr(program_err, "the area does not only grow or only fall: it turns at leaflet_inward_angle 1"))
     fail_msg("no turn in: %s", program_err);

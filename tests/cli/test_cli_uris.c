@@ -156,6 +156,7 @@ TEST(test_positions) {
     *equals = 0;
     CHECK_OK(riis_valve_set_scalar(valve, name, strtod(equals + 1, NULL)));
     for (int k = 0; k < n_places; ++k) {
+      if (k != i % n_places && !is_long_test()) continue;
       const char *const *w = places[k].words;
       char folder[64];
       snprintf(folder, sizeof folder, "%s_%d", kinds[i].kind, k);
@@ -338,7 +339,7 @@ static double delta(double d, double eps) {
 
 /* Marks a grid round the closed valve by the solver's rule and by the library. */
 static rule_marks marks_of_closed(const char *kind) {
-  const double eps = exported.thickness, step = 0.8 * eps;
+  const double eps = exported.thickness, step = 1.1 * eps;
   riis_valve *valve = NULL;
   rule_marks found;
   memset(&found, 0, sizeof found);
@@ -414,7 +415,7 @@ typedef struct {
 } ring_sums;
 
 static ring_sums sums_with_ring(const riis_surface *whole) {
-  const double eps = exported.thickness, step = 0.5 * eps;
+  const double eps = exported.thickness, step = 0.8 * eps;
   riis_surface_info info;
   ring_sums sums = {0, 0, 0, 0};
   CHECK_OK(riis_surface_get_info(whole, &info, sizeof info));
@@ -578,6 +579,8 @@ TEST(test_box) {
       "\"d\": [[1,0,0],[1,0,-1]]}}}");
   for (size_t i = 0; i < sizeof shapes / sizeof shapes[0]; ++i)
     for (size_t t = 0; t < sizeof turns / sizeof turns[0]; ++t) {
+      if ((i + t) % 2 == 0 && !is_long_test())
+        continue; /* the thick flat prosthesis with a scaffold lies along the axes */
       char folder[32];
       snprintf(folder, sizeof folder, "box_%zu_%zu", i, t);
       const char *word[8];

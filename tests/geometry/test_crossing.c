@@ -49,7 +49,7 @@ static int random_exponent(int bits) { return -298 + (int)(random_bits(&rng) % (
 
 TEST(small_numbers_meet_in_every_way) {
   int n_met = 0, n_in_plane = 0;
-  const int n = 200000;
+  const int n = trials(200000, 200000);
   for (int trial = 0; trial < n; ++trial) {
     sample s;
     random_triangle(&s, 3);
@@ -68,7 +68,7 @@ TEST(small_numbers_meet_in_every_way) {
  * numbers, and one end of the segment is off by at most 1. */
 TEST(numbers_of_38_bits_are_told_apart) {
   int n_met = 0;
-  const int n = 300000;
+  const int n = trials(300000, 300000);
   for (int trial = 0; trial < n; ++trial) {
     const int64_t largest = (int64_t)1 << (8 + random_bits(&rng) % 29);
     sample s;

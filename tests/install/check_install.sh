@@ -3,10 +3,10 @@
 # check_install.sh SOURCE_DIR BUILD_DIR WORK_DIR shared|static [VTK] [Fortran] [program]
 # Installs a build tree to a fresh prefix and uses it as an outside project would. The programs of stranger/, one in each
 # language, must mark the same bits as the C program that the build tree has. The prefix is then moved. Examples are built
-# outside the tree by CMake and by pkg-config, and run. Each example must print the same in C and in Fortran. If the tree is
-# also installed to another prefix, all examples are built there, and before that only two. A staged (DESTDIR) install must hold
-# the same files and no path of its stage. Environment: CMAKE, PKG_CONFIG, CC, CXX, FC, TEST_PLUGIN, the path of the program
-# test_plugin, and STRANGER, the path of that C program
+# outside the tree by CMake, two of them also by pkg-config, and run. Each example must print the same in C and in Fortran. If the
+# tree is also installed to another prefix, all examples are built there, and before that only two. A staged (DESTDIR) install
+# must hold the same files and no path of its stage. Environment: CMAKE, PKG_CONFIG, CC, CXX, FC, TEST_PLUGIN, the path of the
+# program test_plugin, and STRANGER, the path of that C program
 set -euo pipefail
 source=$1 build=$2 work=$3 kind=$4
 shift 4
@@ -26,12 +26,12 @@ quietly() {
 c_flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
 fortran_flags=(-std=f2018 -Wall -Wextra -Werror)
 
-# All examples except the examples of MPI, which check_mpi_example.sh runs. The flags that a compiler needs for them besides
-# riis's flags follow.
+# All examples except the examples of MPI, which check_mpi_example.sh runs. The flags that a compiler needs for the few examples
+# besides riis's flags follow.
 all_examples=(first_marking prosthesis opening_valve pressure_opens cell_centres quadrature_points csr_from_elements
   single_precision openmp_caller overlap)
 few_examples=(first_marking openmp_caller)
-declare -A more_flags=([openmp_caller]=-fopenmp [overlap]=-pthread)
+declare -A more_flags=([openmp_caller]=-fopenmp)
 
 # The installed Fortran sources, in the order in which they use each other.
 fortran_sources=(riis_c riis_support riis_calls riis_warping riis_valves riis_frames riis_surfaces riis_adjacencies riis_meshes
@@ -147,9 +147,9 @@ flags() { # arguments: for pkg-config
   PKG_CONFIG_PATH=$pkg_config_path "$PKG_CONFIG" "$@"
 }
 
+# The flags of pkg-config are the same for all examples, so few are built. If all are wanted, the program of an old code is built.
 check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
-  local pkg_config_path out=$work/pkg_config examples=("${all_examples[@]}")
-  [ "$2" = all ] || examples=("${few_examples[@]}")
+  local pkg_config_path out=$work/pkg_config examples=("${few_examples[@]}")
   pkg_config_path=$(library_dir "$1")/pkgconfig
   rm -rf "$out"
   mkdir -p "$out"

@@ -3,6 +3,7 @@
 # check_lint_judged.sh SOURCE_FOLDER SCRATCH_FOLDER
 # Each part of lint.sh must accept a small project, and refuse a fault that is planted there.
 set -euo pipefail
+unset RIIS_LINTED # lint.sh must check here, even if .ci/run has
 lint=$(readlink -f "$(dirname "$0")")/lint.sh
 sources=$(readlink -f "$1") scratch=$2
 

@@ -210,7 +210,7 @@ TEST(orifices_are_those_of_turned_lines) {
                                                  {0.038, 1.029, 2.084, 3.199, 4.375}};
   riis_surface_options fine = surface_options();
   fine.tolerance = 0.01;
-  for (int kind = 0; kind < n_kinds; ++kind) {
+  for (int kind = 0; kind < n_kinds; kind += trial_step()) {
     riis_valve *valve = new_valve(kinds[kind]);
     for (int i = 0; i < 5; ++i) {
       CHECK_OK(riis_valve_set_scalar(valve, "opening", openings[i]));
@@ -228,7 +228,7 @@ TEST(orifices_are_those_of_turned_lines) {
 TEST(unequal_cusps_are_seen_along_z) {
   riis_valve *valve = new_valve("bicuspid");
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 1));
-  for (double sector = 140; sector <= 200; sector += 30) {
+  for (double sector = 140; sector <= 200; sector += is_sanitized() ? 90 : 30) {
     CHECK_OK(riis_valve_set_scalar(valve, "cusp_0.sector", sector));
     CHECK_OK(riis_valve_set_scalar(valve, "cusp_1.sector", 360 - sector));
     const riis_surface *surface = new_surface(valve, NULL);

@@ -279,7 +279,7 @@ static void check_summary(const soup *s, const riis_crossing_list *crossings) {
 TEST(pairs_equal_those_of_all_triangles) {
   static void (*const kinds[])(soup *) = {add_random, add_whole_numbers, add_touching, add_in_plane, add_sheets};
   enum { n_kinds = sizeof kinds / sizeof *kinds };
-  const int n_trials = n_kinds * (is_long_test() ? 5000 : 100);
+  const int n_trials = n_kinds * trials(100, 5000);
   tally tallies[n_kinds] = {{0}};
   riis_crossings *crossings = new_crossings();
   soup *s = own(malloc(sizeof *s));

@@ -565,7 +565,7 @@ static crossing worst_crossing(riis_valve *valve, const riis_surface_options *op
 /* The ranges contain the sizes of all sources in docs/theory/trileaflet.md. Half of the valves are placed obliquely, in another
  * unit. */
 TEST(trileaflet_cusps_do_not_cross) {
-  const int n = is_long_test() ? 350 : 10;
+  const int n = trials(10, 350);
   int n_crossing = 0;
   for (int trial = 0; trial < n; ++trial) {
     const int owned_before = n_owned();
@@ -812,7 +812,7 @@ TEST(passing_attachments_cross) {
 
 /* Four causes explain every valve that crosses, and a valve whose leaflet_power is not set rarely has one of them. */
 TEST(aortic_cusps_rarely_cross) {
-  const int n = is_long_test() ? 300 : 6;
+  const int n = trials(6, 300);
   for (int power = follows; power <= any_power; ++power)
     for (int percent = 10; percent <= (is_long_test() ? 20 : 10); percent += 10) {
       enum { above, meet, back, folds, pass, n_causes };

@@ -157,7 +157,7 @@ static const orifices all_orifices[] = {
 };
 
 TEST(orifices_are_those_of_the_prototype) {
-  for (size_t row = 0; row < sizeof all_orifices / sizeof *all_orifices; ++row) {
+  for (size_t row = 0; row < sizeof all_orifices / sizeof *all_orifices; row += (size_t)trial_step()) {
     const orifices *of = &all_orifices[row];
     riis_valve *valve = valve_of(of->kind, of->settings);
     printf("%s %s:", of->kind, of->settings);

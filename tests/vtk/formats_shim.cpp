@@ -38,7 +38,7 @@ namespace {
 
 using Grid = vtkSmartPointer<vtkUnstructuredGrid>;
 
-Grid read(const std::string &path) {
+Grid read_grid(const std::string &path) {
   if (path.size() > 4 && path.substr(path.size() - 4) == ".vtu") {
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     reader->SetFileName(path.c_str());
@@ -156,7 +156,7 @@ Grid block_of(vtkUnstructuredGrid *whole, int which, bool with_ids) {
 extern "C" {
 
 int shim_compare_meshes(const char *a, const char *b, int how, int64_t counts[4]) {
-  const Grid grids[2] = {read(a), read(b)};
+  const Grid grids[2] = {read_grid(a), read_grid(b)};
   std::vector<std::string> points[2], cells[2];
   for (int i = 0; i < 2; ++i) {
     if (!grids[i] || grids[i]->GetNumberOfPoints() == 0) return 0;
@@ -174,7 +174,7 @@ int shim_compare_meshes(const char *a, const char *b, int how, int64_t counts[4]
 
 double shim_bend(const char *path, int64_t n_of_type[100]) {
   std::fill_n(n_of_type, 100, 0);
-  const Grid grid = read(path);
+  const Grid grid = read_grid(path);
   if (!grid || grid->GetNumberOfPoints() == 0) return -1;
   double most = 0;
   for (vtkIdType id = 0; id < grid->GetNumberOfCells(); ++id) {
@@ -194,7 +194,7 @@ double shim_bend(const char *path, int64_t n_of_type[100]) {
 
 int shim_write_exodus([[maybe_unused]] const char *path, [[maybe_unused]] const char *mesh) {
 #ifdef RIIS_TEST_EXODUS
-  const Grid grid = read(mesh);
+  const Grid grid = read_grid(mesh);
   vtkNew<vtkTypeInt32Array> blocks;
   blocks->SetName("ObjectId");
   // A block of an Exodus file has one type of cells.
@@ -213,7 +213,7 @@ int shim_write_exodus([[maybe_unused]] const char *path, [[maybe_unused]] const 
 }
 
 int shim_write_vtm(const char *path, const char *mesh, int with_ids) {
-  const Grid whole = read(mesh);
+  const Grid whole = read_grid(mesh);
   vtkNew<vtkMultiBlockDataSet> blocks;
   for (int i = 0; i < 2; ++i) blocks->SetBlock(static_cast<unsigned>(i), block_of(whole, i, with_ids != 0));
   vtkNew<vtkXMLMultiBlockDataWriter> writer;
