@@ -77,7 +77,8 @@ printf '%s\n' 'program host' '  use riis' '  use riisf' '  use riis_c' '  implic
   '  area = 1; d = 1; imesh = 1; mesh = 1; surface = 1; valve = 1; marks = 1; adjacency = 1; x = 1; y = 1; z = 1; k = 1' \
   '  n = 1; status = 1; list = 1; rank = 1; dt = 1' \
   "  call own%create('aortic')" '  call finish()' '  call own%destroy()' \
-  "  print '(i0)', area + d + imesh + mesh + surface + valve + marks + adjacency + x + y + z + k + n + status + list + rank + dt" \
+  "  print '(i0)', area + d + imesh + mesh + surface + valve + marks + adjacency + x + y + z + k &" \
+  '    + n + status + list + rank + dt' \
   'contains' '  subroutine finish() bind(c)' '  end subroutine' 'end program' \
   'subroutine pass_message() bind(c)' 'end subroutine' 'subroutine fail()' 'end subroutine' >host.f90
 "$fc" -I "$modules" -I "$include" host.f90 "${libraries[@]}" -o host
