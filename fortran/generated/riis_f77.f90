@@ -5830,7 +5830,8 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   real(c_double), intent(inout) :: translation(3)         !< Mesh units.
   real(c_double), intent(inout) :: residual(*)            !< (n_landmarks): distances from the landmarks to their places, mesh
                                                           !! units.
-  integer(int32), intent(inout) :: size_state(*)          !< (number of parameters): RIIS_SIZE_*.
+  integer(int32), intent(inout) :: size_state(*)          !< An entry for each parameter of the valve, as riis params lists
+                                                          !! them: RIIS_SIZE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(held) + 1, kind=c_char) :: c_held
   type(riis_landmarks) :: landmarks
