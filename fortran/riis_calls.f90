@@ -35,12 +35,15 @@ contains
   end function write_dense
 
   !> Calls riis_marks_add_resistance.
-  function add_resistance_to(marks, resistance, n_nodes, K, K_u_surface) result(code)
+  function add_resistance_to(marks, resistance, n_nodes, K, K_u_surface, K_u_x, K_u_y, K_u_z) result(code)
     type(c_ptr), intent(in) :: marks                        !< A handle.
     type(riis_resistance), intent(in) :: resistance         !< From its init function.
     integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
     real(c_double), intent(inout), optional :: K(*)         !< (n_nodes).
     real(c_double), intent(inout), optional :: K_u_surface(3, *) !< (3, n_nodes).
+    real(c_double), intent(inout), optional :: K_u_x(*)     !< (n_nodes), with K_u_y and K_u_z in place of K_u_surface.
+    real(c_double), intent(inout), optional :: K_u_y(*)     !< (n_nodes).
+    real(c_double), intent(inout), optional :: K_u_z(*)     !< (n_nodes).
     integer(riis_status) :: code                            !< RIIS_OK or the error.
     type(riis_resistance_arrays) :: arrays
     integer :: i
@@ -54,53 +57,69 @@ contains
       end do
       arrays%K_u_surface_stride = 3
     end if
+    if (present(K_u_x)) arrays%K_u_surface(1) = location_of(K_u_x)
+    if (present(K_u_y)) arrays%K_u_surface(2) = location_of(K_u_y)
+    if (present(K_u_z)) arrays%K_u_surface(3) = location_of(K_u_z)
     code = riis_marks_add_resistance(marks, resistance, arrays)
   end function add_resistance_to
 
   !> Calls riis_marks_add_reaction.
-  function add_reaction_to(marks, resistance, n_nodes, velocity, weight, reaction) result(code)
+  function add_reaction_to(marks, resistance, n_nodes, weight, reaction, velocity, vx, vy, vz) result(code)
     type(c_ptr), intent(in) :: marks                        !< A handle.
     type(riis_resistance), intent(in) :: resistance         !< From its init function.
     integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
-    real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes).
     real(c_double), intent(in) :: weight(*)                 !< (n_nodes).
     type(riis_reaction), intent(in) :: reaction             !< The init function fills it, and the call adds to its sums.
+    real(c_double), intent(in), optional :: velocity(3, *)  !< (3, n_nodes).
+    real(c_double), intent(in), optional :: vx(*)           !< (n_nodes), with vy and vz in place of velocity.
+    real(c_double), intent(in), optional :: vy(*)           !< (n_nodes).
+    real(c_double), intent(in), optional :: vz(*)           !< (n_nodes).
     integer(riis_status) :: code                            !< RIIS_OK or the error.
     type(riis_flow_arrays) :: flow
-    code = describe_flow(n_nodes, velocity, weight, flow)
+    code = describe_flow(n_nodes, weight, velocity, vx, vy, vz, flow)
     if (code == RIIS_OK) code = riis_marks_add_reaction(marks, resistance, flow, reaction)
   end function add_reaction_to
 
   !> Calls riis_marks_add_vertex_reaction.
-  function add_vertex_reaction_to(marks, surface, resistance, n_nodes, velocity, weight, n_vertices, vertex_force) result(code)
+  function add_vertex_reaction_to(marks, surface, resistance, n_nodes, weight, n_vertices, vertex_force, velocity, vx, vy, &
+      vz) result(code)
     type(c_ptr), intent(in) :: marks                        !< A handle.
     type(c_ptr), intent(in) :: surface                      !< A handle.
     type(riis_resistance), intent(in) :: resistance         !< From its init function.
     integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
-    real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes).
     real(c_double), intent(in) :: weight(*)                 !< (n_nodes).
     integer(int64), intent(in) :: n_vertices                !< The surface's number of vertices.
     real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): forces are added.
+    real(c_double), intent(in), optional :: velocity(3, *)  !< (3, n_nodes).
+    real(c_double), intent(in), optional :: vx(*)           !< (n_nodes), with vy and vz in place of velocity.
+    real(c_double), intent(in), optional :: vy(*)           !< (n_nodes).
+    real(c_double), intent(in), optional :: vz(*)           !< (n_nodes).
     integer(riis_status) :: code                            !< RIIS_OK or the error.
     type(riis_flow_arrays) :: flow
-    code = describe_flow(n_nodes, velocity, weight, flow)
+    code = describe_flow(n_nodes, weight, velocity, vx, vy, vz, flow)
     if (code == RIIS_OK) code = riis_marks_add_vertex_reaction(marks, surface, resistance, flow, n_vertices, vertex_force)
   end function add_vertex_reaction_to
 
   ! Describes the flow at the nodes for C, without a copy.
-  function describe_flow(n_nodes, velocity, weight, flow) result(code)
+  function describe_flow(n_nodes, weight, velocity, vx, vy, vz, flow) result(code)
     integer(int64), intent(in) :: n_nodes
-    real(c_double), intent(in) :: velocity(3, *), weight(*)
+    real(c_double), intent(in) :: weight(*)
+    real(c_double), intent(in), optional :: velocity(3, *), vx(*), vy(*), vz(*)
     type(riis_flow_arrays), intent(inout) :: flow
     integer(riis_status) :: code
     integer :: i
     code = riis_flow_arrays_init(flow, c_sizeof(flow))
     if (code /= RIIS_OK) return
     flow%n_nodes = n_nodes
-    do i = 1, 3
-      flow%velocity(i) = location_of(velocity(i, 1))
-    end do
-    flow%velocity_stride = 3
+    if (present(velocity)) then
+      do i = 1, 3
+        flow%velocity(i) = location_of(velocity(i, 1))
+      end do
+      flow%velocity_stride = 3
+    end if
+    if (present(vx)) flow%velocity(1) = location_of(vx)
+    if (present(vy)) flow%velocity(2) = location_of(vy)
+    if (present(vz)) flow%velocity(3) = location_of(vz)
     flow%weight = location_of(weight)
   end function describe_flow
 

@@ -89,42 +89,42 @@ class Fortran:
             elif match := re.match(r"interface (riis_\w+)", line):
                 generic = match[1]
             elif generic and (match := re.match(r"module procedure (\w+)", line)):
-                self.generics.setdefault(generic, match[1])
+                self.generics.setdefault(generic, []).append(match[1])
             elif line.startswith("end interface"):
                 generic = None
             elif type_ and (match := re.match(r"procedure, private, non_overridable :: (\w+) => (\w+)", line)):
                 self.specific[type_, match[1]] = match[2]
             elif type_ and (match := re.match(r"procedure, non_overridable :: (\w+) => (\w+)", line)):
-                self.bound[f"{type_}%{match[1]}"] = match[2]
-            elif type_ and (match := re.match(r"generic :: (\w+) => (\w+)", line)):
-                self.bound.setdefault(f"{type_}%{match[1]}", match[2])
+                self.bound[f"{type_}%{match[1]}"] = [match[2]]
+            elif type_ and (match := re.match(r"generic :: (\w+) => (\w.*)", line)):
+                self.bound[f"{type_}%{match[1]}"] = re.findall(r"\w+", match[2])
             elif file == "riis.f90" and line.startswith("public ::"):
                 self.public |= set(re.findall(r"\briis_\w+", line))
 
-    def procedure(self, name):
-        """Returns the procedure of a name in the table, or None."""
-        if "%" in name:
-            found = self.bound.get(name)
-            found = self.specific.get((name.split("%")[0], found), found)
-        else:
-            found = self.generics.get(name, name)
-        return self.procedures.get(found)
+    def forms(self, name):
+        """Returns the procedures of a name in the table: several for a generic name, none for an unknown one."""
+        found = self.bound.get(name, []) if "%" in name else self.generics.get(name, [name])
+        found = [self.specific.get((name.split("%")[0], form), form) for form in found]
+        return [self.procedures[form] for form in found if form in self.procedures]
 
-    def line(self, name):
-        """Returns the line of use of a procedure."""
-        found = self.procedure(name)
+    def lines(self, name):
+        """Returns the lines of use of a procedure. A form is left out if another form above it has all its arguments."""
+        forms = []
+        for form in self.forms(name):
+            if not any(set(form.arguments) <= set(other.arguments) for other in forms):
+                forms.append(form)
         if "%" in name:
-            return found.line(re.sub(r"^riis_", "", name), found.arguments[1:])
+            return [form.line(re.sub(r"^riis_", "", name), form.arguments[1:]) for form in forms]
         if name.startswith("riisf_"):
             star = "*" if name + "_64" in self.procedures else ""
-            return f"CALL {name.upper()}{star}({', '.join(found.arguments).upper()})"
-        return found.line(name, found.arguments)
+            return [f"CALL {name.upper()}{star}({', '.join(forms[0].arguments).upper()})"]
+        return [form.line(name, form.arguments) for form in forms]
 
     def wanted(self):
         """Returns the names that the table must have."""
         names = {name for name in self.bound if not re.search(r"%(is_created|c_handle|assignment|n_nodes)", name)}
         names |= {name for name in self.procedures if name.startswith("riisf_") and not name.endswith("_64")}
-        return names | {name for name in self.public if self.procedure(name) and name != "riis_log_procedure"}
+        return names | {name for name in self.public if self.forms(name) and name != "riis_log_procedure"}
 
 
 class Calls:
@@ -170,7 +170,7 @@ def page(root):
     problems += [f"{TABLE}: there is no line for {name}" for name in declared
                  if not name.endswith("_init") and name not in table.entries]
     problems += [f"{TABLE}: {HEADER} has no {name}" for name in table.entries if name not in declared]
-    problems += [f"{TABLE}: the Fortran sources have no {name}" for name in sorted(told) if not fortran.procedure(name)]
+    problems += [f"{TABLE}: the Fortran sources have no {name}" for name in sorted(told) if not fortran.forms(name)]
     problems += [f"{TABLE}: {name} belongs to no call" for name in sorted(fortran.wanted() - told)]
     for call, (names, reason) in table.entries.items():
         kinds = {name.startswith("riisf_") for name in names}
@@ -187,7 +187,8 @@ def page(root):
                 if not lines[-1].startswith("```"):
                     lines.append("")
                 lines.append(f"! {call}: {text}" if text else f"! {call}")
-                lines += [wrapped(fortran.line(name)) for name in names] + ([wrapped(f"! {reason}")] if reason else [])
+                lines += [wrapped(line) for name in names for line in fortran.lines(name)]
+                lines += [wrapped(f"! {reason}")] if reason else []
         lines += ["```", ""]
     return "\n".join(lines[:-1]) + "\n"
 

@@ -239,7 +239,9 @@ class Subroutine:
         self.declare(argument, type_, "inout" if writes else "in", self.described(argument, place))
         if any(f"{place.path} = " in line for line in self.entry.before):
             return
-        if size:
+        if size and size.isdigit():
+            self.set.append(f"{path}({size}) = location_of({name})")
+        elif size:
             self.set.append(f"{path} = c_loc({self.copy(argument, type_, place, size, writes)})")
         elif place.type.stars and place.extent:
             self.set += [f"{path}({i + 1}) = location_of({name}({i + 1}, 1))" for i in range(int(place.extent))]

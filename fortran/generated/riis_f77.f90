@@ -1958,6 +1958,93 @@ subroutine riisf_surface_vertices_64(surface, length, n, xyz, status)
   xyz(:3 * triangles%n_vertices) = c_xyz
 end subroutine riisf_surface_vertices_64
 
+!> Copies the surface's triangles that answer queries into the caller's arrays. Errors: RIIS_INVALID_ARGUMENT if the arrays are
+!! too short; only n is then written.
+subroutine riisf_surface_triangles(surface, length, n, vertex_num, triangle_id, leaflet_id, patch_id, status)
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_OK, riis_status, riis_surface_get_triangles, &
+      riis_triangles
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of triangles, even if an array is too short.
+  integer(int32), intent(inout) :: vertex_num(3, *)       !< The corners, from 1, as in riisf_surface_vertices; written up to
+                                                          !! n.
+  integer(int64), intent(inout) :: triangle_id(*)         !< The ids that queries report, from 0; written up to n. INTEGER*8.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< RIIS_LEAFLET_*, or the caller's; written up to n.
+  integer(int32), intent(inout) :: patch_id(*)            !< From 0; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_triangles) :: triangles
+  integer(int64), pointer :: c_vertex_num(:, :)
+  integer(int64), pointer :: c_triangle_id(:)
+  integer(int32), pointer :: c_leaflet_id(:)
+  integer(int32), pointer :: c_patch_id(:)
+  status = riis_surface_get_triangles(c_handle_of(surface), triangles, c_sizeof(triangles))
+  if (status /= RIIS_OK) return
+  n = int(min(triangles%n_triangles, int(huge(n), int64)), int32)
+  if (triangles%n_triangles > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; triangles: ' // &
+        text_of(triangles%n_triangles))
+    return
+  end if
+  if (triangles%n_triangles == 0) return
+  call c_f_pointer(triangles%vertex_id, c_vertex_num, [3_int64, triangles%n_triangles])
+  if (maxval(c_vertex_num) >= huge(n)) then
+    status = fail(RIIS_LIMIT_EXCEEDED, 'vertex ' // text_of(maxval(c_vertex_num)) // &
+        ' is more than an INTEGER*4 can count: use riisf_surface_triangles_64')
+    return
+  end if
+  vertex_num(:, :n) = int(c_vertex_num + 1, int32)
+  call c_f_pointer(triangles%triangle_id, c_triangle_id, [triangles%n_triangles])
+  triangle_id(:n) = c_triangle_id
+  call c_f_pointer(triangles%leaflet_id, c_leaflet_id, [triangles%n_triangles])
+  leaflet_id(:n) = c_leaflet_id
+  call c_f_pointer(triangles%patch_id, c_patch_id, [triangles%n_triangles])
+  patch_id(:n) = c_patch_id
+end subroutine riisf_surface_triangles
+
+!> Does the same as riisf_surface_triangles, with counts and ids of INTEGER*8.
+subroutine riisf_surface_triangles_64(surface, length, n, vertex_num, triangle_id, leaflet_id, patch_id, status)
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_status, riis_surface_get_triangles, riis_triangles
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of triangles, even if an array is too short.
+  integer(int64), intent(inout) :: vertex_num(3, *)       !< The corners, from 1, as in riisf_surface_vertices; written up to
+                                                          !! n.
+  integer(int64), intent(inout) :: triangle_id(*)         !< The ids that queries report, from 0; written up to n. INTEGER*8.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< RIIS_LEAFLET_*, or the caller's; written up to n.
+  integer(int32), intent(inout) :: patch_id(*)            !< From 0; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_triangles) :: triangles
+  integer(int64), pointer :: c_vertex_num(:, :)
+  integer(int64), pointer :: c_triangle_id(:)
+  integer(int32), pointer :: c_leaflet_id(:)
+  integer(int32), pointer :: c_patch_id(:)
+  status = riis_surface_get_triangles(c_handle_of(surface), triangles, c_sizeof(triangles))
+  if (status /= RIIS_OK) return
+  n = int(min(triangles%n_triangles, int(huge(n), int64)), int64)
+  if (triangles%n_triangles > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; triangles: ' // &
+        text_of(triangles%n_triangles))
+    return
+  end if
+  if (triangles%n_triangles == 0) return
+  call c_f_pointer(triangles%vertex_id, c_vertex_num, [3_int64, triangles%n_triangles])
+  vertex_num(:, :n) = int(c_vertex_num + 1, int64)
+  call c_f_pointer(triangles%triangle_id, c_triangle_id, [triangles%n_triangles])
+  triangle_id(:n) = c_triangle_id
+  call c_f_pointer(triangles%leaflet_id, c_leaflet_id, [triangles%n_triangles])
+  leaflet_id(:n) = c_leaflet_id
+  call c_f_pointer(triangles%patch_id, c_patch_id, [triangles%n_triangles])
+  patch_id(:n) = c_patch_id
+end subroutine riisf_surface_triangles_64
+
 !> Copies the velocities of the surface's vertices, after placement, into the caller's array. Errors: RIIS_INVALID_ARGUMENT if
 !! the last update gave none, or if the array is too short; only n is then written.
 subroutine riisf_surface_vertex_velocities(surface, length, n, velocity, status)
@@ -3489,6 +3576,79 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
   status = riis_marks_add_resistance(c_handle_of(marks), resistance, arrays)
 end subroutine riisf_add_moving_resistance_64
 
+!> Adds K like riisf_add_resistance, but for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum
+!! of K u_surface).
+subroutine riisf_add_resistance_components(marks, R, half_thickness, rim, n_nodes, K, K_u_x, K_u_y, K_u_z, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_marks_add_resistance, riis_resistance, riis_resistance_arrays, &
+      riis_resistance_arrays_init, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
+  real(c_double), intent(inout) :: K_u_x(*)               !< (n_nodes): the x component of K u_surface is added. The rank of
+                                                          !! the arrays may be any.
+  real(c_double), intent(inout) :: K_u_y(*)               !< (n_nodes): the y component is added.
+  real(c_double), intent(inout) :: K_u_z(*)               !< (n_nodes): the z component is added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_resistance_arrays) :: arrays
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_resistance_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  arrays%n_nodes = n_nodes
+  arrays%K = location_of(K)
+  arrays%K_u_surface(1) = location_of(K_u_x)
+  arrays%K_u_surface(2) = location_of(K_u_y)
+  arrays%K_u_surface(3) = location_of(K_u_z)
+  status = riis_marks_add_resistance(c_handle_of(marks), resistance, arrays)
+end subroutine riisf_add_resistance_components
+
+!> Does the same as riisf_add_resistance_components, with counts and ids of INTEGER*8.
+subroutine riisf_add_resistance_components_64(marks, R, half_thickness, rim, n_nodes, K, K_u_x, K_u_y, K_u_z, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_marks_add_resistance, riis_resistance, riis_resistance_arrays, &
+      riis_resistance_arrays_init, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
+  real(c_double), intent(inout) :: K_u_x(*)               !< (n_nodes): the x component of K u_surface is added. The rank of
+                                                          !! the arrays may be any.
+  real(c_double), intent(inout) :: K_u_y(*)               !< (n_nodes): the y component is added.
+  real(c_double), intent(inout) :: K_u_z(*)               !< (n_nodes): the z component is added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_resistance_arrays) :: arrays
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_resistance_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  arrays%n_nodes = n_nodes
+  arrays%K = location_of(K)
+  arrays%K_u_surface(1) = location_of(K_u_x)
+  arrays%K_u_surface(2) = location_of(K_u_y)
+  arrays%K_u_surface(3) = location_of(K_u_z)
+  status = riis_marks_add_resistance(c_handle_of(marks), resistance, arrays)
+end subroutine riisf_add_resistance_components_64
+
 !> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
 !! reduction. u_surface is used if the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as for riisf_add_resistance.
 subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
@@ -3565,6 +3725,87 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
   reaction%force = location_of(force)
   status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
 end subroutine riisf_add_reaction_64
+
+!> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
+!! reduction. u_surface is used if the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as for riisf_add_resistance.
+subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, force, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_reaction, riis_reaction, &
+      riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: vx(*)                     !< (n_nodes), the x component of the flow's velocity. Its rank may be
+                                                          !! any.
+  real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
+  real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(inout) :: force(3)               !< The force is added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  type(riis_reaction) :: reaction
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status == RIIS_OK) status = riis_reaction_init(reaction, c_sizeof(reaction))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(vx)
+  flow%velocity(2) = location_of(vy)
+  flow%velocity(3) = location_of(vz)
+  flow%weight = location_of(weight)
+  reaction%force = location_of(force)
+  status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
+end subroutine riisf_add_reaction_components
+
+!> Does the same as riisf_add_reaction_components, with counts and ids of INTEGER*8.
+subroutine riisf_add_reaction_components_64(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, force, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_reaction, riis_reaction, &
+      riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: vx(*)                     !< (n_nodes), the x component of the flow's velocity. Its rank may be
+                                                          !! any.
+  real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
+  real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(inout) :: force(3)               !< The force is added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  type(riis_reaction) :: reaction
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status == RIIS_OK) status = riis_reaction_init(reaction, c_sizeof(reaction))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(vx)
+  flow%velocity(2) = location_of(vy)
+  flow%velocity(3) = location_of(vz)
+  flow%weight = location_of(weight)
+  reaction%force = location_of(force)
+  status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
+end subroutine riisf_add_reaction_components_64
 
 !> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
 !! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as for
@@ -3668,6 +3909,112 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
 end subroutine riisf_add_leaflet_reaction_64
 
+!> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
+!! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as for
+!! riisf_add_reaction; RIIS_INVALID_ARGUMENT also for too few leaflets, naming the leaflet id.
+subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, about, &
+    n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_reaction, riis_reaction, &
+      riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: vx(*)                     !< (n_nodes), the x component of the flow's velocity. Its rank may be
+                                                          !! any.
+  real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
+  real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
+                                                          !! most 1e60. Usually 0.
+  integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
+  real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
+  real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): forces are added; leaflet 0 has column 1.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moments are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  type(riis_reaction) :: reaction
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status == RIIS_OK) status = riis_reaction_init(reaction, c_sizeof(reaction))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(vx)
+  flow%velocity(2) = location_of(vy)
+  flow%velocity(3) = location_of(vz)
+  flow%weight = location_of(weight)
+  reaction%about = about
+  reaction%n_leaflets = n_leaflets
+  reaction%force = location_of(force)
+  reaction%moment = location_of(moment)
+  reaction%leaflet_force = location_of(leaflet_force)
+  reaction%leaflet_moment = location_of(leaflet_moment)
+  status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
+end subroutine riisf_add_leaflet_reaction_components
+
+!> Does the same as riisf_add_leaflet_reaction_components, with counts and ids of INTEGER*8.
+subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, about, &
+    n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_reaction, riis_reaction, &
+      riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: vx(*)                     !< (n_nodes), the x component of the flow's velocity. Its rank may be
+                                                          !! any.
+  real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
+  real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
+                                                          !! most 1e60. Usually 0.
+  integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
+  real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
+  real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): forces are added; leaflet 0 has column 1.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moments are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  type(riis_reaction) :: reaction
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status == RIIS_OK) status = riis_reaction_init(reaction, c_sizeof(reaction))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(vx)
+  flow%velocity(2) = location_of(vy)
+  flow%velocity(3) = location_of(vz)
+  flow%weight = location_of(weight)
+  reaction%about = about
+  reaction%n_leaflets = n_leaflets
+  reaction%force = location_of(force)
+  reaction%moment = location_of(moment)
+  reaction%leaflet_force = location_of(leaflet_force)
+  reaction%leaflet_moment = location_of(leaflet_moment)
+  status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
+end subroutine riisf_add_leaflet_reaction_components_64
+
 !> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
 !! its closest point, or to the first of several equally near edges. The sums of edges are loads for tissue codes. They do not
 !! model how a membrane carries loads to its edges. Ranks pass the same edges, and add their sums by a reduction. Errors: as for
@@ -3769,6 +4116,111 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
 end subroutine riisf_add_edge_reaction_64
 
+!> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
+!! its closest point, or to the first of several equally near edges. The sums of edges are loads for tissue codes. They do not
+!! model how a membrane carries loads to its edges. Ranks pass the same edges, and add their sums by a reduction. Errors: as for
+!! riisf_add_reaction; RIIS_INVALID_ARGUMENT also for a bad edge, and for a leaflet without an edge.
+subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, n_edges, &
+    edges, edge_leaflet_id, edge_force, edge_moment, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_reaction, riis_reaction, &
+      riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: vx(*)                     !< (n_nodes), the x component of the flow's velocity. Its rank may be
+                                                          !! any.
+  real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
+  real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  integer(int32), intent(in) :: n_edges                   !< At least 1.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
+  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
+                                                          !! If the first entry is -1, the other entries are not read, and each
+                                                          !! edge serves all leaflets.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): forces are added.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moments about each edge's middle are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  type(riis_reaction) :: reaction
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status == RIIS_OK) status = riis_reaction_init(reaction, c_sizeof(reaction))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(vx)
+  flow%velocity(2) = location_of(vy)
+  flow%velocity(3) = location_of(vz)
+  flow%weight = location_of(weight)
+  reaction%n_edges = n_edges
+  reaction%edges = location_of(edges)
+  reaction%edge_force = location_of(edge_force)
+  reaction%edge_moment = location_of(edge_moment)
+  if (edge_leaflet_id(1) /= -1) reaction%edge_leaflet_id = location_of(edge_leaflet_id)
+  status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
+end subroutine riisf_add_edge_reaction_components
+
+!> Does the same as riisf_add_edge_reaction_components, with counts and ids of INTEGER*8.
+subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, n_edges, &
+    edges, edge_leaflet_id, edge_force, edge_moment, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_reaction, riis_reaction, &
+      riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: vx(*)                     !< (n_nodes), the x component of the flow's velocity. Its rank may be
+                                                          !! any.
+  real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
+  real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  integer(int64), intent(in) :: n_edges                   !< At least 1.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
+  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
+                                                          !! If the first entry is -1, the other entries are not read, and each
+                                                          !! edge serves all leaflets.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): forces are added.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moments about each edge's middle are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  type(riis_reaction) :: reaction
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status == RIIS_OK) status = riis_reaction_init(reaction, c_sizeof(reaction))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(vx)
+  flow%velocity(2) = location_of(vy)
+  flow%velocity(3) = location_of(vz)
+  flow%weight = location_of(weight)
+  reaction%n_edges = n_edges
+  reaction%edges = location_of(edges)
+  reaction%edge_force = location_of(edge_force)
+  reaction%edge_moment = location_of(edge_moment)
+  if (edge_leaflet_id(1) /= -1) reaction%edge_leaflet_id = location_of(edge_leaflet_id)
+  status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
+end subroutine riisf_add_edge_reaction_components_64
+
 !> Adds the force of the flow on each vertex of the surface. The force of a node goes to the vertices of its closest triangle.
 !! Ranks add their forces by a reduction. Errors: as for riisf_add_reaction; RIIS_INVALID_ARGUMENT also for another number of
 !! vertices, and for a surface that is not that of the marking.
@@ -3848,6 +4300,90 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
   status = riis_marks_add_vertex_reaction(c_handle_of(marks), c_handle_of(surface), resistance, flow, n_vertices, &
       vertex_force)
 end subroutine riisf_add_vertex_reaction_64
+
+!> Adds the force of the flow on each vertex of the surface. The force of a node goes to the vertices of its closest triangle.
+!! Ranks add their forces by a reduction. Errors: as for riisf_add_reaction; RIIS_INVALID_ARGUMENT also for another number of
+!! vertices, and for a surface that is not that of the marking.
+subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, &
+    n_vertices, vertex_force, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_vertex_reaction, riis_resistance, &
+      riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
+  integer(int64), intent(in) :: surface                   !< The surface of the marking.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: vx(*)                     !< (n_nodes), the x component of the flow's velocity. Its rank may be
+                                                          !! any.
+  real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
+  real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  integer(int32), intent(in) :: n_vertices                !< The surface's number of vertices.
+  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): forces are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(vx)
+  flow%velocity(2) = location_of(vy)
+  flow%velocity(3) = location_of(vz)
+  flow%weight = location_of(weight)
+  status = riis_marks_add_vertex_reaction(c_handle_of(marks), c_handle_of(surface), resistance, flow, int(n_vertices, &
+      int64), vertex_force)
+end subroutine riisf_add_vertex_reaction_components
+
+!> Does the same as riisf_add_vertex_reaction_components, with counts and ids of INTEGER*8.
+subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thickness, rim, n_nodes, vx, vy, vz, &
+    weight, n_vertices, vertex_force, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_vertex_reaction, riis_resistance, &
+      riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
+  integer(int64), intent(in) :: surface                   !< The surface of the marking.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
+                                                          !! |offset|; RIIS_AUTO: the half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: vx(*)                     !< (n_nodes), the x component of the flow's velocity. Its rank may be
+                                                          !! any.
+  real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
+  real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  integer(int64), intent(in) :: n_vertices                !< The surface's number of vertices.
+  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): forces are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(vx)
+  flow%velocity(2) = location_of(vy)
+  flow%velocity(3) = location_of(vz)
+  flow%weight = location_of(weight)
+  status = riis_marks_add_vertex_reaction(c_handle_of(marks), c_handle_of(surface), resistance, flow, n_vertices, &
+      vertex_force)
+end subroutine riisf_add_vertex_reaction_components_64
 
 !> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side. Nodes whose
 !! closest point is on the rim, or that are on neither side, are left out. If the valve is open, the two sides have no meaning.
@@ -5294,7 +5830,8 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   real(c_double), intent(inout) :: translation(3)         !< Mesh units.
   real(c_double), intent(inout) :: residual(*)            !< (n_landmarks): distances from the landmarks to their places, mesh
                                                           !! units.
-  integer(int32), intent(inout) :: size_state(*)          !< (number of parameters): RIIS_SIZE_*.
+  integer(int32), intent(inout) :: size_state(*)          !< An entry for each parameter of the valve, as riis params lists
+                                                          !! them: RIIS_SIZE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(held) + 1, kind=c_char) :: c_held
   type(riis_landmarks) :: landmarks

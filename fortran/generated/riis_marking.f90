@@ -54,10 +54,17 @@ module riis_marking
     generic :: marked_nodes => marked_int32, marked_int64               !< Copies the marked nodes, counted from 1.
     generic :: nodes_within_limit => within_int32, within_int64         !< Copies the nodes within the limit, counted from 1.
     procedure, non_overridable :: get_list => marks_get_list            !< Points to all arrays of a list.
-    procedure, non_overridable :: add_resistance => marks_add_resistance !< Adds K and K u_surface to the caller's arrays.
-    procedure, non_overridable :: add_reaction => marks_add_reaction   !< Adds the force of the flow on the surface.
-    procedure, non_overridable :: add_vertex_reaction => marks_add_vertex_reaction !< Adds the force on each vertex.
-    procedure, non_overridable :: band_sums => marks_band_sums         !< Sums a value on each side of the surface.
+    generic :: add_resistance => add_resistance_vectors, &
+      add_resistance_rank1, add_resistance_rank3, add_resistance_rank4
+                                                                        !< Adds K and K u_surface to the caller's arrays.
+    generic :: add_reaction => add_reaction_vectors, &
+      add_reaction_rank1, add_reaction_rank3, add_reaction_rank4
+                                                                        !< Adds the force of the flow on the surface.
+    generic :: add_vertex_reaction => add_vertex_reaction_vectors, &
+      add_vertex_reaction_rank1, add_vertex_reaction_rank3, add_vertex_reaction_rank4
+                                                                        !< Adds the force on each vertex.
+    generic :: band_sums => band_sums_rank1, band_sums_rank3, band_sums_rank4
+                                                                        !< Sums a value on each side of the surface.
     generic :: dense => dense_int8, dense_int32, dense_logical          !< Writes one entry per node into the caller's arrays.
     procedure, non_overridable :: get_stats => marks_get_stats         !< Gives the statistics of the last marking.
     procedure, non_overridable :: is_created => marks_is_created       !< Returns whether the object was created.
@@ -69,6 +76,21 @@ module riis_marking
     procedure, private, non_overridable :: marked_int64 => result_marked_int64
     procedure, private, non_overridable :: within_int32 => result_within_int32
     procedure, private, non_overridable :: within_int64 => result_within_int64
+    procedure, private, non_overridable :: add_resistance_vectors => marks_add_resistance_vectors
+    procedure, private, non_overridable :: add_resistance_rank1 => marks_add_resistance_rank1
+    procedure, private, non_overridable :: add_resistance_rank3 => marks_add_resistance_rank3
+    procedure, private, non_overridable :: add_resistance_rank4 => marks_add_resistance_rank4
+    procedure, private, non_overridable :: add_reaction_vectors => marks_add_reaction_vectors
+    procedure, private, non_overridable :: add_reaction_rank1 => marks_add_reaction_rank1
+    procedure, private, non_overridable :: add_reaction_rank3 => marks_add_reaction_rank3
+    procedure, private, non_overridable :: add_reaction_rank4 => marks_add_reaction_rank4
+    procedure, private, non_overridable :: add_vertex_reaction_vectors => marks_add_vertex_reaction_vectors
+    procedure, private, non_overridable :: add_vertex_reaction_rank1 => marks_add_vertex_reaction_rank1
+    procedure, private, non_overridable :: add_vertex_reaction_rank3 => marks_add_vertex_reaction_rank3
+    procedure, private, non_overridable :: add_vertex_reaction_rank4 => marks_add_vertex_reaction_rank4
+    procedure, private, non_overridable :: band_sums_rank1 => marks_band_sums_rank1
+    procedure, private, non_overridable :: band_sums_rank3 => marks_band_sums_rank3
+    procedure, private, non_overridable :: band_sums_rank4 => marks_band_sums_rank4
     procedure, private, non_overridable :: dense_int8 => marks_dense_int8
     procedure, private, non_overridable :: dense_int32 => marks_dense_int32
     procedure, private, non_overridable :: dense_logical => marks_dense_logical
@@ -622,11 +644,22 @@ contains
       text_of(size(vectors, 1)) // ', ' // text_of(size(vectors, 2, int64)) // '); it must be (3, ' // text_of(n) // ')')
   end function check_vectors
 
+  ! Checks three arrays with an entry for each node. It does nothing after an error.
+  subroutine check_components(sizes, n, names, of, code)
+    integer(int64), intent(in) :: sizes(3), n
+    character(len=*), intent(in) :: names(3), of
+    integer(riis_status), intent(inout) :: code
+    integer :: i
+    do i = 1, 3
+      if (code == RIIS_OK) code = check_size(sizes(i), n, names(i), of)
+    end do
+  end subroutine check_components
+
   !> Adds the resistance K = (R / eps) delta(d), and K u_surface, to the caller's arrays, so that several valves add up. A scheme
   !! uses (sum of K) u - (sum of K u_surface). delta(d) is (1 + cos(pi d / eps)) / (2 eps) at the distance d < eps. Errors:
   !! RIIS_INVALID_ARGUMENT for an argument out of range, another number of nodes, or a field that the marks lack; the arrays are
   !! then as they were.
-  subroutine marks_add_resistance(this, R, K, K_u_surface, half_thickness, rim, status)
+  subroutine marks_add_resistance_vectors(this, R, K, K_u_surface, half_thickness, rim, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(inout), optional :: K(:)         !< (n_nodes): K is added.
@@ -658,7 +691,99 @@ contains
       end if
     end if
     call finish(code, status)
-  end subroutine marks_add_resistance
+  end subroutine marks_add_resistance_vectors
+
+  !> Does the same for solvers with K u_surface in three arrays. Arrays of rank 3 or 4 are also taken, as whole arrays in the
+  !! order of the mesh's nodes; then K alone may be given. A section that is not contiguous is copied.
+  subroutine marks_add_resistance_rank1(this, R, K, K_u_x, K_u_y, K_u_z, half_thickness, rim, status)
+    class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_VELOCITY.
+    real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(inout) :: K(:) !< (n_nodes): K is added.
+    real(c_double), intent(inout) :: K_u_x(:) !< (n_nodes): K u_surface is added.
+    real(c_double), intent(inout) :: K_u_y(:) !< (n_nodes): K u_surface is added.
+    real(c_double), intent(inout) :: K_u_z(:) !< (n_nodes): K u_surface is added.
+    real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
+                                                            !! RIIS_AUTO: the half thickness of the marking.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
+                                                            !! RIIS_FIELD_RIM.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_resistance) :: made
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(K, kind=int64)
+    code = check_created(this%handle, 'the object marks')
+    call check_components([size(K_u_x, kind=int64), size(K_u_y, kind=int64), size(K_u_z, kind=int64)], n, &
+      ['K_u_x', 'K_u_y', 'K_u_z'], 'entries in K', code)
+    call get_resistance(R, half_thickness, rim, made, code)
+    if (code == RIIS_OK) code = add_resistance_to(this%handle, made, n, K, K_u_x=K_u_x, K_u_y=K_u_y, K_u_z=K_u_z)
+    call finish(code, status)
+  end subroutine marks_add_resistance_rank1
+
+  !> Implements %add_resistance for arrays of rank 3.
+  subroutine marks_add_resistance_rank3(this, R, K, K_u_x, K_u_y, K_u_z, half_thickness, rim, status)
+    class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_VELOCITY.
+    real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(inout) :: K(:, :, :) !< (n_nodes): K is added.
+    real(c_double), intent(inout), optional :: K_u_x(:, :, :) !< (n_nodes): K u_surface is added.
+    real(c_double), intent(inout), optional :: K_u_y(:, :, :) !< (n_nodes): K u_surface is added.
+    real(c_double), intent(inout), optional :: K_u_z(:, :, :) !< (n_nodes): K u_surface is added.
+    real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
+                                                            !! RIIS_AUTO: the half thickness of the marking.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
+                                                            !! RIIS_FIELD_RIM.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_resistance) :: made
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(K, kind=int64)
+    code = check_created(this%handle, 'the object marks')
+    if (.not. (present(K_u_x) .and. present(K_u_y) .and. present(K_u_z))) then
+      if (code == RIIS_OK .and. (present(K_u_x) .or. present(K_u_y) .or. present(K_u_z))) &
+        code = refuse('K_u_x, K_u_y and K_u_z are not all given')
+      call get_resistance(R, half_thickness, rim, made, code)
+      if (code == RIIS_OK) code = add_resistance_to(this%handle, made, n, K)
+      call finish(code, status)
+      return
+    end if
+    call check_components([size(K_u_x, kind=int64), size(K_u_y, kind=int64), size(K_u_z, kind=int64)], n, &
+      ['K_u_x', 'K_u_y', 'K_u_z'], 'entries in K', code)
+    call get_resistance(R, half_thickness, rim, made, code)
+    if (code == RIIS_OK) code = add_resistance_to(this%handle, made, n, K, K_u_x=K_u_x, K_u_y=K_u_y, K_u_z=K_u_z)
+    call finish(code, status)
+  end subroutine marks_add_resistance_rank3
+
+  !> Implements %add_resistance for arrays of rank 4.
+  subroutine marks_add_resistance_rank4(this, R, K, K_u_x, K_u_y, K_u_z, half_thickness, rim, status)
+    class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_VELOCITY.
+    real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(inout) :: K(:, :, :, :) !< (n_nodes): K is added.
+    real(c_double), intent(inout), optional :: K_u_x(:, :, :, :) !< (n_nodes): K u_surface is added.
+    real(c_double), intent(inout), optional :: K_u_y(:, :, :, :) !< (n_nodes): K u_surface is added.
+    real(c_double), intent(inout), optional :: K_u_z(:, :, :, :) !< (n_nodes): K u_surface is added.
+    real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
+                                                            !! RIIS_AUTO: the half thickness of the marking.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
+                                                            !! RIIS_FIELD_RIM.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_resistance) :: made
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(K, kind=int64)
+    code = check_created(this%handle, 'the object marks')
+    if (.not. (present(K_u_x) .and. present(K_u_y) .and. present(K_u_z))) then
+      if (code == RIIS_OK .and. (present(K_u_x) .or. present(K_u_y) .or. present(K_u_z))) &
+        code = refuse('K_u_x, K_u_y and K_u_z are not all given')
+      call get_resistance(R, half_thickness, rim, made, code)
+      if (code == RIIS_OK) code = add_resistance_to(this%handle, made, n, K)
+      call finish(code, status)
+      return
+    end if
+    call check_components([size(K_u_x, kind=int64), size(K_u_y, kind=int64), size(K_u_z, kind=int64)], n, &
+      ['K_u_x', 'K_u_y', 'K_u_z'], 'entries in K', code)
+    call get_resistance(R, half_thickness, rim, made, code)
+    if (code == RIIS_OK) code = add_resistance_to(this%handle, made, n, K, K_u_x=K_u_x, K_u_y=K_u_y, K_u_z=K_u_z)
+    call finish(code, status)
+  end subroutine marks_add_resistance_rank4
 
   !> Adds the force of the flow on the surface and its moment, for the whole surface, for each leaflet and for each edge. The
   !! force of a node is weight * K * (velocity - u_surface), and acts at the closest point of the surface. u_surface is used if
@@ -666,12 +791,12 @@ contains
   !! edges are loads for tissue codes. They do not model how a membrane carries loads to its edges. Ranks pass the same point and
   !! edges, and add their sums by a reduction. Errors: as for %add_resistance; RIIS_INVALID_ARGUMENT also for too few leaflets,
   !! for a leaflet without an edge, and for a bad edge.
-  subroutine marks_add_reaction(this, R, velocity, weight, force, half_thickness, rim, moment, about, leaflet_force, &
-      leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
+  subroutine marks_add_reaction_vectors(this, R, velocity, weight, force, half_thickness, rim, &
+      moment, about, leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-    real(c_double), intent(in) :: velocity(:, :) !< (3, n_nodes), the flow's velocity.
-    real(c_double), intent(in) :: weight(:)     !< (n_nodes), the volume that belongs to a node; 0 for nodes of
+    real(c_double), intent(in) :: velocity(:, :)            !< (3, n_nodes), the flow's velocity.
+    real(c_double), intent(in) :: weight(:)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of
                                                             !! other ranks.
     real(c_double), intent(inout), optional :: force(:)     !< (3): the force is added.
     real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
@@ -692,6 +817,148 @@ contains
     integer(int32), intent(in), optional :: edge_leaflet_id(:) !< (n_edges): a node's force goes to the nearest edge of
                                                             !! its leaflet. Default: the nearest edge of all leaflets.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(weight, kind=int64)
+    code = check_created(this%handle, 'the object marks')
+    if (code == RIIS_OK) code = check_vectors(velocity, n, 'velocity')
+    call react(this%handle, R, n, weight, force, half_thickness, rim, moment, about, leaflet_force, leaflet_moment, edges, &
+      edge_force, edge_moment, edge_leaflet_id, code, velocity=velocity)
+    call finish(code, status)
+  end subroutine marks_add_reaction_vectors
+
+  !> Does the same for solvers with the velocity in three arrays. Arrays of rank 3 or 4 are also taken, as by %add_resistance.
+  subroutine marks_add_reaction_rank1(this, R, vx, vy, vz, weight, force, half_thickness, rim, &
+      moment, about, leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
+    class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
+    real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(in) :: vx(:) !< (n_nodes), the x component of the flow's velocity.
+    real(c_double), intent(in) :: vy(:) !< (n_nodes), the y component of the flow's velocity.
+    real(c_double), intent(in) :: vz(:) !< (n_nodes), the z component of the flow's velocity.
+    real(c_double), intent(in) :: weight(:) !< (n_nodes), the volume that belongs to a node; 0 for nodes
+                                                            !! of other ranks.
+    real(c_double), intent(inout), optional :: force(:)     !< (3): the force is added.
+    real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
+                                                            !! RIIS_AUTO: the half thickness of the marking.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
+                                                            !! RIIS_FIELD_RIM.
+    real(c_double), intent(inout), optional :: moment(:)    !< (3): the moment is added.
+    real(c_double), intent(in), optional :: about(:)        !< (3): the point of moment and leaflet_moment. Default 0.
+    real(c_double), intent(inout), optional :: leaflet_force(:, :) !< (3, n_leaflets): forces are added. n_leaflets is above
+                                                            !! the surface's largest leaflet id; leaflet 0 has column 1.
+    real(c_double), intent(inout), optional :: leaflet_moment(:, :) !< (3, n_leaflets): moments are added.
+    real(c_double), intent(in), optional :: edges(:, :, :)  !< (3, 2, n_edges): both ends of each edge, as from
+                                                            !! %get_attachment.
+    real(c_double), intent(inout), optional :: edge_force(:, :) !< (3, n_edges): forces are added. A node's force goes to
+                                                            !! the edge nearest to its closest point, or to the first
+                                                            !! of several equally near edges.
+    real(c_double), intent(inout), optional :: edge_moment(:, :) !< (3, n_edges): moments about each edge's middle are added.
+    integer(int32), intent(in), optional :: edge_leaflet_id(:) !< (n_edges): a node's force goes to the nearest edge of
+                                                            !! its leaflet. Default: the nearest edge of all leaflets.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(weight, kind=int64)
+    code = check_created(this%handle, 'the object marks')
+    call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
+      'weights', code)
+    call react(this%handle, R, n, weight, force, half_thickness, rim, moment, about, leaflet_force, leaflet_moment, edges, &
+      edge_force, edge_moment, edge_leaflet_id, code, vx=vx, vy=vy, vz=vz)
+    call finish(code, status)
+  end subroutine marks_add_reaction_rank1
+
+  !> Implements %add_reaction for arrays of rank 3.
+  subroutine marks_add_reaction_rank3(this, R, vx, vy, vz, weight, force, half_thickness, rim, &
+      moment, about, leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
+    class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
+    real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(in) :: vx(:, :, :) !< (n_nodes), the x component of the flow's velocity.
+    real(c_double), intent(in) :: vy(:, :, :) !< (n_nodes), the y component of the flow's velocity.
+    real(c_double), intent(in) :: vz(:, :, :) !< (n_nodes), the z component of the flow's velocity.
+    real(c_double), intent(in) :: weight(:, :, :) !< (n_nodes), the volume that belongs to a node; 0 for nodes
+                                                            !! of other ranks.
+    real(c_double), intent(inout), optional :: force(:)     !< (3): the force is added.
+    real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
+                                                            !! RIIS_AUTO: the half thickness of the marking.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
+                                                            !! RIIS_FIELD_RIM.
+    real(c_double), intent(inout), optional :: moment(:)    !< (3): the moment is added.
+    real(c_double), intent(in), optional :: about(:)        !< (3): the point of moment and leaflet_moment. Default 0.
+    real(c_double), intent(inout), optional :: leaflet_force(:, :) !< (3, n_leaflets): forces are added. n_leaflets is above
+                                                            !! the surface's largest leaflet id; leaflet 0 has column 1.
+    real(c_double), intent(inout), optional :: leaflet_moment(:, :) !< (3, n_leaflets): moments are added.
+    real(c_double), intent(in), optional :: edges(:, :, :)  !< (3, 2, n_edges): both ends of each edge, as from
+                                                            !! %get_attachment.
+    real(c_double), intent(inout), optional :: edge_force(:, :) !< (3, n_edges): forces are added. A node's force goes to
+                                                            !! the edge nearest to its closest point, or to the first
+                                                            !! of several equally near edges.
+    real(c_double), intent(inout), optional :: edge_moment(:, :) !< (3, n_edges): moments about each edge's middle are added.
+    integer(int32), intent(in), optional :: edge_leaflet_id(:) !< (n_edges): a node's force goes to the nearest edge of
+                                                            !! its leaflet. Default: the nearest edge of all leaflets.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(weight, kind=int64)
+    code = check_created(this%handle, 'the object marks')
+    call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
+      'weights', code)
+    call react(this%handle, R, n, weight, force, half_thickness, rim, moment, about, leaflet_force, leaflet_moment, edges, &
+      edge_force, edge_moment, edge_leaflet_id, code, vx=vx, vy=vy, vz=vz)
+    call finish(code, status)
+  end subroutine marks_add_reaction_rank3
+
+  !> Implements %add_reaction for arrays of rank 4.
+  subroutine marks_add_reaction_rank4(this, R, vx, vy, vz, weight, force, half_thickness, rim, &
+      moment, about, leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
+    class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
+    real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(in) :: vx(:, :, :, :) !< (n_nodes), the x component of the flow's velocity.
+    real(c_double), intent(in) :: vy(:, :, :, :) !< (n_nodes), the y component of the flow's velocity.
+    real(c_double), intent(in) :: vz(:, :, :, :) !< (n_nodes), the z component of the flow's velocity.
+    real(c_double), intent(in) :: weight(:, :, :, :) !< (n_nodes), the volume that belongs to a node; 0 for nodes
+                                                            !! of other ranks.
+    real(c_double), intent(inout), optional :: force(:)     !< (3): the force is added.
+    real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
+                                                            !! RIIS_AUTO: the half thickness of the marking.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
+                                                            !! RIIS_FIELD_RIM.
+    real(c_double), intent(inout), optional :: moment(:)    !< (3): the moment is added.
+    real(c_double), intent(in), optional :: about(:)        !< (3): the point of moment and leaflet_moment. Default 0.
+    real(c_double), intent(inout), optional :: leaflet_force(:, :) !< (3, n_leaflets): forces are added. n_leaflets is above
+                                                            !! the surface's largest leaflet id; leaflet 0 has column 1.
+    real(c_double), intent(inout), optional :: leaflet_moment(:, :) !< (3, n_leaflets): moments are added.
+    real(c_double), intent(in), optional :: edges(:, :, :)  !< (3, 2, n_edges): both ends of each edge, as from
+                                                            !! %get_attachment.
+    real(c_double), intent(inout), optional :: edge_force(:, :) !< (3, n_edges): forces are added. A node's force goes to
+                                                            !! the edge nearest to its closest point, or to the first
+                                                            !! of several equally near edges.
+    real(c_double), intent(inout), optional :: edge_moment(:, :) !< (3, n_edges): moments about each edge's middle are added.
+    integer(int32), intent(in), optional :: edge_leaflet_id(:) !< (n_edges): a node's force goes to the nearest edge of
+                                                            !! its leaflet. Default: the nearest edge of all leaflets.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(weight, kind=int64)
+    code = check_created(this%handle, 'the object marks')
+    call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
+      'weights', code)
+    call react(this%handle, R, n, weight, force, half_thickness, rim, moment, about, leaflet_force, leaflet_moment, edges, &
+      edge_force, edge_moment, edge_leaflet_id, code, vx=vx, vy=vy, vz=vz)
+    call finish(code, status)
+  end subroutine marks_add_reaction_rank4
+
+  ! The common part of all specific procedures of add_reaction. It does nothing after an error.
+  subroutine react(handle, R, n, weight, force, half_thickness, rim, moment, about, leaflet_force, leaflet_moment, edges, &
+      edge_force, edge_moment, edge_leaflet_id, code, velocity, vx, vy, vz)
+    type(c_ptr), intent(in) :: handle
+    integer(int64), intent(in) :: n
+    real(c_double), intent(in) :: R, weight(*)
+    real(c_double), intent(inout), optional :: force(:), moment(:), leaflet_force(:, :), leaflet_moment(:, :), &
+      edge_force(:, :), edge_moment(:, :)
+    real(c_double), intent(in), optional :: half_thickness, about(:), edges(:, :, :), velocity(3, *), vx(*), vy(*), vz(*)
+    class(*), intent(in), optional :: rim
+    integer(int32), intent(in), optional :: edge_leaflet_id(:)
+    integer(riis_status), intent(inout) :: code
     type(riis_resistance) :: made
     type(riis_reaction) :: to
     ! The library needs contiguous sums and edges, so it gets copies of the caller's arrays.
@@ -700,13 +967,9 @@ contains
       own_edge_moment(:, :)
     real(c_double), allocatable, target :: own_edges(:, :, :)
     integer(int32), allocatable, target :: own_edge_leaflet_id(:)
-    integer(int64) :: n, n_leaflets, n_edges
-    integer(riis_status) :: code
-    n = size(weight, kind=int64)
+    integer(int64) :: n_leaflets, n_edges
     n_leaflets = 0
     n_edges = 0
-    code = check_created(this%handle, 'the object marks')
-    if (code == RIIS_OK) code = check_vectors(velocity, n, 'velocity')
     if (present(force)) call check_three(size(force, kind=int64), 'force', code)
     if (present(moment)) call check_three(size(moment, kind=int64), 'moment', code)
     if (present(about)) call check_three(size(about, kind=int64), 'about', code)
@@ -726,10 +989,7 @@ contains
       code = check_size(size(edge_leaflet_id, kind=int64), n_edges, 'edge_leaflet_id', 'edges')
     call get_resistance(R, half_thickness, rim, made, code)
     if (code == RIIS_OK) code = riis_reaction_init(to, c_sizeof(to))
-    if (code /= RIIS_OK) then
-      call finish(code, status)
-      return
-    end if
+    if (code /= RIIS_OK) return
     if (present(about)) to%about = about
     to%n_leaflets = n_leaflets
     to%n_edges = n_edges
@@ -769,7 +1029,7 @@ contains
       allocate (own_edge_leaflet_id, source=edge_leaflet_id)
       to%edge_leaflet_id = location_of(own_edge_leaflet_id)
     end if
-    code = add_reaction_to(this%handle, made, n, velocity, weight, to)
+    code = add_reaction_to(handle, made, n, weight, to, velocity, vx, vy, vz)
     if (code == RIIS_OK) then
       if (present(force)) force = own_force
       if (present(moment)) moment = own_moment
@@ -782,19 +1042,19 @@ contains
     if (present(leaflet_moment)) deallocate (own_leaflet_moment)
     if (present(edge_force)) deallocate (own_edge_force)
     if (present(edge_moment)) deallocate (own_edge_moment)
-    call finish(code, status)
-  end subroutine marks_add_reaction
+  end subroutine react
 
   !> Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets. The force of a
   !! node goes to the vertices of its closest triangle, in the shares of the closest point's barycentric coordinates. Ranks add
   !! their forces by a reduction. Errors: as for %add_reaction; RIIS_INVALID_ARGUMENT also for another number of vertices, and for
   !! a surface that lacks the closest triangle of a node.
-  subroutine marks_add_vertex_reaction(this, surface, R, velocity, weight, vertex_force, half_thickness, rim, status)
+  subroutine marks_add_vertex_reaction_vectors(this, surface, R, velocity, weight, vertex_force, &
+      half_thickness, rim, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_BARYCENTRIC.
     class(riis_surface), intent(in) :: surface              !< The surface of the marking, without an update since then.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-    real(c_double), intent(in) :: velocity(:, :) !< (3, n_nodes), the flow's velocity.
-    real(c_double), intent(in) :: weight(:)     !< (n_nodes), the volume that belongs to a node; 0 for nodes of
+    real(c_double), intent(in) :: velocity(:, :)            !< (3, n_nodes), the flow's velocity.
+    real(c_double), intent(in) :: weight(:)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of
                                                             !! other ranks.
     real(c_double), intent(inout) :: vertex_force(:, :)     !< (3, n_vertices): forces are added.
     real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
@@ -807,14 +1067,110 @@ contains
     integer(riis_status) :: code
     n = size(weight, kind=int64)
     code = check_created(this%handle, 'the object marks')
-    if (code == RIIS_OK) code = check_created(surface%c_handle(), 'the surface')
     if (code == RIIS_OK) code = check_vectors(velocity, n, 'velocity')
+    if (code == RIIS_OK) code = check_created(surface%c_handle(), 'the surface')
     if (code == RIIS_OK) code = check_vectors(vertex_force, size(vertex_force, 2, int64), 'vertex_force')
     call get_resistance(R, half_thickness, rim, made, code)
-    if (code == RIIS_OK) code = add_vertex_reaction_to(this%handle, surface%c_handle(), made, n, velocity, weight, &
-      size(vertex_force, 2, int64), vertex_force)
+    if (code == RIIS_OK) code = add_vertex_reaction_to(this%handle, surface%c_handle(), made, n, weight, &
+      size(vertex_force, 2, int64), vertex_force, velocity=velocity)
     call finish(code, status)
-  end subroutine marks_add_vertex_reaction
+  end subroutine marks_add_vertex_reaction_vectors
+
+  !> Does the same for solvers with the velocity in three arrays. Arrays of rank 3 or 4 are also taken, as by %add_resistance.
+  subroutine marks_add_vertex_reaction_rank1(this, surface, R, vx, vy, vz, weight, vertex_force, &
+      half_thickness, rim, status)
+    class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_BARYCENTRIC.
+    class(riis_surface), intent(in) :: surface              !< The surface of the marking, without an update since then.
+    real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(in) :: vx(:) !< (n_nodes), the x component of the flow's velocity.
+    real(c_double), intent(in) :: vy(:) !< (n_nodes), the y component of the flow's velocity.
+    real(c_double), intent(in) :: vz(:) !< (n_nodes), the z component of the flow's velocity.
+    real(c_double), intent(in) :: weight(:) !< (n_nodes), the volume that belongs to a node; 0 for nodes
+                                                            !! of other ranks.
+    real(c_double), intent(inout) :: vertex_force(:, :)     !< (3, n_vertices): forces are added.
+    real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
+                                                            !! RIIS_AUTO: the half thickness of the marking.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
+                                                            !! RIIS_FIELD_RIM.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_resistance) :: made
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(weight, kind=int64)
+    code = check_created(this%handle, 'the object marks')
+    call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
+      'weights', code)
+    if (code == RIIS_OK) code = check_created(surface%c_handle(), 'the surface')
+    if (code == RIIS_OK) code = check_vectors(vertex_force, size(vertex_force, 2, int64), 'vertex_force')
+    call get_resistance(R, half_thickness, rim, made, code)
+    if (code == RIIS_OK) code = add_vertex_reaction_to(this%handle, surface%c_handle(), made, n, weight, &
+      size(vertex_force, 2, int64), vertex_force, vx=vx, vy=vy, vz=vz)
+    call finish(code, status)
+  end subroutine marks_add_vertex_reaction_rank1
+
+  !> Implements %add_vertex_reaction for arrays of rank 3.
+  subroutine marks_add_vertex_reaction_rank3(this, surface, R, vx, vy, vz, weight, vertex_force, &
+      half_thickness, rim, status)
+    class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_BARYCENTRIC.
+    class(riis_surface), intent(in) :: surface              !< The surface of the marking, without an update since then.
+    real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(in) :: vx(:, :, :) !< (n_nodes), the x component of the flow's velocity.
+    real(c_double), intent(in) :: vy(:, :, :) !< (n_nodes), the y component of the flow's velocity.
+    real(c_double), intent(in) :: vz(:, :, :) !< (n_nodes), the z component of the flow's velocity.
+    real(c_double), intent(in) :: weight(:, :, :) !< (n_nodes), the volume that belongs to a node; 0 for nodes
+                                                            !! of other ranks.
+    real(c_double), intent(inout) :: vertex_force(:, :)     !< (3, n_vertices): forces are added.
+    real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
+                                                            !! RIIS_AUTO: the half thickness of the marking.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
+                                                            !! RIIS_FIELD_RIM.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_resistance) :: made
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(weight, kind=int64)
+    code = check_created(this%handle, 'the object marks')
+    call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
+      'weights', code)
+    if (code == RIIS_OK) code = check_created(surface%c_handle(), 'the surface')
+    if (code == RIIS_OK) code = check_vectors(vertex_force, size(vertex_force, 2, int64), 'vertex_force')
+    call get_resistance(R, half_thickness, rim, made, code)
+    if (code == RIIS_OK) code = add_vertex_reaction_to(this%handle, surface%c_handle(), made, n, weight, &
+      size(vertex_force, 2, int64), vertex_force, vx=vx, vy=vy, vz=vz)
+    call finish(code, status)
+  end subroutine marks_add_vertex_reaction_rank3
+
+  !> Implements %add_vertex_reaction for arrays of rank 4.
+  subroutine marks_add_vertex_reaction_rank4(this, surface, R, vx, vy, vz, weight, vertex_force, &
+      half_thickness, rim, status)
+    class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_BARYCENTRIC.
+    class(riis_surface), intent(in) :: surface              !< The surface of the marking, without an update since then.
+    real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(in) :: vx(:, :, :, :) !< (n_nodes), the x component of the flow's velocity.
+    real(c_double), intent(in) :: vy(:, :, :, :) !< (n_nodes), the y component of the flow's velocity.
+    real(c_double), intent(in) :: vz(:, :, :, :) !< (n_nodes), the z component of the flow's velocity.
+    real(c_double), intent(in) :: weight(:, :, :, :) !< (n_nodes), the volume that belongs to a node; 0 for nodes
+                                                            !! of other ranks.
+    real(c_double), intent(inout) :: vertex_force(:, :)     !< (3, n_vertices): forces are added.
+    real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
+                                                            !! RIIS_AUTO: the half thickness of the marking.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
+                                                            !! RIIS_FIELD_RIM.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_resistance) :: made
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(weight, kind=int64)
+    code = check_created(this%handle, 'the object marks')
+    call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
+      'weights', code)
+    if (code == RIIS_OK) code = check_created(surface%c_handle(), 'the surface')
+    if (code == RIIS_OK) code = check_vectors(vertex_force, size(vertex_force, 2, int64), 'vertex_force')
+    call get_resistance(R, half_thickness, rim, made, code)
+    if (code == RIIS_OK) code = add_vertex_reaction_to(this%handle, surface%c_handle(), made, n, weight, &
+      size(vertex_force, 2, int64), vertex_force, vx=vx, vy=vy, vz=vz)
+    call finish(code, status)
+  end subroutine marks_add_vertex_reaction_rank4
 
   ! Refuses a vector of another size. Does nothing after an error.
   subroutine check_three(n, name, code)
@@ -827,12 +1183,12 @@ contains
   !> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side. Nodes whose
   !! closest point is on the rim, or that are on neither side, are left out. If the valve is open, the two sides have no meaning.
   !! Errors: RIIS_INVALID_ARGUMENT for a distance out of range, another number of nodes, or a field that the marks lack.
-  subroutine marks_band_sums(this, inner, outer, value, weight, sums, status)
+  subroutine marks_band_sums_rank1(this, inner, outer, value, weight, sums, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_SIDE + RIIS_FIELD_RIM.
     real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
     real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
-    real(c_double), intent(in) :: value(:)      !< (n_nodes).
-    real(c_double), intent(in) :: weight(:)     !< (n_nodes), the volume that belongs to a node; 0 for nodes of
+    real(c_double), intent(in) :: value(:) !< (n_nodes).
+    real(c_double), intent(in) :: weight(:) !< (n_nodes), the volume that belongs to a node; 0 for nodes of
                                                             !! other ranks.
     type(riis_band_sums), intent(inout) :: sums             !< Entry 1 is upstream, 2 downstream. Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
@@ -844,7 +1200,47 @@ contains
     if (code == RIIS_OK) &
       code = band_sums_of(this%handle, inner, outer, n, value, weight, sums)
     call finish(code, status)
-  end subroutine marks_band_sums
+  end subroutine marks_band_sums_rank1
+
+  !> Implements %band_sums for arrays of rank 3.
+  subroutine marks_band_sums_rank3(this, inner, outer, value, weight, sums, status)
+    class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_SIDE + RIIS_FIELD_RIM.
+    real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
+    real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
+    real(c_double), intent(in) :: value(:, :, :) !< (n_nodes).
+    real(c_double), intent(in) :: weight(:, :, :) !< (n_nodes), the volume that belongs to a node; 0 for nodes of
+                                                            !! other ranks.
+    type(riis_band_sums), intent(inout) :: sums             !< Entry 1 is upstream, 2 downstream. Unchanged on an error.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(value, kind=int64)
+    code = check_created(this%handle, 'the object marks')
+    if (code == RIIS_OK) code = check_size(size(weight, kind=int64), n, 'weight', 'values')
+    if (code == RIIS_OK) &
+      code = band_sums_of(this%handle, inner, outer, n, value, weight, sums)
+    call finish(code, status)
+  end subroutine marks_band_sums_rank3
+
+  !> Implements %band_sums for arrays of rank 4.
+  subroutine marks_band_sums_rank4(this, inner, outer, value, weight, sums, status)
+    class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_SIDE + RIIS_FIELD_RIM.
+    real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
+    real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
+    real(c_double), intent(in) :: value(:, :, :, :) !< (n_nodes).
+    real(c_double), intent(in) :: weight(:, :, :, :) !< (n_nodes), the volume that belongs to a node; 0 for nodes of
+                                                            !! other ranks.
+    type(riis_band_sums), intent(inout) :: sums             !< Entry 1 is upstream, 2 downstream. Unchanged on an error.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(value, kind=int64)
+    code = check_created(this%handle, 'the object marks')
+    if (code == RIIS_OK) code = check_size(size(weight, kind=int64), n, 'weight', 'values')
+    if (code == RIIS_OK) &
+      code = band_sums_of(this%handle, inner, outer, n, value, weight, sums)
+    call finish(code, status)
+  end subroutine marks_band_sums_rank4
 
   !> Gives the statistics of the last marking.
   subroutine marks_get_stats(this, stats, status)

@@ -70,6 +70,8 @@ module riisf
   public :: riisf_keyframes_destroy
   public :: riisf_surface_vertices
   public :: riisf_surface_vertices_64
+  public :: riisf_surface_triangles
+  public :: riisf_surface_triangles_64
   public :: riisf_surface_vertex_velocities
   public :: riisf_surface_vertex_velocities_64
   public :: riisf_surface_attachment
@@ -108,14 +110,24 @@ module riisf
   public :: riisf_add_resistance_64
   public :: riisf_add_moving_resistance
   public :: riisf_add_moving_resistance_64
+  public :: riisf_add_resistance_components
+  public :: riisf_add_resistance_components_64
   public :: riisf_add_reaction
   public :: riisf_add_reaction_64
+  public :: riisf_add_reaction_components
+  public :: riisf_add_reaction_components_64
   public :: riisf_add_leaflet_reaction
   public :: riisf_add_leaflet_reaction_64
+  public :: riisf_add_leaflet_reaction_components
+  public :: riisf_add_leaflet_reaction_components_64
   public :: riisf_add_edge_reaction
   public :: riisf_add_edge_reaction_64
+  public :: riisf_add_edge_reaction_components
+  public :: riisf_add_edge_reaction_components_64
   public :: riisf_add_vertex_reaction
   public :: riisf_add_vertex_reaction_64
+  public :: riisf_add_vertex_reaction_components
+  public :: riisf_add_vertex_reaction_components_64
   public :: riisf_band_sums
   public :: riisf_band_sums_64
   public :: riisf_loads_sums
@@ -1113,6 +1125,34 @@ module riisf
       integer(riis_status), intent(out) :: status
     end subroutine riisf_surface_vertices_64
 
+    subroutine riisf_surface_triangles(surface, length, n, vertex_num, triangle_id, leaflet_id, patch_id, status)
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      integer(int32), intent(in) :: length
+      integer(int32), intent(inout) :: n
+      integer(int32), intent(inout) :: vertex_num(3, *)
+      integer(int64), intent(inout) :: triangle_id(*)
+      integer(int32), intent(inout) :: leaflet_id(*)
+      integer(int32), intent(inout) :: patch_id(*)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_triangles
+
+    subroutine riisf_surface_triangles_64(surface, length, n, vertex_num, triangle_id, leaflet_id, patch_id, status)
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      integer(int64), intent(in) :: length
+      integer(int64), intent(inout) :: n
+      integer(int64), intent(inout) :: vertex_num(3, *)
+      integer(int64), intent(inout) :: triangle_id(*)
+      integer(int32), intent(inout) :: leaflet_id(*)
+      integer(int32), intent(inout) :: patch_id(*)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_triangles_64
+
     subroutine riisf_surface_vertex_velocities(surface, length, n, velocity, status)
       use, intrinsic :: iso_c_binding, only: c_double
       use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1645,6 +1685,41 @@ module riisf
       integer(riis_status), intent(out) :: status
     end subroutine riisf_add_moving_resistance_64
 
+    subroutine riisf_add_resistance_components(marks, R, half_thickness, rim, n_nodes, K, K_u_x, K_u_y, K_u_z, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int32), intent(in) :: n_nodes
+      real(c_double), intent(inout) :: K(*)
+      real(c_double), intent(inout) :: K_u_x(*)
+      real(c_double), intent(inout) :: K_u_y(*)
+      real(c_double), intent(inout) :: K_u_z(*)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_resistance_components
+
+    subroutine riisf_add_resistance_components_64(marks, R, half_thickness, rim, n_nodes, K, K_u_x, K_u_y, K_u_z, &
+        status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int64), intent(in) :: n_nodes
+      real(c_double), intent(inout) :: K(*)
+      real(c_double), intent(inout) :: K_u_x(*)
+      real(c_double), intent(inout) :: K_u_y(*)
+      real(c_double), intent(inout) :: K_u_z(*)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_resistance_components_64
+
     subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
       use, intrinsic :: iso_c_binding, only: c_double
       use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1676,6 +1751,43 @@ module riisf
       real(c_double), intent(inout) :: force(3)
       integer(riis_status), intent(out) :: status
     end subroutine riisf_add_reaction_64
+
+    subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, force, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int32), intent(in) :: n_nodes
+      real(c_double), intent(in) :: vx(*)
+      real(c_double), intent(in) :: vy(*)
+      real(c_double), intent(in) :: vz(*)
+      real(c_double), intent(in) :: weight(*)
+      real(c_double), intent(inout) :: force(3)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_reaction_components
+
+    subroutine riisf_add_reaction_components_64(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, force, &
+        status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int64), intent(in) :: n_nodes
+      real(c_double), intent(in) :: vx(*)
+      real(c_double), intent(in) :: vy(*)
+      real(c_double), intent(in) :: vz(*)
+      real(c_double), intent(in) :: weight(*)
+      real(c_double), intent(inout) :: force(3)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_reaction_components_64
 
     subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, about, n_leaflets, &
         force, moment, leaflet_force, leaflet_moment, status)
@@ -1721,6 +1833,54 @@ module riisf
       integer(riis_status), intent(out) :: status
     end subroutine riisf_add_leaflet_reaction_64
 
+    subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, &
+        about, n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int32), intent(in) :: n_nodes
+      real(c_double), intent(in) :: vx(*)
+      real(c_double), intent(in) :: vy(*)
+      real(c_double), intent(in) :: vz(*)
+      real(c_double), intent(in) :: weight(*)
+      real(c_double), intent(in) :: about(3)
+      integer(int32), intent(in) :: n_leaflets
+      real(c_double), intent(inout) :: force(3)
+      real(c_double), intent(inout) :: moment(3)
+      real(c_double), intent(inout) :: leaflet_force(3, *)
+      real(c_double), intent(inout) :: leaflet_moment(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_leaflet_reaction_components
+
+    subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, &
+        about, n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int64), intent(in) :: n_nodes
+      real(c_double), intent(in) :: vx(*)
+      real(c_double), intent(in) :: vy(*)
+      real(c_double), intent(in) :: vz(*)
+      real(c_double), intent(in) :: weight(*)
+      real(c_double), intent(in) :: about(3)
+      integer(int32), intent(in) :: n_leaflets
+      real(c_double), intent(inout) :: force(3)
+      real(c_double), intent(inout) :: moment(3)
+      real(c_double), intent(inout) :: leaflet_force(3, *)
+      real(c_double), intent(inout) :: leaflet_moment(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_leaflet_reaction_components_64
+
     subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, n_edges, edges, &
         edge_leaflet_id, edge_force, edge_moment, status)
       use, intrinsic :: iso_c_binding, only: c_double
@@ -1763,6 +1923,52 @@ module riisf
       integer(riis_status), intent(out) :: status
     end subroutine riisf_add_edge_reaction_64
 
+    subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, n_edges, &
+        edges, edge_leaflet_id, edge_force, edge_moment, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int32), intent(in) :: n_nodes
+      real(c_double), intent(in) :: vx(*)
+      real(c_double), intent(in) :: vy(*)
+      real(c_double), intent(in) :: vz(*)
+      real(c_double), intent(in) :: weight(*)
+      integer(int32), intent(in) :: n_edges
+      real(c_double), intent(in) :: edges(3, 2, *)
+      integer(int32), intent(in) :: edge_leaflet_id(*)
+      real(c_double), intent(inout) :: edge_force(3, *)
+      real(c_double), intent(inout) :: edge_moment(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_edge_reaction_components
+
+    subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, &
+        n_edges, edges, edge_leaflet_id, edge_force, edge_moment, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int64), intent(in) :: n_nodes
+      real(c_double), intent(in) :: vx(*)
+      real(c_double), intent(in) :: vy(*)
+      real(c_double), intent(in) :: vz(*)
+      real(c_double), intent(in) :: weight(*)
+      integer(int64), intent(in) :: n_edges
+      real(c_double), intent(in) :: edges(3, 2, *)
+      integer(int32), intent(in) :: edge_leaflet_id(*)
+      real(c_double), intent(inout) :: edge_force(3, *)
+      real(c_double), intent(inout) :: edge_moment(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_edge_reaction_components_64
+
     subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_nodes, velocity, weight, &
         n_vertices, vertex_force, status)
       use, intrinsic :: iso_c_binding, only: c_double
@@ -1800,6 +2006,48 @@ module riisf
       real(c_double), intent(inout) :: vertex_force(3, *)
       integer(riis_status), intent(out) :: status
     end subroutine riisf_add_vertex_reaction_64
+
+    subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thickness, rim, n_nodes, vx, vy, vz, &
+        weight, n_vertices, vertex_force, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      integer(int64), intent(in) :: surface
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int32), intent(in) :: n_nodes
+      real(c_double), intent(in) :: vx(*)
+      real(c_double), intent(in) :: vy(*)
+      real(c_double), intent(in) :: vz(*)
+      real(c_double), intent(in) :: weight(*)
+      integer(int32), intent(in) :: n_vertices
+      real(c_double), intent(inout) :: vertex_force(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_vertex_reaction_components
+
+    subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thickness, rim, n_nodes, vx, vy, vz, &
+        weight, n_vertices, vertex_force, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      integer(int64), intent(in) :: surface
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int64), intent(in) :: n_nodes
+      real(c_double), intent(in) :: vx(*)
+      real(c_double), intent(in) :: vy(*)
+      real(c_double), intent(in) :: vz(*)
+      real(c_double), intent(in) :: weight(*)
+      integer(int64), intent(in) :: n_vertices
+      real(c_double), intent(inout) :: vertex_force(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_vertex_reaction_components_64
 
     subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
         status)

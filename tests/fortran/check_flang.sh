@@ -21,15 +21,15 @@ tests=$source/tests/fortran
 for name in checks box; do
   "$flang" -O1 -c "$tests/$name.f90"
 done
-for name in test_calls test_objects test_meshes test_marking test_resistance test_laws test_frames test_f2003 \
+for name in test_calls test_objects test_meshes test_marking test_resistance test_components test_laws test_frames test_f2003 \
     error_stop; do
   "$flang" -O1 "$tests/$name.f90" ./*.o "${link[@]}" -o "$name"
 done
-for name in test_f77 test_f77_motion; do
+for name in test_f77 test_f77_motion test_f77_loads test_f77_arrays; do
   "$flang" -O1 -I"$source/fortran/generated" "$tests/$name.f" "$tests/f77_checks.f" ./riis*.o "${link[@]}" -o "$name"
 done
-for name in test_calls test_objects test_meshes test_marking test_resistance test_laws test_frames test_f2003 \
-    test_f77 test_f77_motion; do
+for name in test_calls test_objects test_meshes test_marking test_resistance test_components test_laws test_frames test_f2003 \
+    test_f77 test_f77_motion test_f77_loads test_f77_arrays; do
   echo "$name"
   "./$name"
 done

@@ -505,6 +505,16 @@ class Page(Planted):
         self.assertEqual(self.judge()[0], 0)
         self.assertEqual(self.judge("--check")[0], 0)
 
+    def test_every_form_of_a_generic_name(self):
+        source = "fortran/generated/riis_meshes.f90"
+        head = "subroutine mesh_create_x_y_z(this, x, y, z, status)"
+        self.plant(source, head, "subroutine mesh_create_x_y_z(this, x, y, planted, status)")
+        self.says("-call mesh%create(x, y, z [, status])", "+call mesh%create(x, y, planted [, status])")
+        self.setUp()
+        self.plant(source, head, "subroutine mesh_create_x_y_z(this, xyz, status)")
+        status, text = self.judge("--check")
+        self.assertEqual((status, text.count("+call")), (1, 0), text)
+
 
 class Keywords(Planted):
     def judge(self):

@@ -539,7 +539,7 @@ C     node to the last one.
 C     Places a valve by landmarks in millimetres.
       SUBROUTINE PLACES
       INTEGER*8 VALVE
-      INTEGER STAT, I, ROLE(6), LEAF(2, 6), STATES(16)
+      INTEGER STAT, I, ROLE(6), LEAF(2, 6), STATES(99)
       DOUBLE PRECISION XYZ(3, 6), FLOW(3), AXIS(3), ANGLE, MOVE(3)
       DOUBLE PRECISION RESID(6), RADIUS(1), TURN
       DATA FLOW /3*0D0/, LEAF /12*-1/

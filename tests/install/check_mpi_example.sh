@@ -37,3 +37,8 @@ check() { # arguments: example, and the lines that it must print
 
 check mpi_partition "19683 nodes, marked: 823" "$n_ranks ranks, marked: 823, the same nodes and distances"
 check mpi_leaks "19683 nodes, 2 open regions: the valve seals" "$n_ranks ranks: the same labels"
+if [[ " $* " == *" Fortran "* ]]; then
+  suffixes=("")
+  check mpi_fixed_form "step 1, marked nodes: 818" "step 2, marked nodes: 791" "step 3, marked nodes: 776" \
+    "$n_ranks ranks: the same sums as the whole grid"
+fi
