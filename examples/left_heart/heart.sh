@@ -8,8 +8,8 @@ heart_fused='kind bicuspid; commissure_0.fusion 0.28; commissure_1.fusion 0.28; 
 heart_coapting='kind mitral_coapting; AP_diameter 3.1; ALPM_diameter 4; translation (0 0.1 1.2); skirt_length 1;'
 heart_flail='bump_0.leaflet 1; bump_0.lift 1.3; bump_0.width 0.45;'
 # The clip draws the flail P2 down, and holds A2 and P2 together.
-heart_clip='bump_0.leaflet 1; bump_0.lift 0.3; bump_0.width 0.45; bump_1.leaflet 0; bump_1.open 0.2; bump_1.width 0.2;
-  bump_2.leaflet 1; bump_2.open 0.2; bump_2.width 0.2;'
+heart_clip='bump_0.leaflet 1; bump_0.lift 0.3; bump_0.width 0.45; bump_1.leaflet 0; bump_1.open 0.3; bump_1.width 0.2;
+  bump_2.leaflet 1; bump_2.open 0.3; bump_2.width 0.2;'
 heart_least_opening=1e-4 # of the flail valve, whose table then has an orifice in place of a leak
 # shellcheck source=examples/left_heart/coupled/coupled.sh
 . "$heart_here/coupled/coupled.sh"
