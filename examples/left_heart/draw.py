@@ -168,6 +168,8 @@ def hearts(picture, *cases):
             valves(below, case, time, tilt=0, above=True)
             below.set(xlim=(-34, 34), ylim=(-21, 21))
             above.set_title(f"{clinic.name_of(case)}, {float(time):.2f} s", fontsize=10)
+    for one in axes[::2, 0]:
+        one.set_ylabel("z, mm")
     figure.colorbar(colours, ax=axes[::2], label="speed, m/s", shrink=0.5, extend="max")
     figure.savefig(picture, dpi=90)
     plt.close(figure)
