@@ -158,15 +158,15 @@ def loops(picture, *words):
 
 def hearts(picture, *cases):
     """Draws in a column for each heart: the speed in ejection and in the E wave, and below each the valves from above."""
-    figure, axes = plt.subplots(4, len(cases), figsize=(2.9 * len(cases), 11.5), height_ratios=(2.9, 1.3, 2.9, 1.3), sharex=True,
+    figure, axes = plt.subplots(4, len(cases), figsize=(2.9 * len(cases), 11.5), height_ratios=(2.7, 1.2, 2.7, 1.2), sharex=True,
                                 squeeze=False, layout="constrained")
     for column, case in zip(axes.T, map(pathlib.Path, cases)):
         ejection, _, e_wave, _ = at_openings(case, check.Beat(case), clinic.written(case))
         for (above, below), time in zip(column.reshape(2, 2), (ejection, e_wave)):
             colours = slice_at(above, case, time, 2)
-            above.set(xlim=(-34, 34), ylim=(-78, 42))
+            above.set(xlim=(-36, 36), ylim=(-78, 42))
             valves(below, case, time, tilt=0, above=True)
-            below.set(xlim=(-34, 34), ylim=(-21, 21))
+            below.set(xlim=(-36, 36), ylim=(-24, 24))
             above.set_title(f"{clinic.name_of(case)}, {float(time):.2f} s", fontsize=10)
     for one in axes[::2, 0]:
         one.set_ylabel("z, mm")
