@@ -91,7 +91,7 @@ class Diseases(unittest.TestCase):
             self.assertIn(words, missed[0])
 
     def test_regurgitant_area(self):
-        """Blood at 100 mmHg leaves an area of 0.3 cm2 at 5.02 m/s. Where the ventricle hardly drives it, its flow does not count."""
+        """Blood at 100 mmHg leaves an area of 0.3 cm2 at 5.02 m/s. The flow at small differences does not count."""
         difference = np.array([100.0, 100.0, 20.0, -5.0])
         flow = np.array([-0.3 * 502, -0.3 * 502, -400, 300])  # ml/s
         self.assertAlmostEqual(clinic.regurgitant_area(flow, difference), 0.3, delta=1e-3)
@@ -104,8 +104,7 @@ class Dilated(unittest.TestCase):
     AXIAL = BASE / LENGTH  # the apex rests
 
     def case(self):
-        """Returns a case whose mesh is a half ellipsoid below z = 0: 40 meridians of 30 points, the apex, and the middle of the base.
-        """
+        """Returns a case whose mesh is a half ellipsoid below z = 0. Its last points are the apex and the middle of the base."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         case = pathlib.Path(folder.name)
@@ -151,8 +150,7 @@ class Dilated(unittest.TestCase):
         self.assertGreater(base, 2e-3)
 
         # Seen from the middle of the base, only the wall's triangles have a volume.
-        at_rest, start = (abs(np.linalg.det(np.stack([corners[faces[:, k]] - corners[-1] for k in range(3)], axis=1)).sum()) / 6e-6
-                          for corners in (points, started))
+        at_rest, start = (abs(np.linalg.det((corners - corners[-1])[faces]).sum()) / 6e-6 for corners in (points, started))
         self.assertAlmostEqual(start - at_rest, 160 - zero_d.AT_REST, delta=1e-3)
         volumes = check.volumes(case, [0.1, 0.4, 0.8])
         np.testing.assert_allclose(volumes[1:] - volumes[0], [50 * np.cos(np.pi / 4) - 50, -100, 0], atol=2e-3)

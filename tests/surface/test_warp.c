@@ -515,8 +515,8 @@ TEST(closed_and_open_landmarks_are_met) {
 
 /* --- In a mesh -------------------------------------------------------------------------------------------------------- */
 
-/* The valve and the mesh of its root are warped alike. In the closed state, the valve separates the mesh. When it is open, it does
- * not. A saddle's annulus is no circle, so its skirt closes the gap to the wall. */
+/* The valve and the mesh of its root are warped alike. The closed valve separates the mesh, and the open one does not. A
+ * saddle's annulus is no circle, so its skirt closes the gap to the wall. */
 TEST(warped_valves_seal) {
   static const char *const sealing[3] = {"trileaflet", "mitral_coapting", "tricuspid"};
   for (int trial = 0; trial < 6; ++trial) {
