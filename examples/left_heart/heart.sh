@@ -17,7 +17,7 @@ heart_least_opening=1e-4 # of the flail valve, whose table then has an orifice i
 # ./run heart [--resume] [--offset O] [--all | --coupled | --walls] [--short]
 #   Beats a left heart in OpenFOAM: a ventricle whose wall moves, with a mitral and an aortic valve, which a heart without space
 #   drives. It measures leaks, and checks the balance of blood, the pressures, 1 and 2 ranks and a restart. It leaves tables,
-#   pictures and a movie in out/heart. --all adds hearts with a stenotic aortic valve, with a flail mitral leaflet, and with a clip.
+#   pictures and a movie in out/heart. --all adds three hearts: a stenotic aortic valve, a flail mitral leaflet, a clip on it.
 #   --short has one beat in a coarse mesh. --offset 0 has bands around the leaflets with round rims, in place of bands that step
 #   aside by 0.75 half thicknesses, with cut rims. With --coupled, the pressures of the flow open the valves, and the wall moves
 #   by its elastance. --walls compares the open aortic valve with the same leaflets as walls. --resume continues a run that was
