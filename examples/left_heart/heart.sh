@@ -82,8 +82,8 @@ run_heart() {
     heart_diseased "$name"
     hearts+=("$of_cases/$name" "$of_out/$name")
   done
-  heart_python clinic.py "${hearts[@]}" | tee "$of_out/clinic.txt"
   [[ ! ${heart_diseases[*]} ]] || step "draw the diseased hearts" heart_draw_diseases
+  heart_python clinic.py "${hearts[@]}" | tee "$of_out/clinic.txt"
   say "wrote out/heart, and the beat in $of_cases/beat"
 }
 
