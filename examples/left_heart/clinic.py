@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Prints a clinician's usual numbers of the last beat, with a column for each heart.
+"""Prints a clinician's usual numbers of the last beat, with a column for each heart. The exit status is 1 if a diseased heart
+misses what its disease asks for.
 
     clinic.py CASE TABLES [CASE TABLES ...]
 
@@ -16,6 +17,15 @@ from check import foam
 from zero_d import ML, MMHG, PERIOD, RHO
 
 NONE = float("nan")
+BACK, SHARE = "blood back through the mitral valve, ml", "share of it in the stroke volume"
+MEAN_GRADIENT = "aortic gradient, mean over the ejection, mmHg"
+MITRAL_AREA = "effective area of the open mitral valve, cm2"
+
+
+def name_of(case):
+    """Returns the heart's name for people: the name of its case, but for the healthy one."""
+    name = pathlib.Path(case).name
+    return "healthy" if name == "beat" else name
 
 
 def written(case):
@@ -67,6 +77,12 @@ def vortex(points, corners, velocity):
     return best
 
 
+def regurgitant_area(flow, difference):
+    """Returns the area in cm2 through which blood goes back while the ventricle is 40 mmHg above the atrium."""
+    driven = difference > 40
+    return -flow[driven].mean() * ML * np.sqrt(RHO / (2 * difference[driven].mean() * MMHG)) * 1e4
+
+
 def numbers(case, tables):
     """Returns the numbers of the last whole beat."""
     case, tables = pathlib.Path(case), pathlib.Path(tables)
@@ -102,6 +118,7 @@ def numbers(case, tables):
     gradient = (ventricle - aorta)[forward]
     effective = aortic[forward].mean() * ML * np.sqrt(RHO / (2 * gradient.mean() * MMHG))
     back = -np.clip(mitral, None, 0).sum() * step
+    fills = (mitral > 0) & open_["mitral"]
 
     jets, drops, swirls = [], [], []
     for name in written(case):
@@ -124,17 +141,20 @@ def numbers(case, tables):
         "stroke volume, ml": stroke,
         "ejection fraction": stroke / volume.max(),
         "blood into the aorta, ml": aortic.sum() * step,
-        "blood back through the mitral valve, ml": back,
-        "share of it in the stroke volume": back / stroke,
+        BACK: back,
+        SHARE: back / stroke,
         "pressure in the ventricle, end of diastole, mmHg": ventricle[np.argmax(volume)],
         "largest pressure in the ventricle, mmHg": ventricle.max(),
         "pressure in the aorta, mmHg": (aorta.min(), aorta.max()),
         "pressure in the atrium, mean, mmHg": atrium.mean(),
         "largest pressure in the atrium, mmHg": atrium.max(),
-        "aortic gradient, mean over the ejection, mmHg": gradient.mean(),
+        MEAN_GRADIENT: gradient.mean(),
         "the same, while the ventricle is above the aorta": gradient[gradient > 0].mean(),
         "aortic gradient, largest, mmHg": gradient.max(),
         "effective aortic area, cm2": effective * 1e4,
+        "mitral gradient, mean over the filling, mmHg": (atrium - ventricle)[fills].mean(),
+        MITRAL_AREA: area * 1e4,
+        "effective regurgitant area of the mitral valve, cm2": regurgitant_area(mitral, ventricle - atrium),
         "largest flow into the aorta, ml/s": aortic.max(),
         "fastest blood in the aorta, m/s": max(jets),
         "jet area, largest flow over fastest blood, cm2": aortic.max() * ML / max(jets) * 1e4,
@@ -151,6 +171,22 @@ def numbers(case, tables):
     }, swirl
 
 
+def demand_diseases(hearts):
+    """Demands of each diseased heart what patients have. `hearts` has the numbers of each heart by its name."""
+    if "stenosis" in hearts:
+        gradient = hearts["stenosis"][MEAN_GRADIENT]
+        check.demand(gradient > 40, f"stenosis: the mean gradient is {gradient:.1f} mmHg (above 40)")
+    if "flail" not in hearts:
+        return
+    flail = hearts["flail"]
+    check.demand(flail[SHARE] > 0.4, f"flail: {100 * flail[SHARE]:.0f} % of the stroke volume go back (above 40)")
+    if "clip" in hearts:
+        clip = hearts["clip"]
+        less = 1 - clip[MITRAL_AREA] / flail[MITRAL_AREA]
+        check.demand(0.35 <= less <= 0.5, f"clip: the open valve has {100 * less:.0f} % less area (35 to 50)")
+        check.demand(clip[BACK] <= flail[BACK] / 2, f"clip: {clip[BACK]:.1f} ml go back in place of {flail[BACK]:.1f} (half)")
+
+
 def show(value):
     if isinstance(value, tuple):
         return " to ".join(show(one) for one in value)
@@ -160,13 +196,14 @@ def show(value):
 def main(words):
     if not words or len(words) % 2:
         sys.exit(__doc__)
-    hearts = [numbers(case, tables) for case, tables in zip(words[::2], words[1::2])]
-    names = ["healthy" if pathlib.Path(case).name == "beat" else pathlib.Path(case).name for case in words[::2]]
-    print("| last beat | " + " | ".join(names) + " |\n|---|" + "---|" * len(names))
-    for row in hearts[0][0]:
-        print(f"| {row} | " + " | ".join(show(values[row]) for values, _ in hearts) + " |")
-    for name, (_, (_, (y, z), radius, time)) in zip(names, hearts):
+    hearts = {name_of(case): numbers(case, tables) for case, tables in zip(words[::2], words[1::2])}
+    print("| last beat | " + " | ".join(hearts) + " |\n|---|" + "---|" * len(hearts))
+    for row in next(iter(hearts.values()))[0]:
+        print(f"| {row} | " + " | ".join(show(values[row]) for values, _ in hearts.values()) + " |")
+    for name, (_, (_, (y, z), radius, time)) in hearts.items():
         print(f"{name}: the strongest vortex has its middle at y {y:.0f}, z {z:.0f} mm, radius {radius:.0f} mm, at {time:.2f} s")
+    demand_diseases({name: values for name, (values, _) in hearts.items()})
+    sys.exit(1 if check.failures else 0)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 
     draw.py CASE ZERO_D.csv OUT      # OUT/loop.png, OUT/heart.png, and with ffmpeg OUT/heart.mp4
     draw.py loops PICTURE CASE TABLES [CASE TABLES ...]    # the loop of each heart; the folder TABLES has its zero_d.csv
+    draw.py hearts PICTURE CASE [CASE ...]                 # each heart in systole and in diastole, and its valves
 """
 import pathlib
 import shutil
@@ -22,7 +23,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 # Colours that are distinct for all kinds of colour vision (Okabe, Ito 2008), as in the pictures of riis.
-BLUE, ORANGE, RED, GREY = "#0072b2", "#e69f00", "#d55e00", "0.6"
+BLUE, ORANGE, RED, GREEN, GREY = "#0072b2", "#e69f00", "#d55e00", "#009e73", "0.6"
 
 
 def loop(beat, model, path):
@@ -77,14 +78,14 @@ def slice_at(axes, case, time, largest):
     return colours
 
 
-def valves_from_below(axes, case, time):
-    """Draws the leaflets as the ventricle sees them, from below and somewhat from the side."""
-    tilt = np.radians(25)
+def valves(axes, case, time, tilt=25, above=False):
+    """Draws the leaflets as the ventricle sees them, from below and somewhat from the side, or as a surgeon does, from above."""
+    tilt, up = np.radians(tilt), -1 if above else 1
     for name, colour in (("mitral", ORANGE), ("aortic", BLUE)):
         points, corners, _ = foam.triangles(case / "postProcessing" / name / time / "leaflets.vtk")
         points = 1e3 * points
-        seen = np.column_stack([points[:, 1], np.cos(tilt) * points[:, 0] + np.sin(tilt) * points[:, 2],
-                                np.cos(tilt) * points[:, 2] - np.sin(tilt) * points[:, 0]])
+        seen = np.column_stack([points[:, 1], up * np.cos(tilt) * points[:, 0] + np.sin(tilt) * points[:, 2],
+                                up * np.cos(tilt) * points[:, 2] - np.sin(tilt) * points[:, 0]])
         a, b, c = (seen[corners[:, k]] for k in range(3))
         normal = np.cross(b - a, c - a)
         normal /= np.linalg.norm(normal, axis=1)[:, None] + 1e-30
@@ -118,7 +119,7 @@ def pictures(case, beat, out):
     for above, below, time in zip(*axes, at_openings(case, beat, times)):
         colours = slice_at(above, case, time, largest)
         above.set_xlabel("y, mm")
-        valves_from_below(below, case, time)
+        valves(below, case, time)
     axes[0, 0].set_ylabel("z, mm")
     figure.colorbar(colours, ax=axes[0], label="speed, m/s", shrink=0.8, extend="max")
     figure.savefig(out / "heart.png", dpi=90)
@@ -131,7 +132,7 @@ def pictures(case, beat, out):
             figure, axes = plt.subplots(2, 1, figsize=(5.6, 8.2), height_ratios=(2.9, 1), layout="constrained")
             figure.colorbar(slice_at(axes[0], case, time, largest), ax=axes[0], label="speed, m/s", shrink=0.8, extend="max")
             axes[0].set(xlabel="y, mm", ylabel="z, mm")
-            valves_from_below(axes[1], case, time)
+            valves(axes[1], case, time)
             figure.savefig(f"{folder}/{i:04}.png", dpi=100)
             plt.close(figure)
         subprocess.run(["ffmpeg", "-y", "-loglevel", "error", "-framerate", "20", "-i", f"{folder}/%04d.png", "-pix_fmt",
@@ -142,17 +143,36 @@ def pictures(case, beat, out):
 def loops(picture, *words):
     """Draws the pressure-volume loop of the last beat of each heart."""
     figure, axes = plt.subplots(figsize=(6.4, 4.6), layout="constrained")
-    for case, tables, colour in zip(words[::2], words[1::2], (BLUE, RED, ORANGE)):
+    for case, tables, colour in zip(words[::2], words[1::2], (BLUE, RED, ORANGE, GREEN)):
         beat = check.Beat(pathlib.Path(case))
         model = check.zero_d_at(pathlib.Path(tables) / "zero_d.csv", beat.time)
         last = beat.time > beat.time[-1] - check.PERIOD
         axes.plot((beat.volume - beat.volume[0] + model["volume"][0])[last], beat.ventricle[last], color=colour,
-                  label="healthy" if pathlib.Path(case).name == "beat" else pathlib.Path(case).name)
+                  label=clinic.name_of(case))
     axes.set_xlabel("volume of the ventricle, ml")
     axes.set_ylabel("pressure, mmHg")
     axes.legend(frameon=False)
     axes.spines[["top", "right"]].set_visible(False)
     figure.savefig(picture, dpi=90)
+
+
+def hearts(picture, *cases):
+    """Draws in a column for each heart: the speed in ejection and in the E wave, and below each the valves from above."""
+    figure, axes = plt.subplots(4, len(cases), figsize=(2.9 * len(cases), 11.5), height_ratios=(2.7, 1.2, 2.7, 1.2), sharex=True,
+                                squeeze=False, layout="constrained")
+    for column, case in zip(axes.T, map(pathlib.Path, cases)):
+        ejection, _, e_wave, _ = at_openings(case, check.Beat(case), clinic.written(case))
+        for (above, below), time in zip(column.reshape(2, 2), (ejection, e_wave)):
+            colours = slice_at(above, case, time, 2)
+            above.set(xlim=(-36, 36), ylim=(-78, 42))
+            valves(below, case, time, tilt=0, above=True)
+            below.set(xlim=(-36, 36), ylim=(-24, 24))
+            above.set_title(f"{clinic.name_of(case)}, {float(time):.2f} s", fontsize=10)
+    for one in axes[::2, 0]:
+        one.set_ylabel("z, mm")
+    figure.colorbar(colours, ax=axes[::2], label="speed, m/s", shrink=0.5, extend="max")
+    figure.savefig(picture, dpi=90)
+    plt.close(figure)
 
 
 def main(case, model_file, out):
@@ -165,6 +185,8 @@ def main(case, model_file, out):
 if __name__ == "__main__":
     if len(sys.argv) > 4 and sys.argv[1] == "loops" and len(sys.argv) % 2:
         loops(*sys.argv[2:])
+    elif len(sys.argv) > 3 and sys.argv[1] == "hearts":
+        hearts(*sys.argv[2:])
     elif len(sys.argv) == 4:
         main(*sys.argv[1:])
     else:

@@ -4,15 +4,20 @@
 # examples/openfoam/openfoam.sh, whose steps build the plug-in and set OpenFOAM's environment.
 
 heart_here=examples/left_heart
-heart_fused='commissure_0.fusion 0.28; commissure_1.fusion 0.28; skirt_length 0.5;' # of the stenotic, bicuspid aortic valve
-heart_least_opening=0.02                                     # of the regurgitant mitral valve
+heart_fused='kind bicuspid; commissure_0.fusion 0.28; commissure_1.fusion 0.28; skirt_length 0.5;' # the stenotic aortic valve
+heart_coapting='kind mitral_coapting; AP_diameter 3.1; ALPM_diameter 4; translation (0 0.1 1.2); skirt_length 1;'
+heart_flail='bump_0.leaflet 1; bump_0.lift 1.3; bump_0.width 0.45;'
+# The clip draws the flail P2 down, and holds A2 and P2 together.
+heart_clip='bump_0.leaflet 1; bump_0.lift 0.3; bump_0.width 0.45; bump_1.leaflet 0; bump_1.open 0.3; bump_1.width 0.2;
+  bump_2.leaflet 1; bump_2.open 0.3; bump_2.width 0.2;'
+heart_least_opening=1e-4 # of the flail valve, whose table then has an orifice in place of a leak
 # shellcheck source=examples/left_heart/coupled/coupled.sh
 . "$heart_here/coupled/coupled.sh"
 
 # ./run heart [--resume] [--offset O] [--all | --coupled | --walls] [--short]
 #   Beats a left heart in OpenFOAM: a ventricle whose wall moves, with a mitral and an aortic valve, which a heart without space
 #   drives. It measures leaks, and checks the balance of blood, the pressures, 1 and 2 ranks and a restart. It leaves tables,
-#   pictures and a movie in out/heart. --all adds a heart with a stenotic aortic valve, and one with a regurgitant mitral valve.
+#   pictures and a movie in out/heart. --all adds three hearts: a stenotic aortic valve, a flail mitral leaflet, a clip on it.
 #   --short has one beat in a coarse mesh. --offset 0 has bands around the leaflets with round rims, in place of bands that step
 #   aside by 0.75 half thicknesses, with cut rims. With --coupled, the pressures of the flow open the valves, and the wall moves
 #   by its elastance. --walls compares the open aortic valve with the same leaflets as walls. --resume continues a run that was
@@ -33,7 +38,7 @@ run_heart() {
       ;;
   esac
   [[ $heart_only$of_keep != wallsyes ]] || refuse "--resume does not go with --walls"
-  [[ $* != --all* ]] || heart_diseases=(stenosis regurgitation)
+  [[ $* != --all* ]] || heart_diseases=(stenosis flail clip)
   [[ $* != *--short ]] || heart_fine=3.5 heart_coarse=8 heart_half_thickness=2.3e-3 heart_beats=1
   openfoam_start left_heart_cases heart ffmpeg || return 0
   step "build the motions of the wall" heart_build
@@ -77,9 +82,15 @@ run_heart() {
     heart_diseased "$name"
     hearts+=("$of_cases/$name" "$of_out/$name")
   done
+  [[ ! ${heart_diseases[*]} ]] || step "draw the diseased hearts" heart_draw_diseases
   heart_python clinic.py "${hearts[@]}" | tee "$of_out/clinic.txt"
-  [[ ! ${heart_diseases[*]} ]] || step "draw the loops" heart_python draw.py loops "$of_out/loops.png" "${hearts[@]}"
   say "wrote out/heart, and the beat in $of_cases/beat"
+}
+
+# heart_draw_diseases: draws all hearts beside each other.
+heart_draw_diseases() {
+  local cases=("$of_cases/beat" "${heart_diseases[@]/#/$of_cases/}")
+  heart_python draw.py loops "$of_out/loops.png" "${hearts[@]}" && heart_python draw.py hearts "$of_out/hearts.png" "${cases[@]}"
 }
 
 # heart_run NAME: runs the case on one rank, from its last written time. The log grows if the run was cut off before.
@@ -109,13 +120,24 @@ heart_mesh() {
 }
 
 # heart_case NAME [DISEASE]: copies the case and its mesh to $of_cases/NAME. With stenosis the aortic valve has two cusps that are
-# fused at both commissures. With regurgitation the openings of the mitral valve end at heart_least_opening.
+# fused at both commissures. With flail the middle of the mitral valve's posterior leaflet lies in the atrium. With clip the same
+# place is clipped to the anterior leaflet.
 heart_case() {
   rm -rf "${of_cases:?}/$1"
   cp -r "$heart_here/case" "$of_cases/$1" &&
     cp -r "$of_cases/mesh/constant/polyMesh" "$of_cases/$1/constant" &&
     heart_band "$1" mitral "$heart_offset" || return
-  [[ ${2:-} != stenosis ]] || of_set "$1" system/fvOptions aortic/valve "{ kind bicuspid; $heart_fused }"
+  case ${2:-} in
+    stenosis) of_set "$1" system/fvOptions aortic/valve "{ $heart_fused }" ;;
+    flail) of_set "$1" system/fvOptions mitral/valve "{ $heart_coapting $heart_flail }" && heart_uncalibrated "$1" ;;
+    clip) of_set "$1" system/fvOptions mitral/valve "{ $heart_coapting $heart_clip }" ;;
+  esac
+}
+
+# heart_uncalibrated NAME: a mitral valve with a gap cannot be calibrated, so it has the resistance that the calibration gives to
+# the valve without the gap in the coarse mesh. The aortic valve, which copies the mitral one, is calibrated as before.
+heart_uncalibrated() {
+  of_set "$1" system/fvOptions mitral/calibrate no mitral/resistance 1.53e4 aortic/calibrate yes aortic/resistance 1e4
 }
 
 # heart_band NAME VALVE OFFSET: the band of the valve has the half thickness of this mesh and the offset. The aortic valve copies
@@ -141,7 +163,7 @@ heart_held() {
 heart_orifice() {
   local name=orifice-$1${2:+-$2} folder=$of_out${2:+/$2} other=mitral least=0
   [[ $1 == aortic ]] || other=aortic
-  [[ ${2:-} != regurgitation ]] || least=$heart_least_opening
+  [[ ${2:-} != flail ]] || least=$heart_least_opening
   heart_case "$name" "${2:-}" && heart_held "$name" 12 0 &&
     heart_python check.py keys "$least" >"$of_cases/$name/constant/$1Keys" &&
     sed -i 's/constant \(.*\);/table ((0 0) (0.164 0) (0.166 \1));/' "$of_cases/$name/constant/inletPressure" &&
@@ -191,13 +213,15 @@ heart_walled() {
 # foam_dict CASE NAME TEXT: writes a dictionary in the folder system.
 foam_dict() { echo "FoamFile { version 2.0; format ascii; class dictionary; object $2; } $3" >"$1/system/$2"; }
 
-# heart_zero_d CASE TABLES BEATS: makes the case, and its tables of motion, pressures and openings.
+# heart_zero_d CASE TABLES BEATS: makes the case, and its tables of motion, pressures and openings. The flail leaflet has dilated
+# the ventricle, and the clip finds it so.
 heart_zero_d() {
-  local folder=$2 disease=
+  local folder=$2 disease='' body=()
   [[ $1 == beat ]] || disease=$1
+  [[ ! $disease =~ ^(flail|clip)$ ]] || body=(--dilated)
   heart_case "$1" "$disease" &&
-    heart_python zero_d.py "$of_cases/$1" "$folder/mitral.csv" "$folder/aortic.csv" --beats "$3" --out "$folder/zero_d.csv" \
-      >"$folder/zero_d.txt" &&
+    heart_python zero_d.py "$of_cases/$1" "$folder/mitral.csv" "$folder/aortic.csv" --beats "$3" "${body[@]}" \
+      --out "$folder/zero_d.csv" >"$folder/zero_d.txt" &&
     of_set "$1" system/controlDict endTime "$(awk -v n="$3" 'BEGIN { print 0.8 * n }')"
 }
 

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """A left heart without space: it writes the wall's motion, both end pressures and the openings for the flow in space.
 
-    python3 zero_d.py CASE MITRAL.csv AORTIC.csv [--beats N] [--out TABLE.csv]
+    python3 zero_d.py CASE MITRAL.csv AORTIC.csv [--beats N] [--dilated] [--out TABLE.csv]
 
 The ventricle has the elastance E(t), so p = E (V - V0). The pulmonary veins fill an atrium before it, and a windkessel lies
 behind it. The tables have the leak of each closed valve, the area that each opening leaves to the flow, and the volume that the
 moving leaflets displace. check.py orifice measures them in the mesh, so the isovolumetric phases have the same lengths as in
 space. Blood is incompressible, so a few milliseconds more or less would change the pressure there by hundreds of mmHg.
+
+With --dilated the ventricle is larger, as after years of a large regurgitation. Its wall in space begins further outside.
 
 The model runs until its beats repeat. The case's tables begin after the A wave, when the blood in the closing mitral valve is
 at rest, because the case starts at rest.
@@ -28,14 +30,27 @@ MMHG, ML, RHO = 133.322, 1e-6, 1060.0  # Pa, m3, kg/m3
 PERIOD, STEP, STEP_IN_SPACE = 0.8, 5e-5, 2e-3  # s
 SYSTOLE, RELAXATION, STEEP = 0.35, 0.14, 0.6    # s, s, -: of the ventricle's activation
 KICK_START, KICK = 0.60, 0.17               # s, of the atrium's activation
-E_MIN, E_MAX, V_0 = 0.055, 2.2, 6.0         # mmHg/ml, mmHg/ml, ml
+E_MIN, E_MAX = 0.055, 2.2                   # mmHg/ml
 ATRIUM_MIN, ATRIUM_KICK, ATRIUM_V_0 = 0.17, 0.15, 5.0  # mmHg/ml, mmHg/ml, ml
-VEIN_PRESSURE, VEIN_RESISTANCE = 12.0, 0.045           # mmHg, mmHg s/ml
+VEIN_RESISTANCE = 0.045                                # mmHg s/ml
 PROXIMAL, DISTAL, COMPLIANCE = 0.08, 1.05, 1.4         # mmHg s/ml, ml/mmHg
 MOVE = {"mitral": 0.07, "aortic": 0.05}     # s, to open and to close
-# A valve begins to close when its flow falls below CLOSE_BELOW. Closing at full backflow would stop blood abruptly.
-OPEN_ABOVE, CLOSE_BELOW, DWELL = 2.0, 60.0, 0.06  # mmHg, ml/s, s
+OPEN_ABOVE, DWELL = 2.0, 0.06                     # mmHg, s
 INERTANCE = {"mitral": 5e-4, "aortic": 9e-4}      # mmHg s2/ml, of the tube and the blood before it
+AT_REST = 119.9  # ml, of the ventricle in heart.geo at the amplitude 0: 2/3 pi 28 mm 28 mm 73 mm
+
+
+class Body(typing.NamedTuple):
+    """What differs between the healthy heart and one that a large regurgitation has dilated."""
+
+    v_0: float            # ml, of the ventricle without a pressure
+    vein_pressure: float  # mmHg
+    # A valve begins to close when its flow falls below this, in ml/s. Closing at full backflow would stop blood abruptly. If it
+    # begins to close late, both valves are open for a moment: a mitral valve with a clip still fills fast when the beat begins.
+    close_below: float
+
+
+HEALTHY, DILATED = Body(6.0, 12.0, 60.0), Body(36.0, 15.0, 120.0)
 
 
 def elastance(t):
@@ -87,8 +102,8 @@ class Valve:
     q is the flow past the leaflets. Q also has the volume that the leaflets displace.
     """
 
-    def __init__(self, name, orifice):
-        self.name, self.orifice = name, orifice
+    def __init__(self, name, orifice, body=HEALTHY):
+        self.name, self.orifice, self.close_below = name, orifice, body.close_below
         self.flow, self.before, self.progress, self.opens, self.turned = 0.0, 0.0, 0.0, False, -1.0
         self.lagged = collections.deque([self.opening()] * (1 + round(STEP_IN_SPACE / 2 / STEP)))
 
@@ -108,7 +123,7 @@ class Valve:
         return np.interp(now, self.orifice.openings, self.orifice.displaced) * (self.lagged[1] - self.lagged.popleft()) / STEP
 
     def step(self, t, difference):
-        falls = self.flow < min(CLOSE_BELOW, self.before)
+        falls = self.flow < min(self.close_below, self.before)
         self.before = self.flow
         if t - self.turned > DWELL and (falls if self.opens else difference > OPEN_ABOVE):
             self.opens, self.turned = not self.opens, t
@@ -129,7 +144,7 @@ REPEATS = 2e-3  # ml
 COLUMNS = ("time", "volume", "ventricle", "atrium", "aorta", "mitral_opening", "aortic_opening", "mitral_flow", "aortic_flow")
 
 
-def beats(valves, most=40):
+def beats(valves, body=HEALTHY, most=40):
     """Returns one beat, row by row in COLUMNS, once the volume repeats to REPEATS."""
     mitral, aortic = valves
     volume, stored, atrium, before = 120.0, 85.0, 60.0, 0.0
@@ -138,13 +153,13 @@ def beats(valves, most=40):
         rows = np.empty((n, len(COLUMNS)))
         for k in range(n):
             t = k * STEP
-            p, p_atrium = elastance(t) * (volume - V_0), atrial_elastance(t) * (atrium - ATRIUM_V_0)
+            p, p_atrium = elastance(t) * (volume - body.v_0), atrial_elastance(t) * (atrium - ATRIUM_V_0)
             p_aorta = stored + PROXIMAL * aortic.flow
             mitral.step(t, p_atrium - p)
             aortic.step(t, p - p_aorta)
             rows[k] = (t, volume, p, p_atrium, p_aorta, mitral.opening(), aortic.opening(), mitral.flow, aortic.flow)
             volume += STEP * (mitral.flow - aortic.flow)
-            atrium += STEP * ((VEIN_PRESSURE - p_atrium) / VEIN_RESISTANCE - mitral.flow)
+            atrium += STEP * ((body.vein_pressure - p_atrium) / VEIN_RESISTANCE - mitral.flow)
             stored += STEP * (aortic.flow - stored / DISTAL) / COMPLIANCE
         for valve in valves:
             valve.turned -= PERIOD
@@ -259,17 +274,34 @@ def write_table(path, key, times, values):
     path.write_text(f"{key} table{table(times, values)};\n", encoding="ascii")
 
 
-def write_tables(case, rows, n_beats):
-    """Writes constant/amplitude, constant/inletPressure, constant/outletPressure, and constant/mitralKeys and aorticKeys."""
+def write_start(case, mesh, amplitude):
+    """Writes the points from which the run starts, as if it were a restart. The points at rest stay in constant."""
+    points = mesh.moved(amplitude) - (0, 0, amplitude * mesh.base)
+    folder = case / "0" / "polyMesh"
+    folder.mkdir(exist_ok=True)
+    head = "FoamFile { version 2.0; format ascii; class vectorField; location 0/polyMesh; object points; }"
+    rows = "\n".join("({:.15g} {:.15g} {:.15g})".format(*row) for row in points)
+    (folder / "points").write_text(f"{head}\n{len(points)}\n(\n{rows}\n)\n", encoding="ascii")
+
+
+def write_tables(case, rows, n_beats, dilated=False):
+    """Writes constant/amplitude, constant/inletPressure, constant/outletPressure, and constant/mitralKeys and aorticKeys.
+
+    The wall starts at rest. That of a dilated heart starts where the ventricle has the volume of the heart without space.
+    """
     start = rows[start_of(rows), 0]
     times = np.arange(round(n_beats * PERIOD / 1e-3) + 1) * 1e-3
     keys = np.arange(round(PERIOD / 1e-3)) * 1e-3
 
-    change = (at(rows, "volume", start + times) - at(rows, "volume", start)) * ML
+    change = (at(rows, "volume", start + times) - (AT_REST if dilated else at(rows, "volume", start))) * ML
     constant = case / "constant"
     # OpenFOAM takes dV/dt as the mean over a step, and the opening of the step's end. So openings lag by half a step.
     lagged = keys - STEP_IN_SPACE / 2
-    write_table(constant / "amplitude", "amplitude", times, amplitude_of(Mesh(case), change))
+    mesh = Mesh(case)
+    amplitudes = amplitude_of(mesh, change)
+    write_table(constant / "amplitude", "amplitude", times, amplitudes)
+    if dilated:
+        write_start(case, mesh, amplitudes[0])
     for name, file in (("atrium", "inletPressure"), ("aorta", "outletPressure")):
         pressures = at(rows, name, start + times) * MMHG / RHO
         # The blood begins with the pressure 0, also at both ends. decomposePar puts the first row there. On several ranks this
@@ -313,12 +345,14 @@ def main():
     parser.add_argument("mitral")
     parser.add_argument("aortic")
     parser.add_argument("--beats", type=int, default=1, choices=range(1, 10))
+    parser.add_argument("--dilated", action="store_true")
     parser.add_argument("--out", default="zero_d.csv")
     options = parser.parse_args()
-    valves = Valve("mitral", read_orifice(options.mitral)), Valve("aortic", read_orifice(options.aortic))
-    rows = beats(valves)
+    body = DILATED if options.dilated else HEALTHY
+    valves = Valve("mitral", read_orifice(options.mitral), body), Valve("aortic", read_orifice(options.aortic), body)
+    rows = beats(valves, body)
     report(rows, valves)
-    start = write_tables(options.case, rows, options.beats)
+    start = write_tables(options.case, rows, options.beats, options.dilated)
     shifted = np.roll(rows, -start_of(rows), axis=0)[::10]
     shifted[:, 0] = (shifted[:, 0] - start) % PERIOD
     np.savetxt(options.out, shifted, delimiter=",", header=",".join(COLUMNS), comments="", fmt="%.10g")

@@ -3,6 +3,8 @@
 
 RIIS_VOLUME_SEARCH is the library of examples/left_heart/coupled/volumeSearch.C.
 """
+import contextlib
+import io
 import os
 import pathlib
 import sys
@@ -59,6 +61,115 @@ class Vortex(unittest.TestCase):
     def test_stream_without_vortex(self):
         circulation, _, _ = clinic.vortex(*square(41, lambda y, z: np.column_stack([0 * y, 0.5 + 0 * z])))
         self.assertLess(abs(circulation), 1e-12)
+
+
+class Diseases(unittest.TestCase):
+    STENOSIS = {clinic.MEAN_GRADIENT: 42}
+    FLAIL = {clinic.SHARE: 0.5, clinic.BACK: 50, clinic.MITRAL_AREA: 3}
+    CLIP = {clinic.BACK: 10, clinic.MITRAL_AREA: 1.8}
+
+    def missed(self, **hearts):
+        """Returns what the hearts miss, in words."""
+        with unittest.mock.patch.object(check, "failures", []), contextlib.redirect_stdout(io.StringIO()):
+            clinic.demand_diseases(hearts)
+            return check.failures
+
+    def test_hearts_as_patients_have_them(self):
+        self.assertEqual(self.missed(), [])
+        self.assertEqual(self.missed(healthy={}, stenosis=self.STENOSIS, flail=self.FLAIL, clip=self.CLIP), [])
+
+    def test_missed(self):
+        for disease, key, value, words in (("stenosis", clinic.MEAN_GRADIENT, 39, "mean gradient is 39.0 mmHg"),
+                                           ("flail", clinic.SHARE, 0.39, "39 % of the stroke volume go back"),
+                                           ("clip", clinic.MITRAL_AREA, 2.0, "33 % less area"),
+                                           ("clip", clinic.MITRAL_AREA, 1.4, "53 % less area"),
+                                           ("clip", clinic.BACK, 26, "26.0 ml go back in place of 50.0")):
+            hearts = {"stenosis": self.STENOSIS, "flail": self.FLAIL, "clip": self.CLIP}
+            hearts[disease] = {**hearts[disease], key: value}
+            missed = self.missed(**hearts)
+            self.assertEqual(len(missed), 1)
+            self.assertIn(words, missed[0])
+
+    def test_regurgitant_area(self):
+        """Blood at 100 mmHg leaves an area of 0.3 cm2 at 5.02 m/s. The flow at small differences does not count."""
+        difference = np.array([100.0, 100.0, 20.0, -5.0])
+        flow = np.array([-0.3 * 502, -0.3 * 502, -400, 300])  # ml/s
+        self.assertAlmostEqual(clinic.regurgitant_area(flow, difference), 0.3, delta=1e-3)
+
+
+class Dilated(unittest.TestCase):
+    """The heart that a large regurgitation has dilated."""
+
+    RADIUS, LENGTH, BASE = 28e-3, 73e-3, 0.01095
+    AXIAL = BASE / LENGTH  # the apex rests
+
+    def case(self):
+        """Returns a case whose mesh is a half ellipsoid below z = 0. Its last points are the apex and the middle of the base."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        case = pathlib.Path(folder.name)
+        around, down = 40, 30
+        angle, depth = np.meshgrid(2 * np.pi * np.arange(around) / around, np.pi / 2 * np.arange(down) / down, indexing="ij")
+        x = np.column_stack([(self.RADIUS * np.cos(depth) * np.cos(angle)).ravel(),
+                             (self.RADIUS * np.cos(depth) * np.sin(angle)).ravel(), (-self.LENGTH * np.sin(depth)).ravel()])
+        points = np.vstack([x, (0, 0, -self.LENGTH), (0, 0, 0)])
+        here, faces = np.arange(around * down).reshape(around, down), []
+        for left, right in zip(here, np.roll(here, -1, axis=0)):
+            faces.append((left[0], right[0], len(points) - 1))
+            faces.append((left[-1], len(points) - 2, right[-1]))
+            for k in range(down - 1):
+                faces += [(left[k], left[k + 1], right[k + 1]), (left[k], right[k + 1], right[k])]
+        mesh = case / "constant/polyMesh"
+        mesh.mkdir(parents=True)
+        (case / "0").mkdir()
+        rows = "\n".join("({} {} {})".format(*point) for point in points.tolist())
+        head = "FoamFile {{ version 2.0; format ascii; class {}; object {}; }}\n// * * * //\n{}\n(\n"
+        (mesh / "points").write_text(head.format("vectorField", "points", len(points)) + rows + "\n)\n", encoding="ascii")
+        rows = "\n".join("3({} {} {})".format(*face) for face in faces)
+        (mesh / "faces").write_text(head.format("faceList", "faces", len(faces)) + rows + "\n)\n", encoding="ascii")
+        (mesh / "neighbour").write_text(head.format("labelList", "neighbour", 0) + ")\n", encoding="ascii")
+        (case / "constant/dynamicMeshDict").write_text(
+            f"length {self.LENGTH}; ramp 0.35; radial 0.4; axial {self.AXIAL}; base {self.BASE};\n", encoding="ascii")
+        return case, points, np.array(faces)
+
+    def test_start_of_the_wall(self):
+        """The run starts with the volume of the heart without space, and all further volumes follow it."""
+        case, points, faces = self.case()
+        time = np.arange(0, zero_d.PERIOD, 1e-3)
+        rows = np.ones((len(time), len(zero_d.COLUMNS)))
+        # 160 ml at the end of the A wave, after 0.75 s, and 60 ml half a beat later
+        rows[:, 0], rows[:, 7] = time, time - 0.75
+        rows[:, 1] = 110 + 50 * np.cos(2 * np.pi * (time - 0.75) / zero_d.PERIOD)
+        zero_d.write_tables(case, rows, 1, dilated=True)
+
+        started = check.foam.vectors(case / "0/polyMesh/points")
+        np.testing.assert_array_equal(check.foam.vectors(case / "constant/polyMesh/points"), points)
+        np.testing.assert_allclose(started[-2], (0, 0, -self.LENGTH), atol=1e-12)
+        base = started[-1, 2]
+        self.assertAlmostEqual(base, -self.BASE * check.amplitude(case, 0.0), delta=1e-12)
+        self.assertGreater(base, 2e-3)
+
+        # Seen from the middle of the base, only the wall's triangles have a volume.
+        at_rest, start = (abs(np.linalg.det((corners - corners[-1])[faces]).sum()) / 6e-6 for corners in (points, started))
+        self.assertAlmostEqual(start - at_rest, 160 - zero_d.AT_REST, delta=1e-3)
+        volumes = check.volumes(case, [0.1, 0.4, 0.8])
+        np.testing.assert_allclose(volumes[1:] - volumes[0], [50 * np.cos(np.pi / 4) - 50, -100, 0], atol=2e-3)
+
+    def test_healthy_wall_starts_at_rest(self):
+        case, _, _ = self.case()
+        rows = np.ones((800, len(zero_d.COLUMNS)))
+        rows[:, 0] = np.arange(800) * 1e-3
+        zero_d.write_tables(case, rows, 1)
+        self.assertFalse((case / "0/polyMesh").exists())
+        self.assertAlmostEqual(check.amplitude(case, 0.0), 0, delta=1e-12)
+
+    def test_valves_close_earlier(self):
+        orifice = zero_d.Orifice(*np.array([(0.0, 1.0), (0.0, 3e-4), (0.03, 0.1), (2.0, 2.0)]), 0.0)
+        for body, opens in ((zero_d.HEALTHY, True), (zero_d.DILATED, False)):
+            valve = zero_d.Valve("mitral", orifice, body)
+            valve.opens, valve.progress, valve.flow, valve.before = True, 1.0, 100.0, 101.0
+            valve.step(0.0, 0.0)
+            self.assertEqual(valve.opens, opens)
 
 
 class Tables(unittest.TestCase):

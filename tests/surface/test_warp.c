@@ -21,7 +21,7 @@ static double between(double low, double high) { return random_between(&rng, low
 
 enum { max_landmarks = 60 };
 
-static const char *const kinds[3] = {"trileaflet", "aortic", "mitral"};
+static const char *const kinds[5] = {"trileaflet", "aortic", "mitral", "mitral_coapting", "tricuspid"};
 
 static riis_warp *new_warp(int64_t n, const double *xyz, double noise, const riis_surface_options *placement) {
   riis_warp_options options;
@@ -515,12 +515,14 @@ TEST(closed_and_open_landmarks_are_met) {
 
 /* --- In a mesh -------------------------------------------------------------------------------------------------------- */
 
-/* The valve and the mesh of its root are warped alike. In the closed state, the valve separates the mesh. At opening 0.3 it does
- * not. */
+/* The valve and the mesh of its root are warped alike. The closed valve separates the mesh, and the open one does not. A
+ * saddle's annulus is no circle, so its skirt closes the gap to the wall. */
 TEST(warped_valves_seal) {
-  for (int trial = 0; trial < 2; ++trial) {
-    const int owned_before = n_owned();
-    riis_valve *valve = new_valve("trileaflet");
+  static const char *const sealing[3] = {"trileaflet", "mitral_coapting", "tricuspid"};
+  for (int trial = 0; trial < 6; ++trial) {
+    const int owned_before = n_owned(), is_saddle = trial >= 2;
+    riis_valve *valve = new_valve(sealing[trial / 2]);
+    if (is_saddle) CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", 1));
     double from[3 * max_landmarks], to[3 * max_landmarks];
     const int64_t n = landmarks_on(new_surface(valve, NULL), 30, from);
     const double size = between(-0.12, 0.12);
@@ -531,11 +533,12 @@ TEST(warped_valves_seal) {
     riis_warp *warp = new_warp(n, from, trial % 2 ? 0.02 : 0, NULL);
     CHECK_OK(set_targets(warp, n, to));
     CHECK_OK(riis_valve_set_warp(valve, warp, NULL));
-    test_mesh nodes = tube(1.2, -2.4, 1.5, 0.1);
+    const double top = is_saddle ? 1.9 : 1.5, bottom = is_saddle ? -3.2 : -2.4;
+    test_mesh nodes = tube(is_saddle ? 1.8 : 1.2, bottom, top, is_saddle ? 0.14 : 0.1);
     int64_t ends[2] = {0, 0};
     for (int64_t i = 0; i < nodes.n; ++i)
       for (int end = 0; end < 2; ++end) {
-        const double at[3] = {0, 0, end ? 1.5 : -2.4};
+        const double at[3] = {0, 0, end ? top : bottom};
         if (distance3(nodes.xyz + 3 * i, at) < distance3(nodes.xyz + 3 * ends[end], at)) ends[end] = i;
       }
     const riis_points points = points_at(nodes.n, nodes.xyz);
@@ -543,9 +546,9 @@ TEST(warped_valves_seal) {
     riis_mesh *mesh = mesh_from(&nodes);
     for (int is_open = 0; is_open < 2; ++is_open) {
       riis_surface_options options = surface_options();
-      options.half_thickness = 0.14;
+      options.half_thickness = is_saddle ? 0.2 : 0.14;
       riis_passage passage;
-      CHECK_OK(riis_valve_set_scalar(valve, "opening", is_open ? 0.3 : 0));
+      CHECK_OK(riis_valve_set_scalar(valve, "opening", is_open ? (is_saddle ? 0.6 : 0.3) : 0));
       riis_surface *surface = new_surface(valve, &options);
       CHECK_OK(find_passage_between(surface, mesh, NULL, 1, ends, 1, ends + 1, &passage, sizeof passage));
       assert_int_equal(passage.state == RIIS_PASSAGE_OPEN, is_open);
@@ -663,17 +666,17 @@ TEST(a_moving_annulus_has_its_velocities) {
   static const struct {
     const char *name;
     double largest, rms;
-  } with_warp[4] = {
-      {"trileaflet", 0.006, 0.0008}, {"coapting", 0.009, 0.002}, {"aortic", 0.008, 0.0015}, {"mitral", 0.006, 0.0025}};
+  } with_warp[] = {{"trileaflet", 0.006, 0.0008}, {"coapting", 0.009, 0.002},        {"aortic", 0.008, 0.0015},
+                   {"mitral", 0.006, 0.0025},     {"mitral_coapting", 0.004, 0.001}, {"tricuspid", 0.004, 0.001}};
   static const struct {
     int kind;
     uint64_t state;
   } hard[] = {{1, 55}, {3, 4}};
-  enum { n_hard = sizeof hard / sizeof *hard };
-  for (int trial = 0; trial < n_hard + trials_of(24); ++trial) {
+  enum { n_hard = sizeof hard / sizeof *hard, n_valves = sizeof with_warp / sizeof *with_warp };
+  for (int trial = 0; trial < n_hard + trials_of(36); ++trial) {
     const random_source kept = rng;
-    const int owned_before = n_owned(), is_hard = trial < n_hard, is_fixed = !is_hard && (trial - n_hard) / 4;
-    const int kind = is_hard ? hard[trial].kind : (trial - n_hard) % 4;
+    const int owned_before = n_owned(), is_hard = trial < n_hard, is_fixed = !is_hard && (trial - n_hard) / n_valves;
+    const int kind = is_hard ? hard[trial].kind : (trial - n_hard) % n_valves;
     const char *name = with_warp[kind].name;
     if (is_hard) rng.state = hard[trial].state;
     const riis_surface_options options =
@@ -716,7 +719,7 @@ TEST(a_moving_annulus_has_its_velocities) {
 /* With a fixed triangulation, the triangles' motion across the leaflet agrees with the velocities. Along the leaflet, vertices
  * follow shares of lengths. */
 TEST(fixed_vertices_move_with_their_velocities) {
-  for (int trial = 0; trial < 3; trial += trial_step()) {
+  for (int trial = 0; trial < 5; trial += trial_step()) {
     const int owned_before = n_owned();
     const riis_surface_options options = random_placement(RIIS_TRIANGULATION_FIXED);
     const double opening = between(0.3, 0.9);

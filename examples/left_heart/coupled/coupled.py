@@ -48,7 +48,8 @@ def tables(case, mitral, aortic, beats=3):
     phases = np.arange(round(PERIOD / 1e-3) + 1) * 1e-3
     law = zero_d.table(phases, [zero_d.elastance(t) * MMHG / ML for t in phases])
     write("elastance", f"period {PERIOD}; phase {phase:.10g};\nvolume {row['volume'] * ML:.10g}; // [m3], of the mesh at rest\n"
-          f"unstressedVolume {zero_d.V_0 * ML:.10g};\nlargestSlope {1.5 * MMHG / ML / sum(leaks):.6g}; // 1.5 over both leaks\n"
+          f"unstressedVolume {zero_d.HEALTHY.v_0 * ML:.10g};\n"
+          f"largestSlope {1.5 * MMHG / ML / sum(leaks):.6g}; // 1.5 over both leaks\n"
           f"elastance table{law};\n")
     times = np.arange(round((beats * PERIOD + 0.1) / 2e-3) + 1) * 2e-3
     zero_d.write_table(constant / "inletPressure", "p0", times, zero_d.at(rows, "atrium", phase + times) * MMHG / RHO)
