@@ -14,6 +14,7 @@ made_up "$work" src/core.f src/deep/user.f90
 noticed() {
   local text=$1 said
   shift
+  # shellcheck disable=SC2030
   said=$(failed=0; "$@" 2>&1; echo "failed=$failed")
   [[ $said == *"$text"*failed=1 ]] || problem "$*: it says: $said"
 }
@@ -27,5 +28,7 @@ noticed "src/core.f" keeps "$work" sh -c "echo ' ' >>'$work/src/core.f'"
 noticed "new.f" keeps "$work" touch "$work/new.f"
 noticed "link -> src" keeps "$work" ln -s src "$work/link"
 noticed "deep/user.f90" keeps "$work" rm "$work/src/deep/user.f90"
+# shellcheck disable=SC2031
 ((failed)) || echo "the checks of scripts notice faults"
+# shellcheck disable=SC2031
 exit "$failed"
