@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Puts the valve into the sources of CaNS, or takes it out.
 

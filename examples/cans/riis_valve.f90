@@ -17,7 +17,7 @@ module mod_riis_valve
   implicit none
   private
   public :: riis_valve_setup, riis_valve_apply, riis_valve_report
-  public :: riis_valve_start, riis_valve_mark, riis_valve_lists ! for the tests
+  public :: riis_valve_start, riis_valve_mark, riis_valve_lists, surface ! for the tests
 
   ! riis.nml. Lengths have CaNS's unit. R is divided by the density, because CaNS's density is 1.
   character(len=16) :: kind = 'plate'        ! plate, none, or a kind of riis such as trileaflet
