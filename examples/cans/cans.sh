@@ -130,20 +130,20 @@ declare -A cans_ways=(
 # cans_lags: runs each way at K dt/rho = 214 and 2,000, upright and leaning. CaNS may end with an error if a way blows up.
 cans_lags() {
   local way R steps
-  cans_run none 1 plate 60 "kind = 'none'" 'jump = F' || return
   for way in "${!cans_ways[@]}"; do
     for R in 470 4394.53; do
       steps=40
       [[ $way != sweeps-1 && $way != sweeps-2 || $R != 470 ]] || steps=80
       [[ $way != sweeps-1 || $R == 470 ]] || steps=420
+      [[ $way != extra* ]] || steps=100
       cans_plate "upright-$R-$way" 1 90 "$R" "$steps" "${cans_ways[$way]}" || [[ $way == extra* ]] || return
       cans_plate "leaning-$R-$way" 1 110 "$R" "$steps" "${cans_ways[$way]}" || [[ $way == extra* ]] || return
     done
   done
 }
 
-# cans_opening: a trileaflet valve in a duct of 6 x 3 x 3 cm opens in 40 ms from 10 ms on, under a pressure of 1,260 cm^2/s^2, 1 mmHg
-# of blood. R is 1e4 kg/(m s) over 1,060 kg/m^3, in cm^2/s.
+# cans_opening: a trileaflet valve in a duct of 6 x 3 x 3 cm opens in 40 ms from 10 ms on. The pressure over the density is
+# 1,260 cm^2/s^2, 1 mmHg of blood. R is 1e4 kg/(m s) over 1,060 kg/m^3, in cm^2/s.
 cans_opening() {
   local way
   for way in sweeps-1 jump jump-sweeps-2 jump-cg-1 jump-cg-2 cg-4 cg-30; do

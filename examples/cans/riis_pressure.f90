@@ -243,8 +243,8 @@ contains
     if (sums(2) < 0) call advance(a, sums(1) / sums(2), shape_of_jump, u, v, w, p)
   end subroutine correct_jump
 
-  ! Returns this rank's part of the sum of q div(grad s / (1 + a K)) over the volume, for the jump's shape s. The shape's Laplacian
-  ! is div(K normal), so only faces near the valve have a part.
+  ! Returns this rank's part of the sum of q div(grad s / (1 + a K)) over the volume, for the jump's shape s. The Laplacian of the
+  ! shape is div(K normal), so only faces near the valve have a part.
   function work_of_shape(q) result(work)
     real(rp), intent(in), contiguous :: q(0:, 0:, 0:)
     real(rp) :: work

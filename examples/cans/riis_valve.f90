@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! A valve in CaNS. cans.py inserts the four calls into CaNS's main program: riis_valve_setup once, riis_valve_apply in each substep
-! after the predictor, riis_valve_report after each time step. The file riis.nml describes the valve (README.md, "riis.nml").
+! A valve in CaNS. patch.py inserts calls into CaNS's main program: riis_valve_setup once, riis_valve_apply in each substep after
+! the predictor, riis_valve_report after each time step. The file riis.nml describes the valve (README.md, "riis.nml").
 ! Edit make_valve and move_valve for a valve of your own.
 !
 ! Each velocity component has its own mesh, the faces where CaNS stores it. A mesh has three axes and no nodes. A node's number is
@@ -46,7 +46,7 @@ contains
     integer, intent(in) :: n_cells(3), lower(3) ! of this rank
     real(rp), intent(in) :: zc(0:), zf(0:), dzc(0:), dzf(0:), dzci(0:), dzfi(0:), norm, lambda(:, :), a(:), b(:), c(:)
     type(c_ptr), intent(in) :: plans(2, 2)
-    if (any(is_forced)) call stop_run('is_forced keeps the mean velocity, and a valve takes it; drive the flow by bforce or bcvel')
+    if (any(is_forced)) call stop_run('is_forced keeps the mean velocity, so it must be F; drive the flow by bforce or bcvel')
     if (any(abs(bcpre) > 0)) call stop_run('bcpre must be 0; drive the flow by bforce or bcvel')
     if (is_poisson_dtdma) call stop_run('is_poisson_dtdma = T is not supported')
     call riis_valve_start(n_cells, lower, zc, zf)

@@ -54,7 +54,7 @@ contains
     character(len=*), intent(in) :: valve, pressure
     integer :: unit
     open (newunit=unit, file='riis.nml', action='write', status='replace')
-    write (unit, '(3a, es22.15, 2a)') '&valve kind = ', valve, ', R = 2000., half_thickness = ', eps, ' /', ''
+    write (unit, '(3a, es22.15, a)') '&valve kind = ', valve, ', R = 2000., half_thickness = ', eps, ' /'
     write (unit, '(3a)') '&pressure ', pressure, ' /'
     close (unit)
   end subroutine write_input
@@ -128,8 +128,8 @@ contains
     zc = zf - dl(3) / 2
     one = 1
     plans = c_null_ptr
-    call riis_valve_setup(ng, [1, 1, 1], zc, zf, lengths, lengths, inverse, inverse, plans, 1._rp, reshape(one, [1, 1]), one, one, &
-      one)
+    call riis_valve_setup(ng, [1, 1, 1], zc, zf, lengths, lengths, inverse, inverse, plans, 1._rp, reshape(one, [1, 1]), one, &
+      one, one)
     u = 1
     v = 0
     w = 0
@@ -156,7 +156,7 @@ contains
     call check(maxval(abs(pp)) < 1e-9_rp, 'the flow has a divergence')
   end subroutine test_drop
 
-  ! riis may keep 100 bytes for each listed face without fields, 170 with K and four fields, and 20 MB. The grids have 300^3 cells.
+  ! riis may keep 20 MB, and for each listed face 100 bytes without fields, or 170 with K and four fields. There are 300^3 cells.
   subroutine test_memory
     integer, parameter :: n = 300
     real(rp) :: centres(n), faces(n), corners(3, 4)
