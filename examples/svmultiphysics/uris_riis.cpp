@@ -350,6 +350,7 @@ const Points &marked_points(const ComMod &com_mod, const mshType &mesh, const fs
   points.motion = engine.motion;
   points.K.assign(points.x.size() / 3, 0);
   points.K_u.assign(points.x.size(), 0);
+  if (points.K.empty()) return points;  // a solid's mesh
   riis::Marks marks;
   riis::check(riis_marks_create(marks.out()));
   for (size_t i = 0; i < engine.valves.size(); ++i) {

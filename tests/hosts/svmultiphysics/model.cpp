@@ -167,7 +167,7 @@ void make_mesh(ComMod &com_mod, int n, unsigned seed) {
 // Rounds to a multiple of 2^-30, so that sums of three coordinates are exact, as in an export of riis.
 double rounded(double value) { return std::ldexp(std::nearbyint(std::ldexp(value, 30)), -30); }
 
-const int n_quads = 12;
+const int n_quads = 8;
 const int n_vertices = (n_quads + 1) * (n_quads + 1);
 
 // The vertices of two flaps. They hang on the lines y = -1 and y = 1, and their ends touch in the closed valve.
@@ -289,7 +289,7 @@ fsType make_space(int n_gauss) {
 void run(const std::string &name) {
   ComMod com_mod;
   com_mod.dt = 0.01;
-  make_mesh(com_mod, 12, 1);
+  make_mesh(com_mod, 8, 1);
   com_mod.uris.push_back(make_valve("flaps", true, 1));
   urisType &uris = com_mod.uris[0];
   if (name == "beat" || name == "remesh") add_scaffold(uris);
@@ -307,7 +307,7 @@ void run(const std::string &name) {
   const fsType spaces[2] = {make_space(4), make_space(5)};
   for (com_mod.cTS = 1; com_mod.cTS <= 17; ++com_mod.cTS) {
     if (name == "remesh" && com_mod.cTS == 9) {
-      make_mesh(com_mod, 12, 2);  // as many nodes, so that no length shows the change
+      make_mesh(com_mod, 8, 2);  // as many nodes, so that no length shows the change
       initialize(com_mod);
     }
     if (com_mod.cTS == 3 || com_mod.cTS == 11) {
