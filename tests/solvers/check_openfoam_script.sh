@@ -5,7 +5,8 @@
 # shellcheck disable=SC2317 # openfoam.sh calls the functions
 set -euo pipefail
 source=$1 work=$2
-failed=0
+# shellcheck source=tests/support/script_checks.sh
+. "$source/tests/support/script_checks.sh"
 rm -rf "$work"
 mkdir -p "$work"
 cd "$source"
@@ -15,21 +16,6 @@ say() { printf '==> %s\n' "$*"; }
 . examples/openfoam/openfoam.sh
 of_work=$work of_cases=$work/cases of_out=$work/out of_size=0.25 of_with=()
 mkdir -p "$of_cases" "$of_out"
-
-problem() {
-  printf 'problem: %s\n' "$*" >&2
-  failed=1
-}
-
-# ends STATUS TEXT COMMAND...: checks that the command ends with STATUS, and that its output contains TEXT.
-ends() {
-  local status=0 wanted=$1 text=$2 output
-  shift 2
-  output=$("$@" 2>&1) || status=$?
-  if ((status != wanted)) || [[ $output != *"$text"* ]]; then
-    problem "$*: expected the status $wanted and '$text', got $status and: $output"
-  fi
-}
 
 # Faulty words on the command line end the script before anything is installed.
 ends 2 "./run openfoam: '--shrot' is not an option" run_openfoam --shrot
