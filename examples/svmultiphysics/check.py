@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the runs of ./run svmultiphysics. A RUN is the folder of a case, which holds the tables riis_*.csv of uris_check.cpp.
+"""Checks the runs of ./run svmultiphysics: check.py RUNS COMMAND RUN... Each RUN is a folder in RUNS. It is the folder of a case, and
+has the tables riis_*.csv of uris_check.cpp.
 
-    check.py signs RUN...                           # both engines have the same box of nodes, and the same signs in it
-    check.py points RUN...                          # K and K u_valve equal a loop over all triangles; a valve at rest has no velocity
-    check.py switching RUN SOLVER DISTANCES         # the steps in which a valve turns, with each engine
-    check.py restart WHOLE OURS SOLVERS             # a continued run has the frames of the solver's own, and K of the whole run
-    check.py ranks ONE TWO                          # two ranks have the sums and pressures of one
-    check.py drop OURS SOLVERS AREA                 # the drop of the closed valve over (R/eps) u, with each engine
-    check.py cost RUN SOLVER                        # processor seconds of a step
-    check.py draw RUN SOLVER DISTANCES FILE.png     # pressures, flow and frames of a beat
+    signs RUN...                           # both engines have the same box of nodes, and the same signs in it
+    points RUN...                          # K and K u_valve equal a loop over all triangles; a valve at rest has no velocity
+    switching RUN SOLVER DISTANCES         # the steps in which a valve turns, with each engine
+    restart WHOLE OURS SOLVERS             # a continued run has the frames of the solver's own, and K of the whole run
+    ranks ONE TWO                          # two ranks have the sums and pressures of one
+    drop OURS SOLVERS AREA                 # the drop of the closed valve over (R/eps) u, with each engine
+    cost RUN SOLVER                        # processor seconds of a step
+    draw RUN SOLVER DISTANCES FILE.png     # pressures, flow and frames of a beat
 """
 import csv
 import pathlib
@@ -226,11 +227,20 @@ def draw(ours, solver, distances, path):
     figure.savefig(path, dpi=90)
 
 
-COMMANDS = {"signs": (signs, 1), "points": (points, 1), "switching": (switching, 3), "restart": (restart, 3), "ranks": (ranks, 2),
-            "drop": (drop, 3), "cost": (cost, 2), "draw": (draw, 4)}
+# Each command with its least number of runs, and whether a word follows them.
+COMMANDS = {"signs": (signs, 1, False), "points": (points, 1, False), "switching": (switching, 3, False), "restart": (restart, 3, False),
+            "ranks": (ranks, 2, False), "drop": (drop, 2, True), "cost": (cost, 2, False), "draw": (draw, 3, True)}
+
+
+def main(runs, command, *words):
+    check, least, word_follows = COMMANDS[command]
+    names, rest = (words[:-1], words[-1:]) if word_follows else (words, ())
+    if len(names) < least:
+        sys.exit(__doc__)
+    check(*(pathlib.Path(runs) / name for name in names), *rest)
+
 
 if __name__ == "__main__":
-    command, *words = sys.argv[1:] or [""]
-    if command not in COMMANDS or len(words) < COMMANDS[command][1]:
+    if len(sys.argv) < 4 or sys.argv[2] not in COMMANDS:
         sys.exit(__doc__)
-    COMMANDS[command][0](*words)
+    main(*sys.argv[1:])
