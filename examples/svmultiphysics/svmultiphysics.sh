@@ -24,12 +24,12 @@ run_svmultiphysics() {
   packages=("${svmultiphysics_packages[@]}")
   install_missing
   python=$(python_of_packages)
-  sv_work=$PWD/$build/svmultiphysics
+  sv_root=$PWD sv_riis=$PWD/$build/bin/riis sv_work=$PWD/$build/svmultiphysics
   sv_runs=$sv_work/runs
   mkdir -p "$sv_work" "$out"
   rm -rf "$sv_runs" "${out:?}"/*
   mkdir -p "$sv_runs"
-  sv_check() { "$python" -B "$svmultiphysics_here/check.py" "$@"; }
+  sv_check() { "$python" -B "$svmultiphysics_here/check.py" "$sv_runs" "$@"; }
 
   step "build the library and the program riis" sv_library
   step "build svMultiPhysics as it is (the longest step)" sv_plain
@@ -37,22 +37,22 @@ run_svmultiphysics() {
   step "make the meshes and export the valves" sv_cases
   sv_settings
   step "the closed valve with both engines" sv_closed
-  sv_check drop "$sv_runs"/closed{,_solver} "$(sv_area closed)" | tee "$out/drop.txt"
+  sv_check drop closed closed_solver "$(sv_area closed)" | tee "$out/drop.txt"
   step "a beat with a ramp and a scaffold, with three engines" sv_beats
-  sv_check switching "$sv_runs"/beat{,_solver,_distances} | tee "$out/switching.txt"
-  sv_check cost "$sv_runs"/beat{,_solver} | tee "$out/cost.txt"
+  sv_check switching beat beat_solver beat_distances | tee "$out/switching.txt"
+  sv_check cost beat beat_solver | tee "$out/cost.txt"
   step "the same valve without ramp and scaffold, with three engines" sv_plain_beats
-  sv_check switching "$sv_runs"/plain{,_solver,_distances} | tee -a "$out/switching.txt"
+  sv_check switching plain plain_solver plain_distances | tee -a "$out/switching.txt"
   step "two ranks" sv_ranks
-  sv_check ranks "$sv_runs"/short{,_2} | tee "$out/ranks.txt"
+  sv_check ranks short short_2 | tee "$out/ranks.txt"
   step "a run that continues while the valve opens, with both engines" sv_restart
-  sv_check restart "$sv_runs"/{beat,continued,continued_solver} | tee "$out/restart.txt"
-  step "Taylor-Hood elements" sv_run th th riis 1 signs
+  sv_check restart beat continued continued_solver | tee "$out/restart.txt"
+  step "Taylor-Hood elements" sv_run th th riis 1 all
   step "a valve that moves in an elastic tube" sv_run fsi fsi riis 1 all
   step "two valves, one of them scaled" sv_run two two riis 1 all
-  sv_check signs "$sv_runs"/{beat,short_2,th,fsi,two} | tee "$out/signs.txt"
-  sv_check points "$sv_runs"/{short,short_2,th,fsi,two,continued} | tee "$out/points.txt"
-  sv_check draw "$sv_runs"/beat{,_solver,_distances} "$out/beat.png"
+  sv_check signs beat plain short_2 th fsi two | tee "$out/signs.txt"
+  sv_check points short short_2 th fsi two continued | tee "$out/points.txt"
+  sv_check draw beat beat_solver beat_distances "$out/beat.png"
   step "take the engine out again, which gives the program of before" sv_undo
   say "wrote out/svmultiphysics/*.txt and out/svmultiphysics/beat.png"
 }
@@ -97,34 +97,78 @@ sv_settings() {
 
 # ---- Cases ----
 
-# sv_mesh NAME KIND EDGE: a tube of gmsh, or an elastic one with a wall.
+# sv_mesh NAME KIND EDGE: meshes a tube, or an elastic one with its wall.
 sv_mesh() {
   "$python" -B "$svmultiphysics_here/cases.py" "$2" "$3" "$1.geo" && gmsh -3 -format msh2 -o "$1.msh" "$1.geo"
 }
 
-# sv_export NAME MESH SECONDS [OPTION...]: exports a trileaflet valve to NAME and NAME.xml. It moves in SECONDS.
+# sv_export NAME MESH SECONDS [OPTION...]: exports a trileaflet valve that moves in SECONDS, to NAME and NAME.xml.
 sv_export() {
   local name=$1 mesh=$2 seconds=$3
   shift 3
   rm -rf "$name"
-  RIIS_PYTHON=${RIIS_PYTHON-$python} "$OLDPWD/$build/bin/riis" export "$name" "$mesh.msh" --unit cm --valve trileaflet \
-    --half-thickness 0.2 --resistance 1e3 --time-step 0.004 --opening-seconds "$seconds" --closing-seconds "$seconds" \
-    --largest-edge 0.2 "$@" >"$name.xml"
+  RIIS_PYTHON=${RIIS_PYTHON-$python} "$sv_riis" export "$name" "$mesh.msh" --unit cm --valve trileaflet \
+    --half-thickness 0.2 --resistance 1e3 --time-step 0.004 --opening-seconds "$seconds" --closing-seconds "$seconds" "$@" >"$name.xml"
 }
 
-# The exports and the cases. Paths in the blocks of an export are relative to $sv_work.
-sv_cases() {
-  cd "$sv_work" || return
-  local write=("$python" -B "$svmultiphysics_here/cases.py")
-  sv_mesh tube tube 0.22 && sv_mesh long tube 0.26 && sv_mesh elastic elastic 0.26 && sv_mesh fine tube 0.192 || return
-  "${write[@]}" scaffold ring.vtu || return
-  sv_export plain tube 0.02 && sv_export closed fine 0.02 --largest-edge 0.1 || return
-  # The same valve with a ramp and a scaffold.
+# The paths in the blocks of an export are relative to the working folder.
+sv_cases() (
+  cd "$sv_work" || exit
+  rm -rf cases
+  mkdir cases
+  write=("$python" -B "$svmultiphysics_here/cases.py")
+  sv_mesh tube tube 0.22 && sv_mesh fine tube 0.192 && sv_mesh elastic elastic 0.26 && "${write[@]}" scaffold ring.vtu &&
+    sv_export plain tube 0.02 --largest-edge 0.2 && sv_export closed fine 0.02 --largest-edge 0.1 &&
+    sv_export moving elastic 0.02 --largest-edge 0.2 &&
+    sv_export first tube 0.02 --largest-edge 0.2 --translate 0,0,-0.6 &&
+    sv_export second tube 0.028 --largest-edge 0.2 --translate 0,0,0.7 || exit
+  # The same valve with a ramp of the half thickness and with a scaffold.
   sed 's|<Thickness>.*|<Thickness> 0.15 </Thickness>\n<Scaffold_file_path> ring.vtu </Scaffold_file_path>|' plain.xml >ramp.xml
-  # Two valves in one tube. The second is read with a scale, and moves more slowly.
-  sv_export first tube 0.02 --translate 0,0,-0.6 && sv_export second tube 0.028 --translate 0,0,0.7 || return
-  "${write[@]}" scale second 10 || return
-  sed -i 's|<Mesh_scale_factor>.*|<Mesh_scale_factor> 10 </Mesh_scale_factor>|; /URIS_face name="box"/,/<.Add_URIS_face>/d' second.xml
-  sv_export moving elastic 0.02 || return
-  "$python" -B "$OLDPWD/bench/peers/uris_case.py" write fine.msh closed.xml "$sv_work/cases/closed" 0.004
+  # The second of two valves is read with a scale, and without a box.
+  "${write[@]}" scale second 10 &&
+    sed -i 's|<Mesh_scale_factor>.*|<Mesh_scale_factor> 10 </Mesh_scale_factor>|
+      /URIS_face name="box"/,/<\/Add_URIS_face>/d' second.xml || exit
+  "$python" -B "$sv_root/bench/peers/uris_case.py" write fine.msh closed.xml cases/closed 0.004 &&
+    "${write[@]}" fluid tube.msh cases/beat 30 20000 0.1 ramp.xml &&
+    "${write[@]}" fluid tube.msh cases/short 10 20000 0.1 ramp.xml &&
+    "${write[@]}" fluid tube.msh cases/plain 30 20000 0.1 plain.xml &&
+    "${write[@]}" fluid tube.msh cases/two 12 20000 0.1 first.xml second.xml &&
+    "${write[@]}" taylor-hood elastic.msh cases/th 6 20000 0.1 moving.xml &&
+    "${write[@]}" fsi elastic.msh cases/fsi 10 20000 0.1 moving.xml
+)
+
+# sv_run NAME CASE ENGINE RANKS CHECK: runs a case in the folder NAME.
+sv_run() {
+  local folder=$sv_runs/$1 case=$sv_work/cases/$2 engine=$3 ranks=$4 check=$5
+  [[ -e $folder ]] || cp -r "$case" "$folder"
+  (cd "$folder" && URIS_ENGINE=$engine URIS_CHECK=$check URIS_TABLE=$folder/riis timeout 3600 mpirun -n "$ranks" \
+    "$(sv_program)" solver.xml)
+}
+
+sv_area() { sed -n 's/.*leaflets in the mesh, \([0-9.e+-]*\);.*/\1/p' "$sv_work/$1.xml"; }
+
+sv_closed() { sv_run closed closed riis 1 none && sv_run closed_solver closed solver 1 none; }
+
+sv_beats() {
+  sv_run beat beat riis 1 signs && sv_run beat_solver beat solver 1 none && sv_run beat_distances beat distances 1 none
+}
+
+sv_plain_beats() {
+  sv_run plain plain riis 1 signs && sv_run plain_solver plain solver 1 none && sv_run plain_distances plain distances 1 none
+}
+
+sv_ranks() { sv_run short short riis 1 all && sv_run short_2 short riis 2 all; }
+
+# A run of few steps writes a restart file while the valve opens. The same folder then continues.
+sv_restart() {
+  local engine name
+  for engine in riis solver; do
+    name=continued
+    [[ $engine == riis ]] || name=continued_solver
+    cp -r "$sv_work/cases/beat" "$sv_runs/$name" &&
+      sed -i 's|\(<Number_of_time_steps>\) [0-9]*|\1 5|; s|\(<Increment_in_saving_restart_files>\) [0-9]*|\1 5|' "$sv_runs/$name/solver.xml" &&
+      sv_run "$name" beat "$engine" 1 none &&
+      sed -i 's|\(<Continue_previous_simulation>\) false|\1 true|; s|\(<Number_of_time_steps>\) [0-9]*|\1 12|' "$sv_runs/$name/solver.xml" &&
+      sv_run "$name" beat "$engine" 1 "$([[ $engine == riis ]] && echo all || echo none)" || return
+  done
 }

@@ -19,6 +19,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace uris {
@@ -73,48 +74,59 @@ Point closest_weights(const Point &p, const std::array<Point, 3> &t) {
   return {va / sum, vb / sum, vc / sum};
 }
 
-// The triangles of a valve or of its scaffold, for loops over all of them.
+// The faces of a valve or of its scaffold, for loops over all triangles.
 struct Loop {
-  std::vector<std::array<Point, 3>> corners, velocities;
+  struct Triangle {
+    std::array<Point, 3> corners, velocities;
+  };
+  std::vector<std::vector<Triangle>> faces;
   double half_thickness, R;
 
   void add(const mshType &face, const Array<double> &x, const Array<double> *velocity) {
     if (face.name == "box") return;  // in exports of riis, these triangles only widen the solver's box
+    faces.emplace_back(face.nEl);
     for (int e = 0; e < face.nEl; ++e) {
-      corners.emplace_back();
-      velocities.emplace_back();
       for (int a = 0; a < 3; ++a) {
-        corners.back()[a] = column(x, face.IEN(a, e));
-        velocities.back()[a] = velocity ? column(*velocity, face.IEN(a, e)) : Point{};
+        faces.back()[e].corners[a] = column(x, face.IEN(a, e));
+        faces.back()[e].velocities[a] = velocity ? column(*velocity, face.IEN(a, e)) : Point{};
       }
     }
   }
 
-  // Adds K and K u_valve at p.
+  // Adds K and K u_valve at p. Several faces may be equally near, as leaflets that touch are. The velocity is then their mean
+  // (docs/theory/marks.md, "Equally near leaflets").
   void add_resistance(const Point &p, double &K, Point &K_u) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    Point velocity{};
-    for (size_t t = 0; t < corners.size(); ++t) {
-      const Point w = closest_weights(p, corners[t]);
-      Point q{}, u{};
-      for (int a = 0; a < 3; ++a) {
-        for (int k = 0; k < 3; ++k) {
-          q[k] += w[a] * corners[t][a][k];
-          u[k] += w[a] * velocities[t][a][k];
+    std::vector<std::pair<double, Point>> nearest;  // the distance to each face, and the velocity there
+    for (const auto &face : faces) {
+      double least = std::numeric_limits<double>::infinity();
+      Point velocity{};
+      for (const Triangle &triangle : face) {
+        const Point w = closest_weights(p, triangle.corners);
+        Point q{}, u{};
+        for (int a = 0; a < 3; ++a) {
+          for (int k = 0; k < 3; ++k) {
+            q[k] += w[a] * triangle.corners[a][k];
+            u[k] += w[a] * triangle.velocities[a][k];
+          }
         }
-      }
-      const double squared = dot(p - q, p - q);
-      if (squared < nearest) {
-        nearest = squared;
+        const double squared = dot(p - q, p - q);
+        if (squared >= least) continue;
+        least = squared;
         velocity = u;
       }
+      nearest.emplace_back(std::sqrt(least), velocity);
     }
-    const double distance = std::sqrt(nearest);
+    double distance = std::numeric_limits<double>::infinity();
+    for (const auto &face : nearest) distance = std::min(distance, face.first);
     if (!(distance < half_thickness)) return;
-    const double here =
-        R * (1 + std::cos(std::acos(-1.0) * distance / half_thickness)) / (2 * half_thickness * half_thickness);
+    const double share = distance / half_thickness;
+    const double here = R * (1 + std::cos(std::acos(-1.0) * share)) / (2 * half_thickness * half_thickness);
     K += here;
-    for (int k = 0; k < 3; ++k) K_u[k] += here * velocity[k];
+    const auto is_near = [&](const auto &face) { return face.first <= distance + 1e-6 * half_thickness; };
+    const auto n_near = std::count_if(nearest.begin(), nearest.end(), is_near);
+    for (const auto &face : nearest) {
+      for (int k = 0; is_near(face) && k < 3; ++k) K_u[k] += here * face.second[k] / static_cast<double>(n_near);
+    }
   }
 };
 
@@ -129,12 +141,12 @@ double half_thickness(const urisType &uris) {
 std::vector<Loop> loops(const ComMod &com_mod) {
   std::vector<Loop> found;
   for (const urisType &uris : com_mod.uris) {
-    found.push_back({{}, {}, half_thickness(uris), uris.resistance});
+    found.push_back({{}, half_thickness(uris), uris.resistance});
     for (int f = 0; f < uris.nFa; ++f) {
       found.back().add(uris.msh[f], uris.x, uris.include_uris_velocity ? &uris.valve_velocity : nullptr);
     }
     if (!uris.scaffold_flag) continue;
-    found.push_back({{}, {}, uris.sdf_deps_close, uris.resistance});
+    found.push_back({{}, uris.sdf_deps_close, uris.resistance});
     found.back().add(uris.scaffold_msh, uris.scaffold_msh.x, nullptr);
   }
   return found;
