@@ -101,7 +101,7 @@ def write_mesh(msh, folder):
 
 
 def valve_of(block):
-    """Returns the valve of a block that `riis export` printed, with absolute paths, because the solver runs in another folder."""
+    """Returns the valve of a block that `riis export` printed. Its paths become absolute: the solver runs in another folder."""
     valve = re.search("<Add_URIS_mesh.*</Add_URIS_mesh>", pathlib.Path(block).read_text(encoding="utf-8"), re.S)
     if not valve:
         sys.exit(f"uris_case.py: {block} has no Add_URIS_mesh")

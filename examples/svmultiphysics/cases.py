@@ -6,8 +6,8 @@
     cases.py scale FOLDER FACTOR                          # divides the coordinates of an export by FACTOR, and drops its box
     cases.py fluid|taylor-hood|fsi DUCT.msh FOLDER STEPS PRESSURE PERIOD BLOCK.xml...
 
-The last form makes FOLDER with the meshes and solver.xml. The pressure at the lower end is PRESSURE cos(2 pi t / PERIOD), and 0 at
-the upper end. Each BLOCK is the output of `riis export`, whose working folder is the present one. Units are CGS.
+The last form makes FOLDER with the meshes and solver.xml. The pressure at the lower end is PRESSURE cos(2 pi t / PERIOD), and
+0 at the upper end. Each BLOCK is the output of `riis export`, whose working folder is the present one. Units are CGS.
 """
 import math
 import pathlib
@@ -36,7 +36,8 @@ Mesh.MeshSizeMax = {edge};
 
 def scaffold(path):
     count, radii = 36, (0.95, RADIUS)
-    places = [(r * math.cos(2 * math.pi * i / count), r * math.sin(2 * math.pi * i / count), -0.35) for r in radii for i in range(count)]
+    angles = [2 * math.pi * i / count for i in range(count)]
+    places = [(r * math.cos(angle), r * math.sin(angle), -0.35) for r in radii for angle in angles]
     cells = []
     for i in range(count):
         j = (i + 1) % count
@@ -134,7 +135,8 @@ def mesh(name, folder, faces, domain=None):
 
 def equation(kind, settings, conditions, tolerance, most_iterations):
     return (f'<Add_equation type="{kind}">\n<Coupled> true </Coupled> <Min_iterations> 2 </Min_iterations>\n'
-            f"<Max_iterations> {most_iterations} </Max_iterations> <Tolerance> {tolerance} </Tolerance>\n{settings}{conditions}</Add_equation>\n")
+            f"<Max_iterations> {most_iterations} </Max_iterations> <Tolerance> {tolerance} </Tolerance>\n"
+            f"{settings}{conditions}</Add_equation>\n")
 
 
 def fluid_equations(kind):
@@ -151,8 +153,9 @@ def elastic_equations():
     ends = (condition("pipe_low", DRIVE) + condition("pipe_high", STEADY.format(kind="Neu"))
             + condition("wall_low", STEADY.format(kind="Dir")) + condition("wall_high", STEADY.format(kind="Dir")))
     moves = "".join(condition(f"pipe_{end}", STEADY.format(kind="Dir")) for end in ("low", "high"))
-    outputs = ('<Output type="Spatial"> <Displacement> true </Displacement> <Velocity> true </Velocity> <Pressure> true </Pressure>'
-               ' </Output>\n<Output type="Alias"> <Displacement> FS_Displacement </Displacement> </Output>\n')
+    outputs = ('<Output type="Spatial"> <Displacement> true </Displacement> <Velocity> true </Velocity>'
+               ' <Pressure> true </Pressure> </Output>\n'
+               '<Output type="Alias"> <Displacement> FS_Displacement </Displacement> </Output>\n')
     poisson = ("<Poisson_ratio> 0.3 </Poisson_ratio>\n" + SOLVER.format(kind="CG", tolerance=1e-6, most=1000)
                + '<Output type="Spatial"> <Displacement> true </Displacement> </Output>\n')
     return (equation("FSI", domains + flow + outputs + MEANS.format(kind="B_INT"), ends, 1e-6, 4)
@@ -180,7 +183,8 @@ def write(kind, msh, folder, steps, pressure, period, *blocks):
         equations = fluid_equations(kind)
     valves = "".join(uris_case.valve_of(block) for block in blocks)
     count = 65
-    rows = [f"{i * float(period) / (count - 1):.9g} {float(pressure) * math.cos(2 * math.pi * i / (count - 1)):.9g}" for i in range(count)]
+    shares = [i / (count - 1) for i in range(count)]
+    rows = [f"{share * float(period):.9g} {float(pressure) * math.cos(2 * math.pi * share):.9g}" for share in shares]
     (folder / "pressure.dat").write_text("\n".join([f"{count} 4", *rows]) + "\n", encoding="ascii")
     (folder / "solver.xml").write_text(f"""<?xml version="1.0" encoding="UTF-8" ?>
 <svMultiPhysicsFile version="0.1">

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the runs of ./run svmultiphysics: check.py RUNS COMMAND RUN... Each RUN is a folder in RUNS. It is the folder of a case, and
-has the tables riis_*.csv of uris_check.cpp.
+"""Checks the runs of ./run svmultiphysics: check.py RUNS COMMAND RUN... Each RUN is a folder in RUNS: the folder of a case, with
+the tables riis_*.csv of uris_check.cpp.
 
     signs RUN...                           # both engines have the same box of nodes, and the same signs in it
     points RUN...                          # K and K u_valve equal a loop over all triangles; a valve at rest has no velocity
@@ -54,10 +54,11 @@ def frames_of(folder):
 
 def signs(*folders):
     print("Nodes of the solver's box, over all steps and ranks. Lost are nodes of the band that the solver's distances leave out.")
-    print(f"  {'run':<16} {'steps':>5} {'frames':>6} {'nodes':>8} {'other box':>9} {'other sign':>10} {'in the band':>11} {'lost':>6}")
+    print(f"  {'run':<16} {'steps':>5} {'frames':>6} {'nodes':>8} {'other box':>9} {'other sign':>10} {'in the band':>11}"
+          f" {'lost':>6}")
     for folder in folders:
         rows = rows_of(folder, "nodes")
-        shown = {(row["valve"], frame) for row, frame in zip(rows, (min(row["count"], row["frames"] + 1) * 2 + row["closing"] for row in rows))}
+        shown = {(row["valve"], min(row["count"], row["frames"] + 1), row["closing"]) for row in rows}
         total = {name: int(sum(row[name] for row in rows)) for name in ("box", "other_box", "other_sign", "within", "lost")}
         print(f"  {name_of(folder):<16} {len({row['step'] for row in rows}):>5} {len(shown):>6} {total['box']:>8}"
               f" {total['other_box']:>9} {total['other_sign']:>10} {total['within']:>11} {total['lost']:>6}")
@@ -68,23 +69,24 @@ def signs(*folders):
 
 def points(*folders):
     print("Gauss points, over all steps and ranks, against a loop over all triangles.")
-    print(f"  {'run':<16} {'points':>8} {'marked':>8} {'wrong':>6} {'K off by':>9} {'K u off by':>10} {'at rest':>8} {'skipped':>8}")
+    print(f"  {'run':<16} {'points':>8} {'marked':>8} {'wrong':>6} {'K off by':>9} {'K u off by':>10} {'at rest':>8}"
+          f" {'skipped':>8}")
     for folder in folders:
         rows, frames = rows_of(folder, "points"), frames_of(folder)
         worst = {}
         for error, largest in (("K_error", "largest_K"), ("K_u_error", "largest_K_u")):
             worst[error] = max((row[error] / row[largest] for row in rows if row[largest] > 0), default=0)
-            require(all(row[error] == 0 for row in rows if row[largest] == 0), f"{folder}: {error} is 0 where nothing is marked")
-        wrong = int(sum(row["wrong"] for row in rows))
+            require(all(row[error] == 0 for row in rows if row[largest] == 0),
+                    f"{folder}: {error} is 0 where nothing is marked")
+        total = {name: int(sum(row[name] for row in rows)) for name in ("points", "marked", "wrong", "solid")}
         # Steps after a motion in which every valve rests.
         resting = {step for step, _ in frames if all(frames[key][0] == 0 for key in frames if key[0] == step)}
         moved = [row["step"] for row in rows if row["K_u"] > 0]
         after = [row for row in rows if moved and row["step"] in resting and row["step"] > min(moved)]
-        print(f"  {name_of(folder):<16} {int(sum(row['points'] for row in rows)):>8} {int(sum(row['marked'] for row in rows)):>8} {wrong:>6}"
-              f" {worst['K_error']:>9.1e} {worst['K_u_error']:>10.1e} {len({row['step'] for row in after}):>8}"
-              f" {int(sum(row['solid'] for row in rows)):>8}")
-        require(sum(row["marked"] for row in rows) > 0 and max(row["largest_K"] for row in rows) > 0, f"{folder}: points were compared")
-        require(wrong == 0, f"{folder}: {wrong} points are wrongly marked")
+        print(f"  {name_of(folder):<16} {total['points']:>8} {total['marked']:>8} {total['wrong']:>6} {worst['K_error']:>9.1e}"
+              f" {worst['K_u_error']:>10.1e} {len({row['step'] for row in after}):>8} {total['solid']:>8}")
+        require(total["marked"] > 0 and max(row["largest_K"] for row in rows) > 0, f"{folder}: points were compared")
+        require(total["wrong"] == 0, f"{folder}: {total['wrong']} points are wrongly marked")
         for error, value in worst.items():
             require(value <= EXACT, f"{folder}: {error} is at most {EXACT} of the largest value, not {value}")
         require(all(row["K_u"] == 0 for row in after), f"{folder}: a valve that rests again has no velocity")
@@ -107,8 +109,8 @@ def switching(ours, solver, distances):
         for valve, turns in found[label].items():
             print(f"  {label:<34} {valve}: " + ", ".join(f"{what} in step {step}" for what, step in turns))
     require(found["solver"], "a valve turns")
-    require(found["riis's distances, the solver's K"] == found["solver"], "the solver's K from riis's distances turns the valve in the "
-            "solver's steps")
+    require(found["riis's distances, the solver's K"] == found["solver"],
+            "the solver's K from riis's distances turns the valve in the solver's steps")
 
 
 def restart(whole, ours, solvers):
@@ -125,10 +127,13 @@ def restart(whole, ours, solvers):
     moving = [frame[0] > 1 for (step, _), frame in frames[1].items() if step == first]
     require(any(moving), "the valve moves when the run is continued")
     # The step that is played again has the same K as before.
-    sums = [{(row["mesh"], row["gauss"], row["functions"]): (row["K"], row["K_u"]) for row in rows_of(folder, "points") if row["step"] == step}
-            for folder, step in ((whole, first - 1), (ours, first))]
-    for key, before in sums[0].items():
-        for name, a, b in zip(("K", "K u_valve"), before, sums[1][key]):
+    def sums_of(folder, step):
+        return {(row["mesh"], row["gauss"], row["functions"]): (row["K"], row["K_u"])
+                for row in rows_of(folder, "points") if row["step"] == step}
+
+    again = sums_of(ours, first)
+    for key, before in sums_of(whole, first - 1).items():
+        for name, a, b in zip(("K", "K u_valve"), before, again[key]):
             require(abs(a - b) <= EXACT * abs(a), f"the sum of {name} is that of the run that was not stopped, {a}, not {b}")
     print("  the sums of K and K u_valve of the repeated step are those of the run that was not stopped")
 
@@ -149,8 +154,8 @@ def ranks(one, two):
     before, after = means_of(one, "Pressure_average"), means_of(two, "Pressure_average")
     largest = max(abs(value) for row in before for value in row.values())
     off = max(abs(a[face] - b[face]) for a, b in zip(before, after) for face in a) / largest
-    print(f"Two ranks: the sums of K and K u_valve differ by {worst:.1e} of themselves, the mean pressures of faces by {off:.1e} of the"
-          f" largest, in {len(before)} steps.")
+    print(f"Two ranks: the sums of K and K u_valve differ by {worst:.1e} of themselves, the mean pressures of faces by {off:.1e} of"
+          f" the largest, in {len(before)} steps.")
     require(len(before) == len(after), "both runs have the same number of steps")
     require(worst <= 1e-12, f"the sums are equal to 1e-12, not {worst}")
     require(off <= RANKS, f"the pressures are equal to {RANKS}, not {off}")
@@ -176,7 +181,8 @@ def drop(ours, solvers, area):
                         for p, q in zip(pressures, flows)]
         print(f"  {label:<20} {found[label][0]:.4f} {found[label][1]:.4f}")
         require(abs(found[label][0] - found[label][1]) <= 2e-3 * found[label][1], f"{folder} is steady")
-    require(found["the solver's engine"][1] < found["riis"][1] < 1, "exact K keeps more of the drop than the solver's K, and less than all")
+    require(found["the solver's engine"][1] < found["riis"][1] < 1,
+            "exact K keeps more of the drop than the solver's K, and less than all")
 
 
 def cost(ours, solver):
@@ -207,7 +213,8 @@ def draw(ours, solver, distances, path):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     figure, axes = plt.subplots(4, 1, figsize=(7, 9), sharex=True, layout="constrained")
-    for label, folder, style in (("solver", solver, "s-"), ("riis's distances, the solver's K", distances, "x-"), ("riis", ours, ".-")):
+    runs = (("solver", solver, "s-"), ("riis's distances, the solver's K", distances, "x-"), ("riis", ours, ".-"))
+    for label, folder, style in runs:
         flows, nodes = means_of(folder, "Velocity_flux"), rows_of(folder, "nodes")
         steps = range(1, len(flows) + 1)
         axes[0].plot(steps, [row["low"] - row["high"] for row in means_of(folder, "Pressure_average")], style, label=label)
@@ -228,8 +235,9 @@ def draw(ours, solver, distances, path):
 
 
 # Each command with its least number of runs, and whether a word follows them.
-COMMANDS = {"signs": (signs, 1, False), "points": (points, 1, False), "switching": (switching, 3, False), "restart": (restart, 3, False),
-            "ranks": (ranks, 2, False), "drop": (drop, 2, True), "cost": (cost, 2, False), "draw": (draw, 3, True)}
+COMMANDS = {"signs": (signs, 1, False), "points": (points, 1, False), "switching": (switching, 3, False),
+            "restart": (restart, 3, False), "ranks": (ranks, 2, False), "drop": (drop, 2, True), "cost": (cost, 2, False),
+            "draw": (draw, 3, True)}
 
 
 def main(runs, command, *words):

@@ -108,7 +108,8 @@ sv_export() {
   shift 3
   rm -rf "$name"
   RIIS_PYTHON=${RIIS_PYTHON-$python} "$sv_riis" export "$name" "$mesh.msh" --unit cm --valve trileaflet \
-    --half-thickness 0.2 --resistance 1e3 --time-step 0.004 --opening-seconds "$seconds" --closing-seconds "$seconds" "$@" >"$name.xml"
+    --half-thickness 0.2 --resistance 1e3 --time-step 0.004 --opening-seconds "$seconds" --closing-seconds "$seconds" \
+    "$@" >"$name.xml"
 }
 
 # The paths in the blocks of an export are relative to the working folder.
@@ -117,7 +118,8 @@ sv_cases() (
   rm -rf cases
   mkdir cases
   write=("$python" -B "$svmultiphysics_here/cases.py")
-  sv_mesh tube tube 0.22 && sv_mesh fine tube 0.192 && sv_mesh elastic elastic 0.26 && "${write[@]}" scaffold ring.vtu &&
+  sv_mesh tube tube 0.22 && sv_mesh fine tube 0.192 && sv_mesh elastic elastic 0.26 && sv_mesh coarse tube 0.3 &&
+    "${write[@]}" scaffold ring.vtu &&
     sv_export plain tube 0.02 --largest-edge 0.2 && sv_export closed fine 0.02 --largest-edge 0.1 &&
     sv_export moving elastic 0.02 --largest-edge 0.2 &&
     sv_export first tube 0.02 --largest-edge 0.2 --translate 0,0,-0.6 &&
@@ -133,7 +135,7 @@ sv_cases() (
     "${write[@]}" fluid tube.msh cases/short 10 20000 0.1 ramp.xml &&
     "${write[@]}" fluid tube.msh cases/plain 30 20000 0.1 plain.xml &&
     "${write[@]}" fluid tube.msh cases/two 12 20000 0.1 first.xml second.xml &&
-    "${write[@]}" taylor-hood elastic.msh cases/th 6 20000 0.1 moving.xml &&
+    "${write[@]}" taylor-hood coarse.msh cases/th 6 20000 0.1 plain.xml &&
     "${write[@]}" fsi elastic.msh cases/fsi 10 20000 0.1 moving.xml
 )
 
@@ -159,16 +161,18 @@ sv_plain_beats() {
 
 sv_ranks() { sv_run short short riis 1 all && sv_run short_2 short riis 2 all; }
 
-# A run of few steps writes a restart file while the valve opens. The same folder then continues.
-sv_restart() {
-  local engine name
-  for engine in riis solver; do
-    name=continued
-    [[ $engine == riis ]] || name=continued_solver
-    cp -r "$sv_work/cases/beat" "$sv_runs/$name" &&
-      sed -i 's|\(<Number_of_time_steps>\) [0-9]*|\1 5|; s|\(<Increment_in_saving_restart_files>\) [0-9]*|\1 5|' "$sv_runs/$name/solver.xml" &&
-      sv_run "$name" beat "$engine" 1 none &&
-      sed -i 's|\(<Continue_previous_simulation>\) false|\1 true|; s|\(<Number_of_time_steps>\) [0-9]*|\1 12|' "$sv_runs/$name/solver.xml" &&
-      sv_run "$name" beat "$engine" 1 "$([[ $engine == riis ]] && echo all || echo none)" || return
-  done
+# sv_set NAME ENTRY VALUE: changes an entry of a run's solver.xml.
+sv_set() { sed -i "s|\(<$2>\) [a-z0-9]*|\1 $3|" "$sv_runs/$1/solver.xml"; }
+
+# sv_continue NAME ENGINE CHECK: runs five steps, which end while the valve opens, and continues with the restart file.
+sv_continue() {
+  cp -r "$sv_work/cases/beat" "$sv_runs/$1" &&
+    sv_set "$1" Number_of_time_steps 5 &&
+    sv_set "$1" Increment_in_saving_restart_files 5 &&
+    sv_run "$1" beat "$2" 1 none &&
+    sv_set "$1" Number_of_time_steps 12 &&
+    sv_set "$1" Continue_previous_simulation true &&
+    sv_run "$1" beat "$2" 1 "$3"
 }
+
+sv_restart() { sv_continue continued riis all && sv_continue continued_solver solver none; }

@@ -3,6 +3,7 @@
 # check_script.sh SOURCE WORK
 # Checks what ./run svmultiphysics says without the solver, and what riis.cmake does to a made-up solver: it refuses unknown
 # sources, replaces two functions, changes no source, and can be undone.
+# shellcheck disable=SC2317 # ends calls the functions
 set -euo pipefail
 source=$1 work=$2
 # shellcheck source=tests/support/script_checks.sh

@@ -43,7 +43,8 @@ class Checks(unittest.TestCase):
         judged = judge("signs", "beat", "short_2")
         self.assertIn("short_2", judged.passes())
         for column in ("other_sign", "other_box"):
-            judged.refuses("1 differ" if column == "other_sign" else "differs at 1 node", fault(judged, "beat/riis_nodes_0.csv", column, "1"))
+            text = "1 differ" if column == "other_sign" else "differs at 1 node"
+            judged.refuses(text, fault(judged, "beat/riis_nodes_0.csv", column, "1"))
             judged.refuses("short_2: ", fault(judged, "short_2/riis_nodes_1.csv", column, "2"))
         judged.refuses("has riis_nodes_*.csv", {"beat/riis_nodes_0.csv": None})
 
@@ -54,14 +55,17 @@ class Checks(unittest.TestCase):
         judged.refuses("points are wrongly marked", fault(judged, table, "wrong", "1"))
         judged.refuses("K_error is at most 1e-09", fault(judged, table, "K_error", "1e-3"))
         judged.refuses("K_u_error is at most 1e-09", fault(judged, table, "K_u_error", "1e-3", moves))
-        judged.refuses("K_u_error is 0 where nothing is marked", fault(judged, table, "K_u_error", "1e-3", lambda row: not moves(row)))
-        judged.refuses("a valve that rests again has no velocity", fault(judged, table, "K_u", "1", lambda row: row["step"] == "10"))
+        judged.refuses("K_u_error is 0 where nothing is marked",
+                       fault(judged, table, "K_u_error", "1e-3", lambda row: not moves(row)))
+        judged.refuses("a valve that rests again has no velocity",
+                       fault(judged, table, "K_u", "1", lambda row: row["step"] == "10"))
 
     def test_switching(self):
         judged = judge("switching", "beat", "beat_solver", "beat_distances")
         self.assertIn("opens in step", judged.passes())
         table = "beat_distances/riis_nodes_0.csv"
-        judged.refuses("turns the valve in the solver's steps", fault(judged, table, "count", "2", lambda row: row["count"] == "1"))
+        judged.refuses("turns the valve in the solver's steps",
+                       fault(judged, table, "count", "2", lambda row: row["count"] == "1"))
 
     def test_restart(self):
         judged = judge("restart", "beat", "continued", "continued_solver")
@@ -85,7 +89,8 @@ class Checks(unittest.TestCase):
     def test_cost(self):
         judged = judge("cost", "beat", "beat_solver")
         self.assertIn("of the solver's time", judged.passes())
-        judged.refuses("less than half", fault(judged, "beat/riis_nodes_0.csv", "seconds", "1e4", lambda row: row["count"] == "2"))
+        judged.refuses("less than half",
+                       fault(judged, "beat/riis_nodes_0.csv", "seconds", "1e4", lambda row: row["count"] == "2"))
 
     def test_words(self):
         judge("signs").refuses("COMMAND RUN", {})
