@@ -105,7 +105,8 @@ def valve_of(block):
     valve = re.search("<Add_URIS_mesh.*</Add_URIS_mesh>", pathlib.Path(block).read_text(encoding="utf-8"), re.S)
     if not valve:
         sys.exit(f"uris_case.py: {block} has no Add_URIS_mesh")
-    return re.sub(r"(<\w*[Ff]ile_path> *)([^ <]+)", lambda found: found[1] + str(pathlib.Path(found[2]).resolve()), valve[0]) + "\n"
+    paths = r"(<\w*[Ff]ile_path> *)([^ <]+)"
+    return re.sub(paths, lambda found: found[1] + str(pathlib.Path(found[2]).resolve()), valve[0]) + "\n"
 
 
 def write(msh, block, folder, time_step):

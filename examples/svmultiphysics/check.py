@@ -53,7 +53,7 @@ def frames_of(folder):
 
 
 def signs(*folders):
-    print("Nodes of the solver's box, over all steps and ranks. Lost are nodes of the band that the solver's distances leave out.")
+    print("Nodes of the solver's box, over all steps and ranks. Lost nodes are in the band, but not by the solver's distances.")
     print(f"  {'run':<16} {'steps':>5} {'frames':>6} {'nodes':>8} {'other box':>9} {'other sign':>10} {'in the band':>11}"
           f" {'lost':>6}")
     for folder in folders:
@@ -154,8 +154,8 @@ def ranks(one, two):
     before, after = means_of(one, "Pressure_average"), means_of(two, "Pressure_average")
     largest = max(abs(value) for row in before for value in row.values())
     off = max(abs(a[face] - b[face]) for a, b in zip(before, after) for face in a) / largest
-    print(f"Two ranks: the sums of K and K u_valve differ by {worst:.1e} of themselves, the mean pressures of faces by {off:.1e} of"
-          f" the largest, in {len(before)} steps.")
+    print(f"Two ranks, {len(before)} steps: the sums of K and K u_valve differ by {worst:.1e} of themselves, the mean"
+          f" pressures of faces by {off:.1e} of the largest.")
     require(len(before) == len(after), "both runs have the same number of steps")
     require(worst <= 1e-12, f"the sums are equal to 1e-12, not {worst}")
     require(off <= RANKS, f"the pressures are equal to {RANKS}, not {off}")

@@ -15,7 +15,7 @@ function(riis_replace_engine)
   file(SHA256 ${folder}/uris.cpp version)
   if(NOT version IN_LIST riis_known_versions)
     message(FATAL_ERROR "riis.cmake knows the valve engine of svMultiPhysics b5fbed0, but not ${folder}/uris.cpp with the "
-      "SHA-256 ${version}. If its functions uris_calc_sdf and eval_uris_ris_factors_quadrature are the same as in b5fbed0, add this "
+      "SHA-256 ${version}. If its functions uris_calc_sdf and eval_uris_ris_factors_quadrature are those of b5fbed0, add this "
       "number to riis_known_versions in ${riis_engine_folder}/riis.cmake.")
   endif()
   find_package(riis CONFIG REQUIRED)
