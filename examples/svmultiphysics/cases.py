@@ -182,6 +182,8 @@ def write(kind, msh, folder, steps, pressure, period, *blocks):
         meshes = mesh("tube", "tube", [(face, face) for face in ("wall", "low", "high")])
         equations = fluid_equations(kind)
     valves = "".join(uris_case.valve_of(block) for block in blocks)
+    # A flow that starts suddenly oscillates unless this is 0. With 0, the solver's equations of solids give no numbers.
+    damping = 0.5 if kind == "fsi" else 0
     count = 65
     shares = [i / (count - 1) for i in range(count)]
     rows = [f"{share * float(period):.9g} {float(pressure) * math.cos(2 * math.pi * share):.9g}" for share in shares]
@@ -193,7 +195,7 @@ def write(kind, msh, folder, steps, pressure, period, *blocks):
   <Number_of_spatial_dimensions> 3 </Number_of_spatial_dimensions>
   <Number_of_time_steps> {steps} </Number_of_time_steps>
   <Time_step_size> {TIME_STEP} </Time_step_size>
-  <Spectral_radius_of_infinite_time_step> 0 </Spectral_radius_of_infinite_time_step>
+  <Spectral_radius_of_infinite_time_step> {damping} </Spectral_radius_of_infinite_time_step>
   <Save_results_to_VTK_format> false </Save_results_to_VTK_format>
   <Name_prefix_of_saved_VTK_files> result </Name_prefix_of_saved_VTK_files>
   <Start_saving_after_time_step> 1 </Start_saving_after_time_step>

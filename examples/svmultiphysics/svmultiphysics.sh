@@ -118,7 +118,7 @@ sv_cases() (
   rm -rf cases
   mkdir cases
   write=("$python" -B "$svmultiphysics_here/cases.py")
-  sv_mesh tube tube 0.28 && sv_mesh fine tube 0.18 && sv_mesh elastic elastic 0.32 &&
+  sv_mesh tube tube 0.28 && sv_mesh fine tube 0.18 && sv_mesh elastic elastic 0.32 && sv_mesh coarse tube 0.45 &&
     "${write[@]}" scaffold ring.vtu &&
     sv_export plain 0.02 --largest-edge 0.2 && sv_export closed 0.02 fine.msh --largest-edge 0.1 &&
     sv_export first 0.02 --largest-edge 0.2 --translate 0,0,-0.6 &&
@@ -134,7 +134,7 @@ sv_cases() (
     "${write[@]}" fluid tube.msh cases/short 10 20000 0.1 ramp.xml &&
     "${write[@]}" fluid tube.msh cases/plain 30 20000 0.1 plain.xml &&
     "${write[@]}" fluid tube.msh cases/two 11 20000 0.1 first.xml second.xml &&
-    "${write[@]}" taylor-hood tube.msh cases/th 5 20000 0.1 plain.xml &&
+    "${write[@]}" taylor-hood coarse.msh cases/th 5 20000 0.1 plain.xml &&
     "${write[@]}" fsi elastic.msh cases/fsi 9 20000 0.1 plain.xml
 )
 

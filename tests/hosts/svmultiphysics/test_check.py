@@ -54,7 +54,7 @@ class Checks(unittest.TestCase):
         table = "short/riis_points_0.csv"
         judged.refuses("points are wrongly marked", fault(judged, table, "wrong", "1"))
         judged.refuses("K_error is at most 1e-09", fault(judged, table, "K_error", "1e-3"))
-        judged.refuses("K_u_error is at most 1e-09", fault(judged, table, "K_u_error", "1e-3", moves))
+        judged.refuses("K_u_error is at most 1e-09", fault(judged, table, "K_u_error", "1", moves))
         judged.refuses("K_u_error is 0 where nothing is marked",
                        fault(judged, table, "K_u_error", "1e-3", lambda row: not moves(row)))
         judged.refuses("a valve that rests again has no velocity",
