@@ -58,7 +58,7 @@ class Checks(unittest.TestCase):
         judged.refuses("K_u_error is 0 where nothing is marked",
                        fault(judged, table, "K_u_error", "1e-3", lambda row: not moves(row)))
         judged.refuses("a valve that rests again has no velocity",
-                       fault(judged, table, "K_u", "1", lambda row: row["step"] == "10"))
+                       fault(judged, table, "K_u", "1", lambda row: row["step"] == "9"))
 
     def test_switching(self):
         judged = judge("switching", "beat", "beat_solver", "beat_distances")
@@ -81,10 +81,15 @@ class Checks(unittest.TestCase):
         judged.refuses("the same Gauss points", fault(judged, "short_2/riis_points_1.csv", "points", "4"))
 
     def test_drop(self):
-        judged = judge("drop", "closed", "closed_solver", "7.89")
-        self.assertIn("the solver's engine", judged.passes())
-        other = Judged(CHECK, tables_of("closed", "closed_solver"), "drop", "closed_solver", "closed", "7.89")
-        other.refuses("exact K keeps more", {})
+        tables = tables_of("closed")
+        # The other engine's run is made up: a smaller pressure at the inlet.
+        name = "closed/1-procs/B_NS_Pressure_average.txt"
+        weaker = tables[name].replace("4.8765086955e+03", "3.7865086955e+03").replace("4.8763185608e+03", "3.7863185608e+03")
+        self.assertNotEqual(weaker, tables[name])
+        tables |= {path.replace("closed", "closed_solver"): weaker if path == name else text for path, text in tables.items()}
+        Judged(CHECK, tables, "drop", "closed", "closed_solver", "7.8802").passes()
+        Judged(CHECK, tables, "drop", "closed_solver", "closed", "7.8802").refuses("exact K keeps more", {})
+        Judged(CHECK, tables, "drop", "closed", "closed_solver", "7.8802").refuses("is steady", {name: ("4.8763", "4.9763")})
 
     def test_cost(self):
         judged = judge("cost", "beat", "beat_solver")
