@@ -100,16 +100,20 @@ def write_mesh(msh, folder):
                   [[used[n] for n in corners] for corners, _ in faces], [number for _, number in faces])
 
 
+def valve_of(block):
+    """Returns the valve of a block that `riis export` printed. Its paths become absolute: the solver runs in another folder."""
+    valve = re.search("<Add_URIS_mesh.*</Add_URIS_mesh>", pathlib.Path(block).read_text(encoding="utf-8"), re.S)
+    if not valve:
+        sys.exit(f"uris_case.py: {block} has no Add_URIS_mesh")
+    paths = r"(<\w*[Ff]ile_path> *)([^ <]+)"
+    return re.sub(paths, lambda found: found[1] + str(pathlib.Path(found[2]).resolve()), valve[0]) + "\n"
+
+
 def write(msh, block, folder, time_step):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True)
     write_mesh(pathlib.Path(msh), folder)
-    text = pathlib.Path(block).read_text(encoding="utf-8")
-    valve = re.search("<Add_URIS_mesh.*</Add_URIS_mesh>", text, re.S)
-    if not valve:
-        sys.exit(f"uris_case.py: {block} has no Add_URIS_mesh")
-    # The exported paths are relative to the folder in which the command ran. The solver runs in FOLDER.
-    paths = re.sub(r"(<\w*[Ff]ile_path> *)([^ <]+)", lambda found: found[1] + str(pathlib.Path(found[2]).resolve()), valve[0])
+    valve = valve_of(block)
     faces = "".join(f'<Add_face name="{name}"> <Face_file_path> {name}.vtp </Face_file_path> </Add_face>\n'
                     for name in ("wall", "inlet", "outlet"))
     (folder / "solver.xml").write_text(f"""<?xml version="1.0" encoding="UTF-8" ?>
@@ -128,8 +132,7 @@ def write(msh, block, folder, time_step):
 <Add_mesh name="duct">
 <Mesh_file_path> mesh.vtu </Mesh_file_path>
 {faces}</Add_mesh>
-{paths}
-<Add_equation type="fluid">
+{valve}<Add_equation type="fluid">
   <Coupled> true </Coupled>
   <Min_iterations> 2 </Min_iterations>
   <Max_iterations> 8 </Max_iterations>
