@@ -593,8 +593,15 @@ static void work_in_little_memory(const char *work) {
   grid.stride[0] = 1, grid.stride[1] = n + 2, grid.stride[2] = (n + 2) * (n + 2);
   grid.first = 1 + (n + 2) + (n + 2) * (n + 2);
   grid.n_nodes = numbers;
-  for (int c = 0; c < 3; ++c) grid.origin[c] = -3, grid.spacing[c] = 6. / n;
   const riis_surface *surface = aortic_surface(NULL);
+  const riis_surface_info info = info_of(surface);
+  const int are_cells = strcmp(work, "cells") == 0;
+  /* The valve closes a long channel, so a passage has few nodes near it. */
+  for (int c = 0; c < 3; ++c) {
+    const double out = are_cells ? 1 : c == 2 ? 300 : -0.05;
+    grid.origin[c] = info.lower[c] - out;
+    grid.spacing[c] = (info.upper[c] - info.lower[c] + 2 * out) / (n - 1);
+  }
   riis_mesh *mesh = mesh_of_grid(&grid);
   riis_marks *marks = new_result();
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, marks));
