@@ -607,7 +607,7 @@ static void work_in_little_memory(const char *work) {
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, marks));
   int64_t *label = own(malloc(numbers * sizeof *label)), n_regions = 0;
   memset(label, 1, numbers * sizeof *label);
-  const long before = peak_kilobytes(), few = 20 * 1024;
+  const long before = peak_kilobytes(), few = 32 * 1024;
   long most = few;
   if (strcmp(work, "regions") == 0) {
     CHECK_OK(riis_label_open_regions(mesh, marks, NULL, numbers, label, &n_regions));
