@@ -16,7 +16,7 @@ typedef struct shim_grid {
   int is_single;      /* coordinates of a rectilinear or curvilinear grid have single precision */
   double bend;        /* a curvilinear grid is moved by this much, by a smooth function */
   int is_curved;
-  int n_zones;        /* the number of values of a cell array "zone"; 0: no such array */
+  int n_zones; /* the number of values of a cell array "zone"; 0: no such array */
 } shim_grid;
 
 /* Writes an image, a rectilinear or a curvilinear grid with the point array "value" and the cell array "sample". The path ends
