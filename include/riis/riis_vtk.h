@@ -29,14 +29,15 @@ extern "C" {
 
 /* ---- Volume meshes ------------------------------------------------------------------------------------- */
 
-/* An unstructured grid as read from the file, with its points as doubles. */
+/* A mesh as read from the file: an unstructured grid with its points as doubles, or the axes of a rectilinear grid. */
 typedef struct riis_vtk_mesh riis_vtk_mesh;
 
 /* Reads a mesh, which may have no cells. Its nodes and cells keep the file's order, and cells of second order
  * get VTK's order of nodes. docs/formats.md has the limits of each format.
  *   path  a file by its ending, or a folder of OpenFOAM:
- *         .vtu (VTK XML), .vtk (legacy VTK), .vtm (blocks, whose shared nodes are joined), .msh (gmsh),
- *         .xdmf or .xmf, .e, .exo, .ex2 or .exii (Exodus), .foam, a case, its time folder, or a polyMesh
+ *         .vtu (VTK XML), .vtk (legacy VTK), .vti, .vtr or .vts (structured grids of VTK), .vtm (blocks, whose shared
+ *         nodes are joined), .msh (gmsh), .xdmf or .xmf, .e, .exo, .ex2 or .exii (Exodus), .foam, a case, its time
+ *         folder, or a polyMesh
  * HDF5 and VTK's reader of Exodus can crash on damaged files. If you do not trust an .xdmf or Exodus file, read it in a
  * separate process, as the program riis does.
  * Errors: RIIS_FILE_ERROR naming the file, if it is missing, unreadable, of another kind, truncated, or has
@@ -55,9 +56,18 @@ RIIS_API riis_status riis_vtk_mesh_use_centers(riis_vtk_mesh *mesh);
 RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
 
 /* Gives the nodes in the file's order, xyz(3, n_nodes), and the number of cells. The array is valid until the
- * mesh is destroyed. */
+ * mesh is destroyed.
+ *   n_nodes, n_cells, xyz  NULL if not wanted */
 RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
                                              const double **xyz);
+
+/* Gives the axes of a mesh whose nodes are a rectilinear grid, for riis_mesh_create_grid: a .vti or .vtr file, or a
+ * legacy file of these kinds, with two or more nodes along each axis and coordinates that strictly ascend. The cells
+ * are hexahedra. Coordinates and cells are stored only after a call that needs them, such as riis_vtk_mesh_get_nodes.
+ * riis_vtk_mesh_set_marks and the other calls for arrays do not need them.
+ *   grid  ni, nj and nk are 0 for any other mesh, and after riis_vtk_mesh_use_centers or riis_vtk_mesh_choose_cells. x,
+ *         y and z are valid until the mesh is destroyed */
+RIIS_API riis_status riis_vtk_mesh_get_axes(const riis_vtk_mesh *mesh, riis_grid *grid, int64_t struct_size);
 
 /* Makes the adjacency of nodes that are joined by an edge of a volume cell, for riis_mesh_set_adjacency. It
  * borrows nothing from the mesh. Nodes without such an edge get empty rows: RIIS_SEARCH_NEIGHBOR still finds
@@ -174,11 +184,12 @@ RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_
 RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes);
 
 /* Writes the mesh with all its arrays to a file. The points are Float64.
- *   path  ends in .vtu, or in .xdmf. The numbers of NAME.xdmf are in NAME.h5 beside it, or in NAME.xdmf itself if riis
- *         was built without HDF5. Polyhedra and text have no place in an .xdmf. If the mesh was read from a case of
- *         OpenFOAM, with nodes at centres, the path may also be a time folder of the case, such as CASE/0. The arrays
- *         of cells become its fields, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface becomes Ku.
- *         Such a folder may be written in part if an error occurs */
+ *   path  ends in .vtu, or in .xdmf. If the mesh was read as the axes of a grid, the path may also end in .vtr, or in
+ *         .vti if they are those of an image; neither stores cells. The numbers of NAME.xdmf are in NAME.h5 beside it,
+ *         or in NAME.xdmf itself if riis was built without HDF5. Polyhedra and text have no place in an .xdmf. If the
+ *         mesh was read from a case of OpenFOAM, with nodes at centres, the path may also be a time folder of the case,
+ *         such as CASE/0. The arrays of cells become its fields, with zeroGradient at patches: riis_K becomes K, and
+ *         riis_K_u_surface becomes Ku. Such a folder may be written in part if an error occurs */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
 
 /* ---- Meshes in pieces ---------------------------------------------------------------------------------- */

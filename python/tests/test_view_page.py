@@ -432,16 +432,17 @@ def test_files_that_are_no_meshes(tmp_path):
     with pytest.raises(reading.Refusal, match=r"mesh.cgns: riis view reads [a-z., ]*$"):  # the program does not read it either
         reading.read_mesh(str(tmp_path / "mesh.cgns"), {})
     # The command that the message advises writes a mesh that the view reads.
-    path = tmp_path / "two words.vtm"
-    pyvista.MultiBlock([box(12)]).save(path)
-    with pytest.raises(reading.Refusal, match="The program writes what the view reads: riis mark ") as refused:
-        reading.read_mesh(str(path), {})
-    program = os.environ.get("RIIS_PROGRAM", "")
-    if os.path.exists(program):
-        words = shlex.split(str(refused.value).split("reads: ")[-1])
-        assert words[0] == "riis"
-        subprocess.run([program, *words[1:]], cwd=tmp_path, check=True)
-        assert reading.read_mesh(str(tmp_path / "mesh.vtu"), {}).n_points == box(12).n_points
+    pyvista.MultiBlock([box(12)]).save(tmp_path / "two words.vtm")
+    pyvista.ImageData(dimensions=(9, 8, 7)).save(tmp_path / "image.vti")
+    for name, n_points in (("two words.vtm", box(12).n_points), ("image.vti", 9 * 8 * 7)):
+        with pytest.raises(reading.Refusal, match="The program writes what the view reads: riis mark ") as refused:
+            reading.read_mesh(str(tmp_path / name), {})
+        program = os.environ.get("RIIS_PROGRAM", "")
+        if os.path.exists(program):
+            words = shlex.split(str(refused.value).split("reads: ")[-1])
+            assert words[0] == "riis"
+            subprocess.run([program, *words[1:]], cwd=tmp_path, check=True)
+            assert reading.read_mesh(str(tmp_path / "mesh.vtu"), {}).n_points == n_points
     with pytest.raises(reading.Refusal, match="a surface is a file .vtp, .stl or .pvd"):
         reading.read_surface(str(tmp_path / "text.vtu"))
     with pytest.raises(reading.Refusal, match="scale: 'wide' is not a number"):

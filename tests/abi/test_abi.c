@@ -880,6 +880,7 @@ TEST(test_signatures) {
   SIGNATURE(riis_vtk_mesh_use_centers, int32_t, (riis_vtk_mesh *));
   SIGNATURE(riis_vtk_mesh_destroy, void, (riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_get_nodes, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *, const double **));
+  SIGNATURE(riis_vtk_mesh_get_axes, int32_t, (const riis_vtk_mesh *, riis_grid *, int64_t));
   SIGNATURE(riis_vtk_mesh_create_adjacency, int32_t, (const riis_vtk_mesh *, int32_t, riis_adjacency **));
   SIGNATURE(riis_vtk_mesh_get_volume_cells, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *));
   SIGNATURE(riis_vtk_mesh_create_long_edges, int32_t,

@@ -100,8 +100,8 @@ TEST(test_values) {
 TEST(test_input_files) {
   const char *mesh = scratch_path("in.vtu");
   RUN_REFUSED(1, "missing.vtu: cannot be read: No such file", "mark", scratch_path("missing.vtu"));
-  RUN_REFUSED(1, "a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM", "mark",
-              "mesh.doc");
+  RUN_REFUSED(1, "a mesh must be a .vtu, .vtk, .vti, .vtr, .vts, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM",
+              "mark", "mesh.doc");
   RUN_REFUSED(1, "missing.vtp: cannot be read: No such file", "mark", mesh, "--surface", scratch_path("missing.vtp"));
   scratch_write_text("garbage.vtu", "garbage");
   RUN_REFUSED(1, "garbage.vtu: is not a VTK XML file", "mark", scratch_path("garbage.vtu"));

@@ -14,9 +14,9 @@ seed=${RIIS_FUZZ_SEED:-1}
 [[ $seed != random ]] || seed=$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')
 
 # Each harness gets its share of the time.
-declare -A shares=([api]=8 [vtk]=4 [vtu]=3 [vtp]=3 [pvd]=1 [pvtu]=1 [json]=3 [stl]=2 [obj]=1 [ply]=2 [command_line]=2 [cycle]=1
-  [msh]=2 [xdmf]=1 [foam]=2)
-harnesses=(api vtk vtu vtp pvd pvtu json stl obj ply command_line cycle msh xdmf foam)
+declare -A shares=([api]=8 [grid]=2 [vtk]=4 [vtu]=3 [vtp]=3 [vti]=2 [vtr]=2 [vts]=1 [pvd]=1 [pvtu]=1
+  [json]=3 [stl]=2 [obj]=1 [ply]=2 [command_line]=2 [cycle]=1 [msh]=2 [xdmf]=1 [foam]=2)
+harnesses=(api grid vtk vtu vtp vti vtr vts pvd pvtu json stl obj ply command_line cycle msh xdmf foam)
 
 # options HARNESS SECONDS: prints the options for every run of a harness. They limit the seconds for a single input, and
 # the memory, most of which the address sanitizer needs itself. No input of the allowed size should reach these limits.
@@ -31,7 +31,7 @@ options() {
       max_len=1024
       echo -close_fd_mask=1 # hides the help that the harness prints
       ;;
-    vtu | vtp | pvd | pvtu | xdmf) dictionary=xml ;;
+    vtu | vtp | vti | vtr | vts | pvd | pvtu | xdmf) dictionary=xml ;;
   esac
   # VTK's readers leak on inputs that they refuse. A check for leaks after each such input would take all of the time, so leaks
   # are checked only at the end.

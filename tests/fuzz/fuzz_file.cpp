@@ -124,7 +124,7 @@ void read_collection() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t size) {
   file().hold(bytes, size);
   const std::string ending = fuzz_ending;
-  if (ending == "msh" || ending == "xdmf") {
+  if (ending == "msh" || ending == "xdmf" || ending == "vti" || ending == "vtr" || ending == "vts") {
     read_mesh();
     return 0;
   }

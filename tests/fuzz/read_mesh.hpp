@@ -34,7 +34,24 @@ inline void use_rows(riis_mesh *mesh, const riis_vtk_mesh *read, std::int64_t n_
   riis_adjacency_destroy(&adjacency);
 }
 
+// Marks on axes need no points. Returns whether the mesh is too large for the rest, which makes points and cells.
+inline bool use_axes(const riis_vtk_mesh *read) {
+  constexpr std::int64_t most_nodes = 100'000;
+  riis_grid axes;
+  EXPECT(riis_vtk_mesh_get_axes(read, &axes, sizeof axes) == RIIS_OK, "%s", riis_last_error());
+  std::int64_t n_nodes = 0;
+  EXPECT(riis_vtk_mesh_get_nodes(read, &n_nodes, nullptr, nullptr) == RIIS_OK, "%s", riis_last_error());
+  if (axes.ni == 0) return false;
+  riis_mesh *mesh = nullptr;
+  const riis_status status = riis_mesh_create_grid(&axes, &mesh);
+  EXPECT(status == RIIS_OK || status == RIIS_INVALID_MESH || status == RIIS_LIMIT_EXCEEDED, "status %d: %s", status,
+         riis_last_error());
+  riis_mesh_destroy(&mesh);
+  return n_nodes > most_nodes;
+}
+
 inline void use_mesh(const riis_vtk_mesh *read) {
+  if (use_axes(read)) return;
   std::int64_t n_nodes = 0, n_cells = -1;
   const double *xyz = nullptr;
   EXPECT(riis_vtk_mesh_get_nodes(read, &n_nodes, &n_cells, &xyz) == RIIS_OK, "%s", riis_last_error());

@@ -1,7 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0
  * A mesh from axes gives the results of a mesh with the same nodes as points, to the last bit. This holds for all kinds of
  * surfaces, axes, strides, masks and limits. Numbers without a node stay out of every result. */
+#include <limits.h>
+#include <math.h>
 #include <riis/riis.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "test_support.h"
 
@@ -127,6 +134,8 @@ static void check_array(const char *name, const void *got, const void *expected,
   if (got && memcmp(got, expected, (size_t)n * size) != 0) fail_msg("the array %s has other bits", name);
 }
 
+static int64_t n_leaks, n_passages, n_within, n_gradients;
+
 static void check_lists(const grid_case *of, const riis_marks *got, const riis_marks *expected) {
   for (int32_t which = RIIS_LIST_MARKED; which <= RIIS_LIST_WITHIN_LIMIT; ++which) {
     riis_mark_list a, b;
@@ -138,11 +147,12 @@ static void check_lists(const grid_case *of, const riis_marks *got, const riis_m
     ARRAY(distance, 1), ARRAY(triangle_id, 1), ARRAY(leaflet_id, 1), ARRAY(K, 1), ARRAY(K_u_surface, 3);
     ARRAY(point, 3), ARRAY(normal, 3), ARRAY(barycentric, 3), ARRAY(uv, 2), ARRAY(velocity, 3);
     ARRAY(side, 1), ARRAY(rim, 1), ARRAY(patch_id, 1), ARRAY(height, 1);
+    assert_int_equal(a.n_directions, b.n_directions);
+    ARRAY(distance_gradient, a.n_directions), ARRAY(K_gradient, a.n_directions);
+    if (a.n_nodes > 0) n_gradients += a.n_directions;
 #undef ARRAY
   }
 }
-
-static int64_t n_leaks, n_passages, n_within;
 
 static void check_leaks(const grid_case *of, const riis_surface *surface, const riis_mark_options *options,
                         const riis_mark_options *of_points, const riis_marks *got, const riis_marks *expected) {
@@ -254,6 +264,10 @@ static riis_surface *random_surface(int kind, int has_offset) {
     if (any_of(3) == 0) now = valve_of(kind, 0);
     riis_surface *surface = new_surface(before, &options);
     CHECK_OK(riis_surface_update_moving(surface, now, before, between(0.01, 1), NULL, NULL));
+    if (any_of(3) != 0) return surface;
+    riis_surface_options moved = options;
+    moved.translation[0] += 1e-5;
+    CHECK_OK(riis_surface_add_direction(surface, now, now, 1e-5, &moved, &options));
     return surface;
   }
   enum { n = 60 };
@@ -283,6 +297,9 @@ static void check_case(int kind, int64_t most) {
   options.fields = RIIS_FIELD_POINT | RIIS_FIELD_VELOCITY | RIIS_FIELD_RIM | RIIS_FIELD_SIDE;
   if (any_of(2)) options.fields |= RIIS_FIELD_NORMAL | RIIS_FIELD_BARYCENTRIC | RIIS_FIELD_PATCH;
   if (any_of(2) && kind < 6) options.fields |= RIIS_FIELD_UV;
+  riis_direction direction;
+  if (riis_surface_get_direction(surface, 0, &direction, sizeof direction) == RIIS_OK)
+    options.fields |= RIIS_FIELD_GRADIENT;
   if (any_of(3) == 0) options.instructions = RIIS_INSTRUCTIONS_BASELINE;
   of_points = options;
   if (any_of(3) == 0) options.node_mask = mask, of_points.node_mask = points_mask;
@@ -303,13 +320,13 @@ static void check_case(int kind, int64_t most) {
 }
 
 TEST(grids_give_the_results_of_points) {
-  n_leaks = n_passages = n_within = 0;
+  n_leaks = n_passages = n_within = n_gradients = 0;
   for (int trial = 0; trial < trials(210, 3500); ++trial) {
     const int owned_before = n_owned();
     check_case(trial % n_kinds, trial % 10 == 0 ? 45 : 20);
     free_owned_after(owned_before);
   }
-  CHECK_MET(n_leaks > 1000 && n_passages > 10 && n_within > 10000);
+  CHECK_MET(n_leaks > 1000 && n_passages > 10 && n_within > 10000 && n_gradients > 20);
 }
 
 TEST(other_distances_and_far_grids) {
@@ -475,6 +492,9 @@ TEST(first_passage_with_a_halo) {
   ends.from = &from, ends.to = &halo;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "ends.to[0] is 0, which is no node of the grid",
                 riis_find_passage(surface, of.mesh, &ends, NULL, &passage, sizeof passage));
+  ends.from = &halo, ends.to = &to;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "ends.from[0] is 0, which is no node of the grid",
+                riis_find_first_passage(valve, of.mesh, &ends, NULL, &a, sizeof a));
 }
 
 /* A grid takes other edges, and gets its own back. Edges to numbers without a node are refused. */
@@ -541,6 +561,100 @@ TEST(a_billion_nodes) {
                 riis_mark_nodes(surface_of_kind("aortic", &options), mesh, NULL, result));
 }
 
+/* Marks 10^9 nodes around the valve, which fills the grid. The half thickness is 1.5 steps of the axes. */
+static void mark_a_billion(void) {
+  riis_grid grid = new_grid(1000, 1000, 1000);
+  riis_surface_info info = info_of(aortic_surface(NULL));
+  double step = 0;
+  for (int c = 0; c < 3; ++c) step = fmax(step, (info.upper[c] - info.lower[c]) / 999);
+  for (int c = 0; c < 3; ++c) {
+    grid.origin[c] = (info.lower[c] + info.upper[c] - 999 * step) / 2;
+    grid.spacing[c] = step;
+  }
+  riis_surface_options options = surface_options();
+  options.half_thickness = 1.5 * step;
+  riis_marks *result = new_result();
+  CHECK_OK(riis_mark_nodes(aortic_surface(&options), mesh_of_grid(&grid), NULL, result));
+  assert_int_equal(stats_of(result).n_nodes, 1000000000);
+  assert_true(stats_of(result).n_marked > 500000);
+}
+
+static long peak_kilobytes(void) {
+  struct rusage used;
+  getrusage(RUSAGE_SELF, &used);
+  return used.ru_maxrss;
+}
+
+/* Labels regions, finds a passage or counts cells across in a grid with a halo of 24 million numbers. The arrays of the caller
+ * are touched before. Fails if the call takes more kilobytes than that. */
+static void work_in_little_memory(const char *work) {
+  enum { n = 286, numbers = (n + 2) * (n + 2) * (n + 2) };
+  riis_grid grid = new_grid(n, n, n);
+  grid.stride[0] = 1, grid.stride[1] = n + 2, grid.stride[2] = (n + 2) * (n + 2);
+  grid.first = 1 + (n + 2) + (n + 2) * (n + 2);
+  grid.n_nodes = numbers;
+  const riis_surface *surface = aortic_surface(NULL);
+  const riis_surface_info info = info_of(surface);
+  const int are_cells = strcmp(work, "cells") == 0;
+  /* The valve closes a long channel, so a passage has few nodes near it. */
+  for (int c = 0; c < 3; ++c) {
+    const double out = are_cells ? 1 : c == 2 ? 300 : -0.05;
+    grid.origin[c] = info.lower[c] - out;
+    grid.spacing[c] = (info.upper[c] - info.lower[c] + 2 * out) / (n - 1);
+  }
+  riis_mesh *mesh = mesh_of_grid(&grid);
+  riis_marks *marks = new_result();
+  CHECK_OK(riis_mark_nodes(surface, mesh, NULL, marks));
+  int64_t *label = own(malloc(numbers * sizeof *label)), n_regions = 0;
+  memset(label, 1, numbers * sizeof *label);
+  const long before = peak_kilobytes(), few = 32 * 1024;
+  long most = few;
+  if (strcmp(work, "regions") == 0) {
+    CHECK_OK(riis_label_open_regions(mesh, marks, NULL, numbers, label, &n_regions));
+    assert_true(n_regions > 0 && label[0] == -1);
+  } else if (strcmp(work, "passage") == 0) {
+    most += 8 * (numbers / 1024);
+    int64_t from = grid.first, to = grid.first + (n - 1) * (grid.stride[0] + grid.stride[1] + grid.stride[2]);
+    riis_passage_ends ends;
+    riis_passage passage;
+    CHECK_OK(riis_passage_ends_init(&ends, sizeof ends));
+    ends.n_from = ends.n_to = 1, ends.from = &from, ends.to = &to;
+    CHECK_OK(riis_find_passage(surface, mesh, &ends, NULL, &passage, sizeof passage));
+    assert_int_equal(passage.state, RIIS_PASSAGE_OPEN);
+  } else {
+    riis_cells_across across;
+    CHECK_OK(riis_marks_get_cells_across(marks, mesh, &across, sizeof across));
+    assert_true(across.n_edges > 1000);
+  }
+  const long taken = peak_kilobytes() - before;
+  printf("%s: %ld MB\n", work, taken / 1024);
+  assert_true(taken <= most);
+}
+
+/* Each work has a process of its own, because other cases take memory. */
+static void expect_fine_apart(const char *work, long most_kilobytes) {
+  fflush(NULL);
+  const pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0) {
+    execl("/proc/self/exe", "test_grid", work, (char *)NULL);
+    _exit(1);
+  }
+  int ended = 0;
+  struct rusage used;
+  assert_true(wait4(child, &ended, 0, &used) == child);
+  if (ended != 0) fail_msg("%s: the process ends with %#x", work, (unsigned)ended);
+  if (used.ru_maxrss > most_kilobytes) fail_msg("%s: %ld kB", work, used.ru_maxrss);
+}
+
+TEST(memory_apart_from_arrays) {
+  if (is_sanitized()) skip();
+  expect_fine_apart("a billion", 200 * 1024);
+  expect_fine_apart("regions", LONG_MAX);
+  expect_fine_apart("passage", LONG_MAX);
+  expect_fine_apart("cells", LONG_MAX);
+}
+
 /* --- Refusals -------------------------------------------------------------------------------------------------------- */
 
 TEST(grids_are_refused_by_name) {
@@ -595,7 +709,15 @@ TEST(grids_are_refused_by_name) {
                 riis_mark_nodes(surface, mesh, &options, result));
 }
 
-int main(void) {
+int main(int argc, char **argv) {
+  if (argc == 2) {
+    if (strcmp(argv[1], "a billion") == 0)
+      mark_a_billion();
+    else
+      work_in_little_memory(argv[1]);
+    fflush(NULL);
+    _exit(0); /* the usual end asks for cases */
+  }
   rng = random_start("test_grid");
   return run_cases(NULL, NULL);
 }

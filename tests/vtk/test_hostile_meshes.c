@@ -52,9 +52,13 @@ TEST(test_not_files) {
   scratch_write_text("empty.vtk", "");
   expect_file_error("empty.vtk", "is empty");
   scratch_write_text("mesh.obj", "v 0 0 0\n");
-  expect_file_error("mesh.obj", "a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
+  expect_file_error(
+      "mesh.obj",
+      "a mesh must be a .vtu, .vtk, .vti, .vtr, .vts, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
   scratch_write_text("no_ending", "v 0 0 0\n");
-  expect_file_error("no_ending", "a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
+  expect_file_error(
+      "no_ending",
+      "a mesh must be a .vtu, .vtk, .vti, .vtr, .vts, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
 }
 
 TEST(test_unreadable) {
@@ -445,6 +449,113 @@ TEST(test_lists_of_faces) {
              cases[i].ends, cases[i].faces, cases[i].face_ends);
     scratch_write_text("lists.vtu", text);
     expect_file("lists.vtu", cases[i].text);
+  }
+}
+
+/* Structured grids in legacy files. %s stands for the sections after the encoding. */
+TEST(test_structured_legacy) {
+  static const struct {
+    const char *sections, *error;
+  } files[] = {
+#define IMAGE "STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\nSPACING 1 1 1\n"
+#define AXES "RECTILINEAR_GRID\nDIMENSIONS 2 2 2\nX_COORDINATES 2 double\n0 1\nY_COORDINATES 2 double\n0 1\n"
+#define CURVED "STRUCTURED_GRID\nDIMENSIONS 2 2 1\nPOINTS 4 double\n0 0 0 1 0 0 0 1 0 1 1 0\n"
+      {IMAGE, NULL},
+      {IMAGE "POINT_DATA 8\nSCALARS a double 1\nLOOKUP_TABLE default\n1 2 3 4 5 6 7 8\n", NULL},
+      {IMAGE "CELL_DATA 1\nVECTORS a float\n1 2 3\n", NULL},
+      {AXES "Z_COORDINATES 2 float\n0 1\n", NULL},
+      {CURVED, NULL},
+      {"STRUCTURED_POINTS\nORIGIN 0 0 0\nSPACING 1 1 1\n", "has no DIMENSIONS (is it truncated?)"},
+      {"STRUCTURED_POINTS\nDIMENSIONS 0 2 2\n", "holds no points"},
+      {"STRUCTURED_POINTS\nDIMENSIONS -3 2 2\n", "holds no points"},
+      {"STRUCTURED_POINTS\nDIMENSIONS 2147483648 1 1\n", "has the count 2147483648"},
+      {"STRUCTURED_POINTS\nDIMENSIONS 2147483647 2147483647 2147483647\n",
+       "claims 2147483647 times 2147483647 times 2147483647 points, more than the 1099511627776 of a mesh"},
+      {"STRUCTURED_POINTS\nDIMENSIONS 2147483647 2 2\nORIGIN 0 0 0\nSPACING 1 1 1\n",
+       "claims 2147483647 times 2 times 2 points, which need memory of "},
+      {"STRUCTURED_POINTS\nDIMENSIONS 1 30000 30000\nORIGIN 0 0 0\nSPACING 1 1 1\n",
+       "claims 1 times 30000 times 30000 points, which need memory of "},
+      {IMAGE "DIMENSIONS 2 2 2\n", "has DIMENSIONS twice"},
+      {IMAGE "POINT_DATA 9\nSCALARS a double 1\nLOOKUP_TABLE default\n1 2 3 4 5 6 7 8 9\n", "has POINT_DATA 9 for 8"},
+      {IMAGE "CELL_DATA 8\nSCALARS a double 1\nLOOKUP_TABLE default\n1 2 3 4 5 6 7 8\n", "has CELL_DATA 8 for 1"},
+      {IMAGE "POINT_DATA 8\nSCALARS a double 1\nLOOKUP_TABLE default\n1 2 3 4 5 6 7\n", "is truncated"},
+      {IMAGE "CELLS 0 0\n", "has the unknown keyword 'cells'"},
+      {IMAGE "POINTS 8 double\n", "has the unknown keyword 'points'"},
+      {"STRUCTURED_POINTS\nPOINT_DATA 1\n", "has data before DIMENSIONS"},
+      {"STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nSPACING 1 x 1\n", "has 'x' for a number of type double"},
+      {AXES, "has 0 Z_COORDINATES for 2 points along the axis"},
+      {AXES "Z_COORDINATES 3 double\n0 1 2\n", "has 3 Z_COORDINATES for 2 points along the axis"},
+      {AXES "Z_COORDINATES 2000000000 double\n0 1 2\n", "is truncated"},
+      {CURVED "X_COORDINATES 2 double\n0 1\n", "has the unknown keyword 'x_coordinates'"},
+      {"STRUCTURED_GRID\nDIMENSIONS 2 2 2\nPOINTS 4 double\n0 0 0 1 0 0 0 1 0 1 1 0\n",
+       "has 4 points, and DIMENSIONS of 8"},
+      {"STRUCTURED_GRID\nDIMENSIONS 2 2 2\n", "has 0 points, and DIMENSIONS of 8"},
+#undef IMAGE
+#undef AXES
+#undef CURVED
+  };
+  for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
+    char text[1024];
+    snprintf(text, sizeof text, "# vtk DataFile Version 3.0\nx\nASCII\nDATASET %s", files[i].sections);
+    scratch_write_text("structured.vtk", text);
+    expect_file("structured.vtk", files[i].error);
+  }
+}
+
+/* Structured grids in XML files. */
+TEST(test_structured_xml) {
+  static const struct {
+    const char *name, *type, *content, *error;
+  } files[] = {
+#define IMAGE(whole, piece) "WholeExtent=\"" whole "\" Origin=\"0 0 0\" Spacing=\"1 1 1\"><Piece Extent=\"" piece "\">"
+#define ARRAY(name, text) "<DataArray type=\"Float64\" Name=\"" name "\" format=\"ascii\">" text "</DataArray>"
+#define AXES(x) "WholeExtent=\"0 1 0 1 0 1\"><Piece Extent=\"0 1 0 1 0 1\"><Coordinates>" x "</Coordinates></Piece>"
+      {"s.vti", "ImageData", IMAGE("0 1 0 1 0 1", "0 1 0 1 0 1") "</Piece>", NULL},
+      {"s.vti", "ImageData",
+       IMAGE("0 1 0 1 0 1", "0 1 0 1 0 1") "<PointData>" ARRAY("a", "1 2 3 4 5 6 7 8") "</PointData></Piece>", NULL},
+      {"s.vti", "ImageData",
+       IMAGE("0 1 0 1 0 1", "0 1 0 1 0 1") "<PointData>" ARRAY("a", "1 2 3") "</PointData></Piece>",
+       "array a must have 8 values and has at most 3"},
+      {"s.vti", "ImageData", IMAGE("0 1 0 1 0 2", "0 1 0 1 0 1") "</Piece>",
+       "has a piece whose Extent is not the WholeExtent"},
+      {"s.vti", "ImageData", IMAGE("0 1 0 1 0 1", "0 1 0 1 0 1") "</Piece><Piece Extent=\"0 1 0 1 0 1\"></Piece>",
+       "has 2 pieces; a structured grid must have one"},
+      {"s.vti", "ImageData", "WholeExtent=\"0 1 0 1 0 1\">", "has 0 pieces; a structured grid must have one"},
+      {"s.vti", "ImageData", IMAGE("0 1 0 1", "0 1 0 1") "</Piece>", "ImageData element has no WholeExtent"},
+      {"s.vti", "ImageData", IMAGE("0 1 0 1 1 0", "0 1 0 1 1 0") "</Piece>", "holds no points"},
+      {"s.vti", "ImageData", IMAGE("0 2147483646 0 1 0 1", "0 2147483646 0 1 0 1") "</Piece>",
+       "claims 2147483647 times 2 times 2 points, which need memory of "},
+      {"s.vti", "ImageData",
+       IMAGE("0 2147483646 0 2147483646 0 2147483646", "0 2147483646 0 2147483646 0 2147483646") "</Piece>",
+       "points, more than the 1099511627776 of a mesh"},
+      {"s.vti", "ImageData", IMAGE("0 0 0 99999 0 99999", "0 0 0 99999 0 99999") "</Piece>",
+       "claims 1 times 100000 times 100000 points, which need memory of "},
+      {"s.vtr", "RectilinearGrid", AXES(ARRAY("x", "0 1") ARRAY("y", "0 1") ARRAY("z", "0 1")), NULL},
+      {"s.vtr", "RectilinearGrid", AXES(ARRAY("x", "0 1") ARRAY("y", "0") ARRAY("z", "0 1")),
+       "array y must have 2 values and has at most 1"},
+      {"s.vtr", "RectilinearGrid", AXES(ARRAY("x", "0 1") ARRAY("y", "0 1")), ""},
+      {"s.vts", "StructuredGrid",
+       "WholeExtent=\"0 1 0 1 0 0\"><Piece Extent=\"0 1 0 1 0 0\"><Points><DataArray type=\"Float64\" "
+       "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 1 1 0</DataArray></Points></Piece>",
+       NULL},
+      {"s.vts", "StructuredGrid",
+       "WholeExtent=\"0 1 0 1 0 9\"><Piece Extent=\"0 1 0 1 0 9\"><Points><DataArray type=\"Float64\" "
+       "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 1 1 0</DataArray></Points></Piece>",
+       "must have 120 values and has at most 12"},
+      {"s.vts", "StructuredGrid", "WholeExtent=\"0 1 0 1 0 9\"><Piece Extent=\"0 1 0 1 0 9\"></Piece>", ""},
+      {"s.vtr", "ImageData", IMAGE("0 1 0 1 0 1", "0 1 0 1 0 1") "</Piece>", "holds ImageData, not RectilinearGrid"},
+#undef IMAGE
+#undef ARRAY
+#undef AXES
+  };
+  for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
+    char text[2048];
+    snprintf(text, sizeof text,
+             "<?xml version=\"1.0\"?>\n<VTKFile type=\"%s\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+             "<%s %s</%s></VTKFile>\n",
+             files[i].type, files[i].type, files[i].content, files[i].type);
+    scratch_write_text(files[i].name, text);
+    expect_file(files[i].name, files[i].error);
   }
 }
 

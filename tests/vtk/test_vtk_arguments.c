@@ -263,8 +263,9 @@ TEST(test_odd_names) {
                  "a?b.vtu: cannot be read: No such file");
   static char name[4000];
   memset(name, 'x', sizeof name - 1);
-  expect_refused(riis_vtk_mesh_read(name, &other), RIIS_FILE_ERROR,
-                 "xxx: a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
+  expect_refused(
+      riis_vtk_mesh_read(name, &other), RIIS_FILE_ERROR,
+      "xxx: a mesh must be a .vtu, .vtk, .vti, .vtr, .vts, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
 }
 
 TEST(test_floating_point_environment) {

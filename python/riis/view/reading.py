@@ -15,7 +15,7 @@ from riis.view._domains import chosen_cells, groups_of_volumes, read_once
 
 BY_VTK, BY_MESHIO = (".vtu", ".pvtu", ".vtk"), (".msh", ".xdmf", ".xmf")
 SURFACES = (".stl", ".vtp", ".obj", ".ply", ".off")
-BY_PROGRAM = (".vtm", ".e", ".exo", ".ex2", ".exii", ".foam")  # and folders of OpenFOAM
+BY_PROGRAM = (".vti", ".vtr", ".vts", ".vtm", ".e", ".exo", ".ex2", ".exii", ".foam")  # and folders of OpenFOAM
 
 
 class Refusal(Exception):

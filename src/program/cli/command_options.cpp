@@ -348,7 +348,8 @@ void declare_cells_where(Command &command, ValveOptions &options) {
 
 void declare_mesh(Command &command, MarkOptions &options) {
   command.group("Mesh");
-  command.text("MESH", "FILE", "The mesh: .vtu, .pvtu, .vtk, .vtm, .msh, .xdmf, .exo, or a case of OpenFOAM",
+  command.text("MESH", "FILE",
+               "The mesh: .vtu, .pvtu, .vtk, .vti, .vtr, .vts, .vtm, .msh, .xdmf, .exo, or a case of OpenFOAM",
                options.mesh);
   declare_cells_where(command, options);
 }
@@ -367,7 +368,8 @@ void declare_mark(Command command, MarkOptions &options) {
   declare_marking(command, options);
   command.group("Output");
   CLI::Option *const output = command.text(
-      "--output", "OUT", "Write the marked mesh: .vtu, .xdmf, .pvtu if MESH is one; --cells: fields in CASE/TIME",
+      "--output", "OUT",
+      "Write the marked mesh: .vtu, .xdmf; .pvtu, .vti or .vtr if MESH is one; --cells: fields in CASE/TIME",
       options.output);
   command.text("--prefix", "NAME", "Names of the arrays: NAME_marked and so on (default riis)", options.prefix)
       ->needs(output);

@@ -93,6 +93,8 @@ const Topic topics[] = {
 The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
 1), riis_distance (Float64) and riis_leaflet (Int32: -1 for none). --prefix NAME names them NAME_marked and so on, so a mesh
 can have the marks of several valves. An array that the mesh already has is replaced only with --replace.
+A .vti or .vtr is read as three axes, and --output may have the same ending. Its nodes are its points, which have six neighbours.
+Other structured grids, such as .vts or a turned image, become hexahedra with points.
 --cells-where NAME=VALUES takes only the cells with such a value of a cell array, such as the fluid of a mesh that also has the
 wall: --cells-where region=1,2. The rest of the file does not count, and is not written. riis_node_id and riis_cell_id then have
 the ids in the whole mesh, from 0. gmsh's physical groups are the array gmsh:physical, and VALUES may be their names. If domains

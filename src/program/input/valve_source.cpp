@@ -319,9 +319,8 @@ const std::set<std::string> meshes_of_gmsh = {".unv", ".bdf", ".nas"};
 const std::set<std::string> meshes_of_meshio = {".inp", ".su2",  ".med", ".mesh", ".meshb", ".avs", ".dat", ".f3grid",
                                                 ".h5m", ".mdpa", ".vol", ".node", ".ele",   ".xml", ".post"};
 // ParaView opens these. They hold blocks, or grids that are not unstructured.
-const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".vti",
-                                                  ".vtr",  ".vts",  ".pvti",  ".pvtr",   ".pvts",
-                                                  ".plt",  ".tec",  ".vtmb",  ".vtpc",   ".vtpd"};
+const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".pvti", ".pvtr",
+                                                  ".pvts", ".plt",  ".tec",   ".vtmb",   ".vtpc", ".vtpd"};
 // CAD files, which gmsh fills with cells or covers with triangles.
 const std::set<std::string> cad_files = {".step", ".stp", ".iges", ".igs", ".brep"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2", ".med", ".wrl"};
@@ -406,9 +405,7 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
     // meshio 5.3 fails to write the names of MED's groups to a .vtu.
     if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, ending == ".med" ? "xdmf" : "vtu");
     if (meshes_of_paraview.count(ending) != 0) return by_paraview(path);
-    if (has_text(refusal, "holds structured_") || has_text(refusal, "holds rectilinear_grid") ||
-        has_text(refusal, "holds multiblock"))
-      return by_paraview(path);
+    if (has_text(refusal, "holds multiblock")) return by_paraview(path);
     if (ending == ".pvd") return "; a .pvd is a list of files: give one of its meshes";
     if (cad_files.count(ending) != 0) return meshed_by_gmsh(path, 3, "vtk");
     if (ending == ".feb") return "; FEBio Studio converts it: File > Export FE Model..., " + with_ending(path, "vtk");

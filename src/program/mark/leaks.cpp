@@ -155,10 +155,11 @@ void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks
   // Short edges may also leak if marks may be missing, or if distances are not measured to the triangles.
   const bool is_exact = is_complete && options_.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const std::int32_t n_threads = options_.mark_options.n_threads;
-  const auto adjacency =
-      create<Adjacency>(riis_vtk_mesh_create_long_edges, piece.file, surface,
-                        is_exact ? 2 * (1 - std::abs(info_.offset)) * half_thickness : 0, n_threads, nullptr);
-  const FileNodes::Lent lent(*piece.mesh, get<riis_csr>(riis_adjacency_get_csr, adjacency));
+  Adjacency adjacency;
+  if (!piece.mesh->is_grid())
+    adjacency = create<Adjacency>(riis_vtk_mesh_create_long_edges, piece.file, surface,
+                                  is_exact ? 2 * (1 - std::abs(info_.offset)) * half_thickness : 0, n_threads, nullptr);
+  const FileNodes::Lent lent(*piece.mesh, adjacency ? get<riis_csr>(riis_adjacency_get_csr, adjacency) : riis_csr{});
   const auto leaks = create<Leaks>(riis_leaks_create);
   const riis_mark_options how = surface == surface_ ? options_.mark_options : how_to_mark_again(options_);
   check(riis_find_leaks(surface, piece.mesh->mesh(), marks, &how, leaks));
@@ -167,7 +168,8 @@ void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks
     const std::int64_t a = list.node_id[2 * i], b = list.node_id[2 * i + 1];
     KeyedEdge edge = edge_between(piece.nodes.key(a), piece.nodes.key(b), list.length[i]);
     edge.distance = list.distance[i];
-    for (int k = 0; k < 3; ++k) edge.middle[k] = 0.5 * (piece.nodes.point(a)[k] + piece.nodes.point(b)[k]);
+    const NodePoints::Point p = piece.nodes.point(a), q = piece.nodes.point(b);
+    for (std::size_t k = 0; k < 3; ++k) edge.middle[k] = 0.5 * (p[k] + q[k]);
     to.push_back(edge);
   }
 }
@@ -239,7 +241,7 @@ void BandMeasures::add_lengths(const Piece &piece, const riis_mark_list &marked)
     if (nodes.is_ghost(i)) continue;
     piece.mesh->for_each_neighbor(i, [&](std::int64_t j) {
       if (j < i || nodes.is_ghost(j) || !(view(is_marked)[i] || view(is_marked)[j])) return;
-      const double *p = nodes.point(i), *q = nodes.point(j);
+      const NodePoints::Point p = nodes.point(i), q = nodes.point(j);
       const double length =
           std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) + (p[2] - q[2]) * (p[2] - q[2]));
       if (!(length > 0)) return;

@@ -246,11 +246,14 @@ void Marking::measure(Piece &piece) {
   }
   passage_.add(piece);
   report_.seconds.leaks += stage.seconds();
-  if (!all_.is_series()) set_arrays(piece.file.get());
+  if (!all_.is_series() && (!options().output.empty() || !options().pictures.empty())) set_arrays(piece.file.get());
 }
 
 void Marking::find_neighbors_for_search(Piece &piece) {
   if (!needs_adjacency(options().mark_options.search)) return;
+  if (piece.mesh->is_grid())
+    refuse_usage("--search: " + options().mesh +
+                 " is a grid, whose nodes are not stored, so no search walks from one to the next; leave --search out");
   const Stage stage("finding the nodes' neighbours", options().quiet);
   piece.mesh->find_neighbors(options().mark_options.n_threads);
   report_.seconds.adjacency += stage.seconds();

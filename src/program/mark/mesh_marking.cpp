@@ -32,13 +32,13 @@ riis_mark_options how_to_mark_again(const MarkOptions &options, double limit) {
 bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
 
 ResistanceSum::ResistanceSum(int64_t n_nodes, WithVelocity with_velocity)
-    : n_nodes_(n_nodes),
-      K_(static_cast<std::size_t>(n_nodes), 0.0),
-      K_u_surface_(with_velocity == WithVelocity::yes ? 3 * static_cast<std::size_t>(n_nodes) : 0, 0.0) {}
+    : n_nodes_(n_nodes), with_velocity_(with_velocity == WithVelocity::yes) {}
 
 void ResistanceSum::add(const MarkOptions &options, const riis_marks *result) {
   if (!options.resistance) return;
   has_any_ = true;
+  K_.resize(static_cast<std::size_t>(n_nodes_));
+  if (with_velocity_) K_u_surface_.resize(3 * static_cast<std::size_t>(n_nodes_));
   K_unit_ = options.K_unit;
   K_u_surface_unit_ = options.K_u_surface_unit;
   auto how = defaults<riis_resistance>();
@@ -64,26 +64,34 @@ void ResistanceSum::set_arrays(const std::string &prefix, riis_vtk_mesh *file) c
 
 double distance_between(const double *p, const double *q) { return hypotenuse(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
 
-FileNodes::FileNodes(const riis_vtk_mesh *file, std::string path) : file_(file), path_(std::move(path)) {
-  check(riis_vtk_mesh_get_nodes(file, &n_, nullptr, &xyz_));
-  mesh_ = create_for<Mesh>(path_, riis_mesh_create, n_, xyz_, xyz_ + 1, xyz_ + 2, 3);
+NodePoints::NodePoints(const riis_vtk_mesh *file) : axes_(get<riis_grid>(riis_vtk_mesh_get_axes, file)) {
+  check(riis_vtk_mesh_get_nodes(file, &n_, nullptr, axes() ? nullptr : &xyz_));
+  std::size_t axis = 0;
+  for (const void *const x : {axes_.x, axes_.y, axes_.z}) x_[axis++] = static_cast<const double *>(x);
+}
+
+FileNodes::FileNodes(const riis_vtk_mesh *file, std::string path) : file_(file), path_(std::move(path)), points_(file) {
+  const double *const xyz = points_.xyz();
+  mesh_ = is_grid() ? create_for<Mesh>(path_, riis_mesh_create_grid, points_.axes())
+                    : create_for<Mesh>(path_, riis_mesh_create, n(), xyz, xyz + 1, xyz + 2, 3);
 }
 
 void FileNodes::find_neighbors(std::int32_t n_threads) {
-  if (neighbors_) return;
+  if (neighbors_ || is_grid()) return;
   neighbors_ = create_for<Adjacency>(path_, riis_vtk_mesh_create_adjacency, file_, n_threads);
   rows_ = get<riis_csr>(riis_adjacency_get_csr, neighbors_);
 }
 
 double FileNodes::longest_edge(std::int64_t node) const {
   double longest = 0;
-  for_each_neighbor(
-      node, [&](std::int64_t other) { longest = std::max(longest, distance_between(point(node), point(other))); });
+  for_each_neighbor(node, [&](std::int64_t other) {
+    longest = std::max(longest, distance_between(point(node).data(), point(other).data()));
+  });
   return longest;
 }
 
-FileNodes::Lent::Lent(const FileNodes &nodes, const riis_csr &rows) : mesh_(nodes.mesh()) {
-  check(riis_mesh_set_adjacency(mesh_, &rows), nodes.path_);
+FileNodes::Lent::Lent(const FileNodes &nodes, const riis_csr &rows) : mesh_(nodes.is_grid() ? nullptr : nodes.mesh()) {
+  if (mesh_) check(riis_mesh_set_adjacency(mesh_, &rows), nodes.path_);
 }
 
 }  // namespace riis::program

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <riis/riis_vtk.h>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ class ResistanceSum {
 
  private:
   int64_t n_nodes_;
+  bool with_velocity_;
   std::vector<double> K_, K_u_surface_;
   std::string K_unit_, K_u_surface_unit_;  // "" if not known
   bool has_any_ = false;
@@ -38,15 +40,41 @@ class ResistanceSum {
 
 double distance_between(const double *p, const double *q);
 
+// The coordinates of the nodes of a file. A rectilinear grid has only axes.
+class NodePoints {
+ public:
+  using Point = std::array<double, 3>;
+
+  // The file must outlive this object.
+  explicit NodePoints(const riis_vtk_mesh *file);
+
+  std::int64_t n() const { return n_; }
+  const riis_grid *axes() const { return axes_.ni > 0 ? &axes_ : nullptr; }
+  const double *xyz() const { return xyz_; }  // NULL if there are axes
+  Point operator[](std::int64_t node) const {
+    if (xyz_) return {xyz_[3 * node], xyz_[3 * node + 1], xyz_[3 * node + 2]};
+    const std::int64_t layer = node / axes_.ni;
+    return {x_[0][node % axes_.ni], x_[1][layer % axes_.nj], x_[2][layer / axes_.nj]};
+  }
+
+ private:
+  std::int64_t n_ = 0;
+  const double *xyz_ = nullptr;
+  riis_grid axes_;
+  const double *x_[3];
+};
+
 // The nodes of a mesh file as the library takes them, and the neighbours of each node.
 class FileNodes {
  public:
   // The file must outlive this object. `path` names it in refusals.
   FileNodes(const riis_vtk_mesh *file, std::string path);
 
-  std::int64_t n() const { return n_; }
-  const double *point(std::int64_t node) const { return xyz_ + 3 * node; }
+  std::int64_t n() const { return points_.n(); }
+  NodePoints::Point point(std::int64_t node) const { return points_[node]; }
   riis_mesh *mesh() const { return mesh_.get(); }
+  // Whether the nodes are a grid. The library then knows the neighbours, and stores none.
+  bool is_grid() const { return points_.axes() != nullptr; }
 
   // Finds the neighbours, unless they are known.
   void find_neighbors(std::int32_t n_threads);
@@ -54,6 +82,16 @@ class FileNodes {
   // Both functions need the neighbours.
   template <class Visit>
   void for_each_neighbor(std::int64_t node, const Visit &visit) const {
+    if (const riis_grid *const axes = points_.axes()) {
+      std::int64_t stride = 1;
+      for (const std::int64_t n : {axes->ni, axes->nj, axes->nk}) {
+        const std::int64_t i = node / stride % n;
+        if (i > 0) visit(node - stride);
+        if (i + 1 < n) visit(node + stride);
+        stride *= n;
+      }
+      return;
+    }
     const auto *offsets = static_cast<const std::int64_t *>(rows_.offsets);
     for (std::int64_t k = offsets[node]; k < offsets[node + 1]; ++k)
       visit(rows_.column_bits == 64 ? static_cast<const std::int64_t *>(rows_.columns)[k]
@@ -61,24 +99,26 @@ class FileNodes {
   }
   double longest_edge(std::int64_t node) const;
 
-  // While an object of this type lives, the library's mesh has neighbours: these, or other rows.
+  // While an object of this type lives, the library's mesh has neighbours: these, or other rows. A grid always has its own.
   class Lent {
    public:
     explicit Lent(const FileNodes &nodes) : Lent(nodes, nodes.rows_) {}
     Lent(const FileNodes &nodes, const riis_csr &rows);
-    ~Lent() { riis_mesh_set_adjacency(mesh_, nullptr); }  // this call changes no error message
+    // This call changes no error message.
+    ~Lent() {
+      if (mesh_) riis_mesh_set_adjacency(mesh_, nullptr);
+    }
     Lent(const Lent &) = delete;
     Lent &operator=(const Lent &) = delete;
 
    private:
-    riis_mesh *mesh_;
+    riis_mesh *mesh_;  // NULL for a grid
   };
 
  private:
   const riis_vtk_mesh *file_;
   std::string path_;
-  std::int64_t n_ = 0;
-  const double *xyz_ = nullptr;
+  NodePoints points_;
   Adjacency neighbors_;
   riis_csr rows_{};
   Mesh mesh_;

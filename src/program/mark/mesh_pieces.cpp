@@ -94,10 +94,10 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-std::uint64_t hash_of(const double *point, std::uint64_t seed) {
+std::uint64_t hash_of(const NodePoints::Point &point, std::uint64_t seed) {
   std::uint64_t hash = seed;
   for (int k = 0; k < 3; ++k) {
-    const double x = point[k] + 0.0;  // -0 becomes 0
+    const double x = view(point)[k] + 0.0;  // -0 becomes 0
     std::uint64_t bits = 0;
     std::memcpy(&bits, &x, sizeof bits);
     hash = mixed(hash ^ bits);
@@ -108,8 +108,8 @@ std::uint64_t hash_of(const double *point, std::uint64_t seed) {
 }  // namespace
 
 PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const MarkOptions &how, bool is_whole)
-    : is_whole_(is_whole) {
-  check(riis_vtk_mesh_get_nodes(file, &n_, &counts_.n_cells, &xyz_));
+    : is_whole_(is_whole), points_(file) {
+  check(riis_vtk_mesh_get_nodes(file, nullptr, &counts_.n_cells, nullptr));
   if (is_whole_) {
     // The neighbours of all centres are known.
     std::int64_t *const n_left_out = how.at_cells ? nullptr : &counts_.n_cells_left_out;
@@ -117,13 +117,13 @@ PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const
     find_box_and_moments();
     return;
   }
-  role_.resize(static_cast<std::size_t>(n_));
-  riis_status status = riis_vtk_mesh_get_sharing(file, n_, role_.data(), nullptr, &counts_, sizeof counts_);
+  role_.resize(static_cast<std::size_t>(n()));
+  riis_status status = riis_vtk_mesh_get_sharing(file, n(), role_.data(), nullptr, &counts_, sizeof counts_);
   if (status == RIIS_FILE_ERROR) refuse_data(path + ": " + riis_last_error());
   check(status);
   if (has_ids()) {
     ids_.resize(role_.size());
-    check(riis_vtk_mesh_get_sharing(file, n_, role_.data(), ids_.data(), &counts_, sizeof counts_));
+    check(riis_vtk_mesh_get_sharing(file, n(), role_.data(), ids_.data(), &counts_, sizeof counts_));
   }
   find_box_and_moments();
   if (std::find(role_.begin(), role_.end(), RIIS_VTK_NODE_GHOST) == role_.end()) return;
@@ -132,11 +132,44 @@ PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const
                  [](std::uint8_t role) { return static_cast<std::uint8_t>(role != RIIS_VTK_NODE_GHOST); });
 }
 
+namespace {
+
+// Returns the moments of the nodes of a grid, from sums along its axes.
+Moments moments_of(const riis_grid &axes) {
+  const std::array<std::int64_t, 3> sizes = {axes.ni, axes.nj, axes.nk};
+  const std::array<const void *, 3> x = {axes.x, axes.y, axes.z};
+  std::array<Moments, 3> along{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::int64_t i = 0; i < sizes[axis]; ++i) {
+      const double point[3] = {static_cast<const double *>(x[axis])[i], 0, 0};
+      along[axis].add(point);
+    }
+  Moments all;
+  all.n = along[0].n * along[1].n * along[2].n;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    all.sum[axis] = all.n / along[axis].n * along[axis].sum[0];
+    all.squares[axis] = all.n / along[axis].n * along[axis].squares[0];
+  }
+  all.squares[3] = along[0].sum[0] * along[1].sum[0] * along[2].n;
+  all.squares[4] = along[0].sum[0] * along[2].sum[0] * along[1].n;
+  all.squares[5] = along[1].sum[0] * along[2].sum[0] * along[0].n;
+  return all;
+}
+
+}  // namespace
+
 void PieceNodes::find_box_and_moments() {
-  for (std::int64_t i = 0; i < n_; ++i) {
+  if (const riis_grid *const axes = points_.axes()) {
+    box_.grow(point(0).data());
+    box_.grow(point(n() - 1).data());
+    moments_ = moments_of(*axes);
+    return;
+  }
+  for (std::int64_t i = 0; i < n(); ++i) {
     if (is_ghost(i)) continue;
-    box_.grow(point(i));
-    moments_.add(point(i));
+    const NodePoints::Point here = point(i);
+    box_.grow(here.data());
+    moments_.add(here.data());
   }
 }
 

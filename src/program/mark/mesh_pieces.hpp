@@ -79,8 +79,8 @@ class PieceNodes {
   // `how` has the mesh of which the file is a piece.
   PieceNodes(const riis_vtk_mesh *file, const std::string &path, const MarkOptions &how, bool is_whole);
 
-  std::int64_t n() const { return n_; }
-  const double *point(std::int64_t node) const { return xyz_ + 3 * node; }
+  std::int64_t n() const { return points_.n(); }
+  NodePoints::Point point(std::int64_t node) const { return points_[node]; }
   NodeKey key(std::int64_t node) const;
   bool is_shared(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_SHARED || is_loose(node); }
   bool is_loose(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_LOOSE; }
@@ -105,8 +105,7 @@ class PieceNodes {
   void find_box_and_moments();
 
   bool is_whole_;
-  std::int64_t n_ = 0;
-  const double *xyz_ = nullptr;
+  NodePoints points_;
   Box box_ = empty_box();
   Moments moments_;
   std::vector<std::uint8_t> role_, mask_;

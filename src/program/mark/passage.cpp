@@ -186,7 +186,7 @@ class PieceWays {
 
   PassageNode passage_node(std::int64_t node) const {
     PassageNode made{view(distance_)[node], {0, 0, 0}, nodes_.id(node), piece_, nodes_.key(node)};
-    std::copy_n(nodes_.point(node), 3, made.point);
+    std::copy_n(nodes_.point(node).data(), 3, made.point);
     return made;
   }
 
@@ -321,7 +321,7 @@ void PassageCheck::add(const Piece &piece) {
     std::int64_t found = -1;
     double least = 0;
     for (std::int64_t i = 0; i < nodes.n(); ++i) {
-      const double away = distance_between(nodes.point(i), asked);
+      const double away = distance_between(nodes.point(i).data(), asked);
       if (nodes.is_ghost(i) || (found >= 0 && !(away < least)) || piece.mesh->longest_edge(i) == 0) continue;
       found = i;
       least = away;
@@ -329,7 +329,7 @@ void PassageCheck::add(const Piece &piece) {
     if (found < 0) continue;
     PieceEnd made{nodes.key(found), {0, 0, 0}, least,          piece.mesh->longest_edge(found),
                   piece.number,     found,     nodes.id(found)};
-    std::copy_n(nodes.point(found), 3, made.point);
+    std::copy_n(nodes.point(found).data(), 3, made.point);
     found_ends_[end].push_back(made);
   }
 }

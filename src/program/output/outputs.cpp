@@ -199,6 +199,12 @@ fs::path folder_of(const fs::path &place) { return place.has_parent_path() ? pla
 
 namespace {
 
+// Returns whether the output is of a format without points, and the mesh may have been read as axes.
+bool is_grid_of(const std::string &mesh, const std::string &output) {
+  if (!has_ending(output, ".vti") && !has_ending(output, ".vtr")) return false;
+  return has_ending(mesh, ".vti") || has_ending(mesh, ".vtr") || has_ending(mesh, ".vtk");
+}
+
 // Checks --output: a file, a time of a case of OpenFOAM or, for a series, the case itself.
 void check_output(const MarkOptions &options, bool is_series, bool has_pieces) {
   const std::string &path = options.output;
@@ -211,7 +217,7 @@ void check_output(const MarkOptions &options, bool is_series, bool has_pieces) {
   }
   if (is_series)
     check_ending(path, ".pvd", "--output");
-  else if (has_pieces || !has_ending(path, ".xdmf"))
+  else if (has_pieces || !(has_ending(path, ".xdmf") || is_grid_of(options.mesh, path)))
     check_ending(path, has_pieces ? ".pvtu" : ".vtu", "--output");
 }
 

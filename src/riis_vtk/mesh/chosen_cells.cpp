@@ -96,7 +96,7 @@ std::string values_text(vtkUnstructuredGrid *grid, const std::vector<vtkDataArra
 }
 
 void choose_cells(riis_vtk_mesh &mesh, const Where &where, std::int64_t *n_chosen) {
-  vtkUnstructuredGrid *const grid = mesh.grid;
+  vtkUnstructuredGrid *const grid = mesh.grid();
   if (n_chosen) *n_chosen = 0;
   if (n_chosen && grid->GetNumberOfCells() == 0) return;  // an empty piece may lack the array
   const std::vector<vtkDataArray *> arrays = arrays_of(grid, where.name);
@@ -132,10 +132,11 @@ bool may_tell_domains(const std::string &array_name) {
                       [&](const char *word) { return name.find(word) != std::string::npos; });
 }
 
+constexpr std::size_t most_regions = 16;
+
 // Returns the values of volume cells, if they are few whole numbers, and two of them are of cells of one type with a common node.
 // Otherwise returns none. A domain of several types of cells often has a block for each of them, as Exodus needs.
 std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *array) {
-  constexpr std::size_t most_regions = 16;
   std::set<double> values;
   // The value and the type of the first cell at each node.
   std::vector<double> of_node(static_cast<std::size_t>(grid->GetNumberOfPoints()), NAN);
@@ -162,14 +163,27 @@ std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *arr
   return {values.begin(), values.end()};
 }
 
+// As touching_values, for the cells of axes. Two of these with different values touch somewhere, because each cell is beside the
+// next one.
+std::vector<double> values_on_axes(vtkDataArray *array) {
+  std::set<double> values;
+  for (vtkIdType cell = 0; cell < array->GetNumberOfTuples(); ++cell) {
+    const double value = array->GetTuple1(cell);
+    values.insert(value);
+    if (value != std::floor(value) || values.size() > most_regions) return {};
+  }
+  if (values.size() < 2) return {};
+  return {values.begin(), values.end()};
+}
+
 void find_regions(riis_vtk_mesh &mesh) {
   mesh.regions = {};
-  vtkCellData *const data = mesh.grid->GetCellData();
+  vtkCellData *const data = mesh.data->GetCellData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
     vtkDataArray *const array = data->GetArray(i);
     if (!array || !array->GetName() || array->GetNumberOfComponents() != 1 || !may_tell_domains(array->GetName()))
       continue;
-    mesh.regions.values = touching_values(mesh.grid, array);
+    mesh.regions.values = mesh.axes ? values_on_axes(array) : touching_values(mesh.grid(), array);
     mesh.regions.array = array->GetName();
     if (!mesh.regions.values.empty()) return;
   }

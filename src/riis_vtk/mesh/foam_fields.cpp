@@ -88,7 +88,7 @@ void write_foam_fields(const std::string &path, const riis_vtk_mesh &mesh) {
   const auto patches = read_patches(foam_case);
   fs::create_directory(folder, error);
   if (error) fail_file(path, "cannot be made: ", error.message());
-  vtkCellData *const data = mesh.grid->GetCellData();
+  vtkCellData *const data = mesh.data->GetCellData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
     vtkDataArray *const array = data->GetArray(i);
     if (!array || !array->GetName() || (array->GetNumberOfComponents() != 1 && array->GetNumberOfComponents() != 3))

@@ -15,6 +15,8 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
+#include "riis_vtk/read/structured_files.hpp"
+
 class vtkUnsignedCharArray;
 
 namespace riis::vtk {
@@ -41,9 +43,11 @@ struct Regions {
 }  // namespace riis::vtk
 
 struct riis_vtk_mesh {
-  vtkSmartPointer<vtkUnstructuredGrid> grid;  // its points are a vtkDoubleArray
-  std::string notes = {};                     // the notes that riis_vtk_mesh_get_notes gives
-  std::string foam_case = {};                 // the folder of the case that the mesh was read from, or ""
+  // Its points are a vtkDoubleArray. A grid of axes at first has only arrays: grid() makes its points and cells.
+  vtkSmartPointer<vtkUnstructuredGrid> data;
+  std::unique_ptr<const riis::vtk::GridAxes> axes = {};
+  std::string notes = {};      // the notes that riis_vtk_mesh_get_notes gives
+  std::string foam_case = {};  // the folder of the case that the mesh was read from, or ""
   // If there are centres, they are the mesh's nodes, and data of nodes is data of cells.
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
   std::vector<riis::vtk::RegionName> region_names = {};  // of gmsh's physical groups of volumes
@@ -51,11 +55,26 @@ struct riis_vtk_mesh {
   // If only a part of the cells was kept, the ids of its nodes and cells in the whole mesh. Otherwise empty.
   std::vector<std::int64_t> whole_node_ids = {}, whole_cell_ids = {};
 
-  std::int64_t n_nodes() const { return centers ? grid->GetNumberOfCells() : grid->GetNumberOfPoints(); }
+  std::int64_t n_nodes() const { return centers ? n_cells() : axes ? axes->n_nodes() : data->GetNumberOfPoints(); }
+  std::int64_t n_cells() const { return axes ? axes->n_cells() : data->GetNumberOfCells(); }
+  // Whether the nodes are those of axes.
+  bool is_of_axes() const { return axes && !centers; }
   vtkDataSetAttributes *node_data() const;
+  void make_points() const;           // of axes, unless they are made
+  vtkUnstructuredGrid *grid() const;  // with points and cells
 };
 
 namespace riis::vtk {
+
+// As median_edge_of, for the cells of axes.
+double median_edge_of(const GridAxes &axes);
+// Returns the adjacency of the grid's nodes.
+riis_adjacency *adjacency_of(const GridAxes &axes, std::int32_t n_threads);
+// Sets is_outside to 0 for points that are at most the distance away from the box of the axes.
+void find_outside(const GridAxes &axes, std::int64_t n_points, const double *xyz, double distance,
+                  std::uint8_t *is_outside);
+// Writes the arrays on the axes to a .vtr file, or on an image to a .vti file.
+void write_axes(const std::string &path, const riis_vtk_mesh &mesh, const CaughtOutput &caught);
 
 // Gives the grid points in double precision. A grid without points gets an empty list.
 void make_points_double(vtkUnstructuredGrid *grid);

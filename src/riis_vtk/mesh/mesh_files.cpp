@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <tuple>
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -23,6 +24,7 @@
 #include "riis_vtk/mesh/mesh.hpp"
 #include "riis_vtk/read/grid_files.hpp"
 #include "riis_vtk/read/other_files.hpp"
+#include "riis_vtk/read/structured_files.hpp"
 
 namespace riis::vtk {
 
@@ -33,7 +35,8 @@ std::string take_note(vtkUnstructuredGrid *grid) {
     if (array->GetNumberOfValues() > 0) note = array->GetValue(0);
     grid->GetFieldData()->RemoveArray(note_array);
   }
-  return note.empty() && grid->GetPoints()->GetDataType() == VTK_FLOAT ? "its points have single precision" : note;
+  const bool is_single = grid->GetPoints() && grid->GetPoints()->GetDataType() == VTK_FLOAT;
+  return note.empty() && is_single ? "its points have single precision" : note;
 }
 
 // Takes the names of physical groups out of the grid.
@@ -111,8 +114,9 @@ void check_length(double longer_than) {
 }
 
 const double *points_of(const riis_vtk_mesh *mesh) {
-  return mesh->centers ? mesh->centers->xyz.data()
-                       : vtkDoubleArray::SafeDownCast(mesh->grid->GetPoints()->GetData())->GetPointer(0);
+  if (mesh->centers) return mesh->centers->xyz.data();
+  mesh->make_points();
+  return vtkDoubleArray::SafeDownCast(mesh->data->GetPoints()->GetData())->GetPointer(0);
 }
 
 // Returns the pairs of neighbouring cells. The centres of a pair are the ends of such an edge.
@@ -262,7 +266,7 @@ void set_fields(riis_vtk_mesh *mesh, const riis_marks *marks, std::int32_t field
 using namespace riis::vtk;
 
 vtkDataSetAttributes *riis_vtk_mesh::node_data() const {
-  return centers ? static_cast<vtkDataSetAttributes *>(grid->GetCellData()) : grid->GetPointData();
+  return centers ? static_cast<vtkDataSetAttributes *>(data->GetCellData()) : data->GetPointData();
 }
 
 extern "C" {
@@ -273,11 +277,17 @@ RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh) 
     require(mesh, "mesh");
     naming(path, [&] {
       auto made = std::make_unique<riis_vtk_mesh>();
-      made->grid = read_grid(path, caught);
-      made->notes = take_note(made->grid);
-      made->region_names = take_region_names(made->grid);
+      if (is_structured(path)) {
+        StructuredFile file = read_structured(path, caught);
+        made->data = std::move(file.data);
+        made->axes = std::move(file.axes);
+      } else {
+        made->data = read_grid(path, caught);
+      }
+      made->notes = take_note(made->data);
+      made->region_names = take_region_names(made->data);
       if (is_openfoam(path)) made->foam_case = foam_case_of(path);
-      make_points_double(made->grid);
+      if (!made->axes) make_points_double(made->data);
       *mesh = made.release();
     });
   });
@@ -293,7 +303,7 @@ RIIS_API riis_status riis_vtk_mesh_get_notes(const riis_vtk_mesh *mesh, const ch
 RIIS_API riis_status riis_vtk_mesh_use_centers(riis_vtk_mesh *mesh) {
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
-    if (!mesh->centers) mesh->centers = std::make_unique<const CellCenters>(centers_of(mesh->grid));
+    if (!mesh->centers) mesh->centers = std::make_unique<const CellCenters>(centers_of(mesh->grid()));
   });
 }
 
@@ -304,8 +314,20 @@ RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t 
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
     if (n_nodes) *n_nodes = mesh->n_nodes();
-    if (n_cells) *n_cells = mesh->grid->GetNumberOfCells();
+    if (n_cells) *n_cells = mesh->n_cells();
     if (xyz) *xyz = points_of(mesh);
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_get_axes(const riis_vtk_mesh *mesh, riis_grid *grid, int64_t struct_size) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    check_core(riis_grid_init(require(grid, "grid"), struct_size));
+    grid->ni = grid->nj = grid->nk = 0;
+    if (!mesh->is_of_axes()) return;
+    std::tie(grid->ni, grid->nj, grid->nk) = std::tuple(mesh->axes->size(0), mesh->axes->size(1), mesh->axes->size(2));
+    std::tie(grid->x, grid->y, grid->z) =
+        std::tuple(mesh->axes->of[0].data(), mesh->axes->of[1].data(), mesh->axes->of[2].data());
   });
 }
 
@@ -315,7 +337,8 @@ RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, i
     require(mesh, "mesh");
     require(adjacency, "adjacency");
     *adjacency = mesh->centers ? adjacency_of_edges(mesh->n_nodes(), mesh->centers->pairs, n_threads)
-                               : adjacency_of(mesh->grid, n_threads);
+                 : mesh->axes  ? adjacency_of(*mesh->axes, n_threads)
+                               : adjacency_of(mesh->grid(), n_threads);
   });
 }
 
@@ -334,7 +357,7 @@ RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, 
     if (mesh->centers)
       edges.node_ids = long_pairs_of(*mesh->centers, wanted);
     else
-      edges = long_edges_of(mesh->grid, points_of(mesh), wanted);
+      edges = long_edges_of(mesh->grid(), points_of(mesh), wanted);
     *adjacency = adjacency_of_edges(mesh->n_nodes(), edges.node_ids, n_threads);
     if (n_cells_left_out) *n_cells_left_out = edges.n_cells_left_out;
   });
@@ -343,7 +366,9 @@ RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, 
 RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
                                                     int64_t *n_cells_left_out) {
   return guarded([&](const CaughtOutput &) {
-    const VolumeCounts counts = count_volumes(require(mesh, "mesh")->grid);
+    require(mesh, "mesh");
+    const VolumeCounts counts =
+        mesh->axes ? VolumeCounts{mesh->axes->n_cells(), mesh->axes->n_cells()} : count_volumes(mesh->grid());
     if (n_volume_cells) *n_volume_cells = counts.n_volumes;
     if (n_cells_left_out) *n_cells_left_out = counts.n_unknown;
   });
@@ -391,7 +416,7 @@ RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
     if (mesh->centers) refuse_argument("mesh has centres of cells as nodes, and centres have no cells");
-    vtkUnstructuredGrid *const grid = mesh->grid;
+    vtkUnstructuredGrid *const grid = mesh->grid();
     const int64_t n_all = grid->GetNumberOfCells();
     if (n_cells != n_all) refuse_argument("n_cells is ", n_cells, "; the mesh has ", n_all, " cells");
     const int64_t n_ids = n_all > 0 ? grid->GetCells()->GetNumberOfConnectivityIds() : 0;
@@ -415,7 +440,9 @@ RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, do
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
     require(length, "length");
-    *length = mesh->centers ? median_edge_of(*mesh->centers) : median_edge_of(mesh->grid);
+    *length = mesh->centers ? median_edge_of(*mesh->centers)
+              : mesh->axes  ? median_edge_of(*mesh->axes)
+                            : median_edge_of(mesh->grid());
   });
 }
 
@@ -429,9 +456,11 @@ RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *
       if (is_foam_time(path))
         write_foam_fields(path, *mesh);
       else if (ending_of(path) == "xdmf")
-        write_xdmf(path, mesh->grid);
+        write_xdmf(path, mesh->grid());
+      else if (ending_of(path) == "vti" || ending_of(path) == "vtr")
+        write_axes(path, *mesh, caught);
       else
-        write_xml<vtkXMLUnstructuredGridWriter>(path, "vtu", mesh->grid, caught);
+        write_xml<vtkXMLUnstructuredGridWriter>(path, "vtu", mesh->grid(), caught);
     });
   });
 }

@@ -100,7 +100,7 @@ void add_cell(vtkUnstructuredGrid *grid, vtkIdType cell, const std::vector<vtkId
 // Makes a grid of cells and of the chosen nodes, among which are those of the cells.
 vtkSmartPointer<vtkUnstructuredGrid> part_of(const riis_vtk_mesh &mesh, const std::vector<vtkIdType> &cells,
                                              const Chosen &chosen) {
-  vtkUnstructuredGrid *const grid = mesh.grid;
+  vtkUnstructuredGrid *const grid = mesh.grid();
   const std::vector<vtkIdType> nodes = ids_of(chosen);
   std::vector<vtkIdType> new_id(chosen.size());
   vtkNew<vtkPoints> points;
@@ -150,16 +150,18 @@ std::int64_t file_size_of(vtkUnstructuredGrid *grid) {
 }  // namespace
 
 void keep_cells(riis_vtk_mesh &mesh, const std::vector<vtkIdType> &cells) {
-  Chosen chosen(static_cast<std::size_t>(mesh.grid->GetNumberOfPoints()));
+  vtkUnstructuredGrid *const grid = mesh.grid();
+  Chosen chosen(static_cast<std::size_t>(grid->GetNumberOfPoints()));
   vtkNew<vtkIdList> nodes;
   for (const vtkIdType cell : cells) {
-    mesh.grid->GetCellPoints(cell, nodes);
+    grid->GetCellPoints(cell, nodes);
     for (const vtkIdType node : *nodes) view(chosen)[node] = 1;
   }
   const auto part = part_of(mesh, cells, chosen);
   mesh.whole_node_ids = whole_ids(ids_of(chosen), mesh.whole_node_ids);
   mesh.whole_cell_ids = whole_ids(cells, mesh.whole_cell_ids);
-  mesh.grid = part;
+  mesh.data = part;
+  mesh.axes.reset();
 }
 
 }  // namespace riis::vtk
@@ -171,13 +173,13 @@ extern "C" {
 RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_ids, const int64_t *node_ids,
                                            riis_vtk_mesh **part) {
   return guarded([&](const CaughtOutput &) {
-    vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
+    vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid();
     if (mesh->centers) refuse_argument("mesh has its nodes at the centres of cells, and has no parts");
     require(part, "part");
     auto made = std::make_unique<riis_vtk_mesh>();
     Chosen chosen = chosen_nodes(grid, n_ids, node_ids);
     const std::vector<vtkIdType> cells = cells_around(grid, chosen);
-    made->grid = part_of(*mesh, cells, chosen);
+    made->data = part_of(*mesh, cells, chosen);
     *part = made.release();
   });
 }
@@ -185,7 +187,7 @@ RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_
 RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes) {
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
-    *require(n_bytes, "n_bytes") = file_size_of(mesh->grid);
+    *require(n_bytes, "n_bytes") = file_size_of(mesh->grid());
   });
 }
 

@@ -367,7 +367,7 @@ RIIS_API riis_status riis_vtk_pieces_read(const char *path, riis_vtk_pieces **pi
 RIIS_API riis_status riis_vtk_pieces_create(const riis_vtk_mesh *mesh, int64_t n_files, const char *const *files,
                                             riis_vtk_pieces **pieces) {
   return guarded([&](const CaughtOutput &) {
-    vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
+    vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid();
     std::vector<std::string> names = checked_files(n_files, files);
     require(pieces, "pieces");
     auto made = std::make_unique<riis_vtk_pieces>();
@@ -407,8 +407,8 @@ RIIS_API riis_status riis_vtk_pieces_read_mesh(const riis_vtk_pieces *pieces, in
     require(mesh, "mesh");
     naming(riis::view(pieces->files)[piece], [&] {
       auto made = std::make_unique<riis_vtk_mesh>();
-      made->grid = read_piece(*pieces, piece, caught);
-      make_points_double(made->grid);
+      made->data = read_piece(*pieces, piece, caught);
+      make_points_double(made->data);
       *mesh = made.release();
     });
   });
@@ -431,7 +431,7 @@ RIIS_API riis_status riis_vtk_pieces_write(const riis_vtk_pieces *pieces, const 
 RIIS_API riis_status riis_vtk_mesh_get_sharing(const riis_vtk_mesh *mesh, int64_t n_nodes, uint8_t *role,
                                                int64_t *global_id, riis_vtk_sharing *sharing, int64_t struct_size) {
   return guarded([&](const CaughtOutput &) {
-    vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
+    vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid();
     const vtkIdType n = grid->GetNumberOfPoints();
     if (n_nodes != n) refuse_argument("n_nodes is ", n_nodes, "; the mesh has ", n, " nodes");
     require(sharing, "sharing");

@@ -254,7 +254,7 @@ extern "C" {
 RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64_t n_points, const double *xyz,
                                                 double distance, uint8_t *is_outside) {
   return guarded([&](const CaughtOutput &) {
-    vtkUnstructuredGrid *const grid = require(mesh, "mesh")->grid;
+    require(mesh, "mesh");
     if (n_points < 0) refuse_argument("n_points is ", n_points);
     if (!(distance >= 0 && std::isfinite(distance)))
       refuse_argument("distance is ", distance, "; it must be finite and at least 0");
@@ -263,7 +263,8 @@ RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64
     require(is_outside, "is_outside");
     for (int64_t i = 0; i < 3 * n_points; ++i)
       if (!std::isfinite(xyz[i])) refuse_argument("xyz[", i, "] is ", xyz[i]);
-    SolidCells cells(grid);
+    if (mesh->axes) return find_outside(*mesh->axes, n_points, xyz, distance, is_outside);
+    SolidCells cells(mesh->grid());
     find_contained(cells, Asked(n_points, xyz, is_outside), is_outside);
     const Asked left(n_points, xyz, is_outside);
     if (!left.points.empty()) find_near(cells, left, distance, is_outside);

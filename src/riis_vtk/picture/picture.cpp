@@ -46,7 +46,7 @@ void check_edges(const riis_vtk_picture_options &options, const riis_vtk_mesh *m
   if (options.n_leaking_edges == 0) return;
   if (!options.leaking_edges) refuse_option(n, ", options->leaking_edges is NULL");
   if (!mesh) refuse_option(n, ", and mesh is NULL");
-  const std::int64_t n_nodes = mesh->grid->GetNumberOfPoints();
+  const std::int64_t n_nodes = mesh->n_nodes();
   for (std::int64_t i = 0; i / 2 < options.n_leaking_edges; ++i) {
     const std::int64_t node = options.leaking_edges[i];
     if (node < 0 || node >= n_nodes) {
@@ -133,7 +133,7 @@ void draw(const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_vtk
   if (mesh) check_has_marks(mesh);
   if (shots.empty()) return;
   const HeldDisplay display;
-  Scene scene(mesh ? mesh->grid : nullptr, options);
+  Scene scene(mesh ? mesh->grid() : nullptr, options);
   scene.show(surface, options.title, {options.n_leaking_edges, options.leaking_edges});
   for (const Shot &shot : shots) write_png(scene.picture(shot.view, std::nullopt), shot.path, caught);
 }
@@ -215,7 +215,7 @@ RIIS_API riis_status riis_vtk_film_create(const riis_vtk_mesh *mesh, const doubl
     check_view(whole.view, "options->view");
     check_picture_options(whole, mesh);
     const Bounds bounds = bounds_of(lower, upper);
-    vtkUnstructuredGrid *grid = mesh ? mesh->grid.Get() : nullptr;
+    vtkUnstructuredGrid *grid = mesh ? mesh->grid() : nullptr;
     *film = new riis_vtk_film{{}, whole.view, bounds, {grid}, {grid, whole}};
   });
 }
@@ -226,7 +226,7 @@ RIIS_API riis_status riis_vtk_film_draw(riis_vtk_film *film, const riis_surface 
     require(film, "film");
     require(surface, "surface");
     check_png(require(path, "path"));
-    if (film->mesh.grid) check_has_marks(&film->mesh);
+    if (film->mesh.data) check_has_marks(&film->mesh);
     film->scene.show(surface, title, {});
     write_png(film->scene.picture(film->view, film->bounds), path, caught);
   });

@@ -281,7 +281,7 @@ double Layout::line_width() const { return std::max(1.0, height_ / 500.0); }
 
 void check_has_marks(const riis_vtk_mesh *mesh) {
   for (const char *name : {marked_array, distance_array, leaflet_array}) {
-    if (!mesh->grid->GetPointData()->GetArray(name)) {
+    if (!mesh->data->GetPointData()->GetArray(name)) {
       refuse_argument("mesh has no marks: call riis_vtk_mesh_set_marks before riis_vtk_draw");
     }
   }

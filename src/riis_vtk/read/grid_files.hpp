@@ -4,6 +4,7 @@
 // below find most errors before VTK reads the file.
 #pragma once
 
+#include <array>
 #include <map>
 #include <vector>
 
@@ -23,6 +24,9 @@ enum class Points { required, may_be_missing };
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught,
                                                Points points = Points::required);
 
+// Fails unless each array has n values. `kind` names them in the message.
+void check_array_lengths(const std::string &path, vtkFieldData *data, const char *kind, vtkIdType n);
+
 // Fails unless the grid has points, and its cells have types, sizes and points that exist.
 void check_grid(const std::string &path, vtkUnstructuredGrid *grid);
 
@@ -32,15 +36,32 @@ vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const Caught
 // Reads a legacy .vtk file with polydata or with a grid, checked as by read_polydata and read_grid.
 vtkSmartPointer<vtkPointSet> read_legacy_surface(const std::string &path, const CaughtOutput &caught);
 
+// The nodes of a structured grid along its axes.
+struct Lattice {
+  std::array<std::int64_t, 3> n;
+  std::int64_t n_points() const { return n[0] * n[1] * n[2]; }
+  // An axis with one node has no thickness.
+  std::int64_t n_cells() const {
+    std::int64_t n_all = 1;
+    for (const std::int64_t size : n) n_all *= size > 1 ? size - 1 : 1;
+    return n_all;
+  }
+};
+// Fails if the grid has no points, or more points than a mesh may have.
+void check_lattice(const std::string &path, const Lattice &lattice);
+
 // Returns the content of a legacy .vtk file. Fails for another kind of data and for a file that is not complete. VTK's legacy
 // reader believes every count, reads a truncated file as a smaller one, and ends the process on some files. This function
 // therefore checks the sections before VTK reads them.
+enum class LegacyKind { unstructured_grid, polydata, structured_points, rectilinear_grid, structured_grid };
 enum class LegacyKinds { grid, grid_or_polydata };
 struct LegacyContent {
-  bool is_polydata;
+  LegacyKind kind;
   std::int64_t n_cells;
 };
 LegacyContent check_legacy(const std::string &path, LegacyKinds allowed);
+// Returns whether the header says that the file has a grid of one of the structured kinds.
+bool is_structured_legacy(const std::string &path);
 
 // Fails for a file that is truncated or is not a VTK XML file of the wanted type. VTK's parser would stop at appended data
 // without looking for the end of the file, and it crashes on a field array of unknown type. XmlSizes checks the sizes.
@@ -77,6 +98,9 @@ class XmlSizes {
   void check_piece(vtkXMLDataParser *parser, vtkXMLDataElement *piece);
   void check_cells(vtkXMLDataParser *parser, vtkXMLDataElement *cells, std::int64_t n);
   std::int64_t count(vtkXMLDataElement *element, const char *attribute) const;
+  std::array<int, 6> extent(vtkXMLDataElement *element, const char *attribute) const;
+  Lattice lattice(vtkXMLDataElement *element) const;
+  void check_extents(vtkXMLDataElement *primary) const;
 
   const std::string &path_;
   MappedFile file_;

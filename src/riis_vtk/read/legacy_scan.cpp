@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include <vtkCellType.h>
@@ -109,14 +110,21 @@ class Scan {
   LegacyContent file(LegacyKinds allowed) {
     header(allowed);
     for (std::string keyword = word(); !keyword.empty(); keyword = word()) section(keyword);
+    if (is_structured()) return structured();
     // The format has no end mark. Without this check, a file that ends after its points would look like a grid without cells.
     if (n_cells_ < 0) refuse("holds no cells (is it truncated?)");
-    if (is_polydata_) return {true, n_cells_};
+    if (is_polydata()) return {kind_, n_cells_};
     if (n_types_ != n_cells_)
       refuse("has ", std::max<std::int64_t>(n_types_, 0), " types for ", n_cells_, " cells",
              n_types_ < 0 ? " (is it truncated?)" : "");
     if (has_polyhedra()) check_polyhedra();
-    return {false, n_cells_};
+    return {kind_, n_cells_};
+  }
+
+  // Returns whether the file has a structured grid. Reads only the header.
+  bool is_structured_file() {
+    header(LegacyKinds::grid);
+    return is_structured();
   }
 
  private:
@@ -184,8 +192,30 @@ class Scan {
     binary_ = encoding == "binary";
     if (next() != "dataset") refuse("holds no data set");
     const std::string kind = next();
-    is_polydata_ = kind == "polydata" && allowed == LegacyKinds::grid_or_polydata;
-    if (!is_polydata_ && kind != "unstructured_grid") refuse("holds ", kind, ", not unstructured_grid");
+    static const std::map<std::string, LegacyKind> kinds = {{"unstructured_grid", LegacyKind::unstructured_grid},
+                                                            {"polydata", LegacyKind::polydata},
+                                                            {"structured_points", LegacyKind::structured_points},
+                                                            {"rectilinear_grid", LegacyKind::rectilinear_grid},
+                                                            {"structured_grid", LegacyKind::structured_grid}};
+    const auto found = kinds.find(kind);
+    if (found != kinds.end()) kind_ = found->second;
+    if (found == kinds.end() || (allowed == LegacyKinds::grid ? is_polydata() : is_structured()))
+      refuse("holds ", kind, ", not unstructured_grid");
+  }
+
+  bool is_polydata() const { return kind_ == LegacyKind::polydata; }
+  bool is_structured() const { return kind_ != LegacyKind::unstructured_grid && !is_polydata(); }
+
+  // Returns the content of a structured grid whose sections were scanned.
+  LegacyContent structured() const {
+    if (!lattice_) refuse("has no DIMENSIONS (is it truncated?)");
+    static const char *const names[3] = {"X_COORDINATES", "Y_COORDINATES", "Z_COORDINATES"};
+    for (std::size_t axis = 0; axis < 3 && kind_ == LegacyKind::rectilinear_grid; ++axis)
+      if (n_coordinates_[axis] != lattice_->n[axis])
+        refuse("has ", n_coordinates_[axis], " ", names[axis], " for ", lattice_->n[axis], " points along the axis");
+    if (kind_ == LegacyKind::structured_grid && n_points_ != lattice_->n_points())
+      refuse("has ", n_points_, " points, and DIMENSIONS of ", lattice_->n_points());
+    return {kind_, lattice_->n_cells()};
   }
 
   void skip_bytes(std::int64_t n) {
@@ -307,24 +337,58 @@ class Scan {
   void section(const std::string &keyword) {
     if (keyword == "field") {
       field();
-    } else if (keyword == "points") {
+    } else if (is_structured() && structured_section(keyword)) {
+      return;
+    } else if (keyword == "points" && kind_ != LegacyKind::structured_points && kind_ != LegacyKind::rectilinear_grid) {
       n_points_ = count();
       skip_tuples(n_points_, 3, next());
     } else if (is_list_of_cells(keyword)) {
       if (!lists_.insert(keyword).second) refuse("has ", upper_case(keyword), " twice");
       cells(upper_case(keyword));
-    } else if (keyword == "cell_types") {
+    } else if (keyword == "cell_types" && !is_structured()) {
       if (n_types_ >= 0) refuse("has CELL_TYPES twice");
       n_types_ = count();
       types_ = values_behind_line();
       skip_values(n_types_, "int");
     } else if (keyword == "point_data" || keyword == "cell_data") {
       n_tuples_ = count();
+      if (is_structured()) check_tuples(keyword == "point_data");
     } else if (keyword == "metadata") {
       skip_metadata(0);
     } else if (!attribute(keyword)) {
       refuse("has the unknown keyword '", keyword.substr(0, 40), "'");
     }
+  }
+
+  // Reads a section that only structured grids have. Returns false if the keyword does not begin one.
+  bool structured_section(const std::string &keyword) {
+    if (keyword == "dimensions") {
+      if (lattice_) refuse("has DIMENSIONS twice");
+      lattice_.emplace();
+      for (std::int64_t &n : lattice_->n) {
+        n = number_of(next());
+        if (n > std::numeric_limits<int>::max()) refuse("has the count ", n);
+      }
+      check_lattice(path_, *lattice_);
+    } else if (kind_ == LegacyKind::structured_points &&
+               (keyword == "origin" || keyword == "spacing" || keyword == "aspect_ratio")) {
+      skip_words(3, "double");
+    } else if (kind_ == LegacyKind::rectilinear_grid && keyword.size() == 13 && keyword.substr(1) == "_coordinates" &&
+               keyword[0] >= 'x' && keyword[0] <= 'z') {
+      std::int64_t &n = n_coordinates_[static_cast<std::size_t>(keyword[0] - 'x')];
+      n = count();
+      skip_tuples(n, 1, next());
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  // VTK makes arrays of the stated number before it compares this number with the grid's.
+  void check_tuples(bool are_points) const {
+    if (!lattice_) refuse("has data before DIMENSIONS");
+    const std::int64_t n = are_points ? lattice_->n_points() : lattice_->n_cells();
+    if (n_tuples_ != n) refuse("has ", are_points ? "POINT_DATA " : "CELL_DATA ", n_tuples_, " for ", n);
   }
 
   void field() {
@@ -339,7 +403,7 @@ class Scan {
   }
 
   bool is_list_of_cells(std::string_view keyword) const {
-    if (!is_polydata_) return keyword == "cells";
+    if (!is_polydata()) return keyword == "cells" && !is_structured();
     return keyword == "vertices" || keyword == "lines" || keyword == "polygons" || keyword == "triangle_strips";
   }
 
@@ -503,9 +567,12 @@ class Scan {
   const std::string &path_;
   std::string_view rest_;
   std::int64_t version_ = 0;  // major version
-  bool binary_ = false, is_polydata_ = false;
-  std::set<std::string> lists_;  // the keywords of the lists of cells so far
-  std::int64_t n_cells_ = -1;    // -1 if not known yet
+  bool binary_ = false;
+  LegacyKind kind_ = LegacyKind::unstructured_grid;
+  std::optional<Lattice> lattice_;               // of a structured grid
+  std::array<std::int64_t, 3> n_coordinates_{};  // of a rectilinear grid
+  std::set<std::string> lists_;                  // the keywords of the lists of cells so far
+  std::int64_t n_cells_ = -1;                    // -1 if not known yet
   std::int64_t n_types_ = -1;
   std::int64_t n_points_ = 0;
   // Each view begins at its array. Files up to version 4 have no offsets: each cell begins with its number of corners, and its
@@ -521,6 +588,11 @@ class Scan {
 LegacyContent check_legacy(const std::string &path, LegacyKinds allowed) {
   const MappedFile file(path, check_readable(path));
   return Scan(path, file.bytes()).file(allowed);
+}
+
+bool is_structured_legacy(const std::string &path) {
+  const MappedFile file(path, check_readable(path));
+  return Scan(path, file.bytes()).is_structured_file();
 }
 
 }  // namespace riis::vtk

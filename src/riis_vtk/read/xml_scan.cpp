@@ -140,6 +140,12 @@ std::uint32_t bits_of_character(char c) {
 
 bool is_named(vtkXMLDataElement *element, const char *name) { return std::strcmp(element->GetName(), name) == 0; }
 
+bool is_structured(vtkXMLDataParser *parser) {
+  static const std::set<std::string> types = {"ImageData", "RectilinearGrid", "StructuredGrid"};
+  const char *const type = parser->GetRootElement()->GetAttribute("type");
+  return type && types.count(type) != 0;
+}
+
 template <class Visit>
 void for_each_nested(vtkXMLDataElement *element, const Visit &visit) {
   for (int i = 0; i < element->GetNumberOfNestedElements(); ++i) visit(element->GetNestedElement(i));
@@ -300,14 +306,51 @@ void XmlSizes::check_cells(vtkXMLDataParser *parser, vtkXMLDataElement *cells, s
   }
 }
 
+std::array<int, 6> XmlSizes::extent(vtkXMLDataElement *element, const char *attribute) const {
+  std::array<int, 6> made{};
+  if (element->GetVectorAttribute(attribute, 6, made.data()) != 6)
+    fail_file(path_, "is damaged: ", attribute, " has not six numbers");
+  return made;
+}
+
+Lattice XmlSizes::lattice(vtkXMLDataElement *element) const {
+  const std::array<int, 6> ends = extent(element, "Extent");
+  Lattice made{};
+  for (std::size_t axis = 0; axis < 3; ++axis) made.n[axis] = std::int64_t{ends[2 * axis + 1]} - ends[2 * axis] + 1;
+  check_lattice(path_, made);
+  return made;
+}
+
+// VTK allocates the whole extent before it reads the pieces.
+void XmlSizes::check_extents(vtkXMLDataElement *primary) const {
+  const std::array<int, 6> whole = extent(primary, "WholeExtent");
+  int n_pieces = 0;
+  for_each_nested(primary, [&](vtkXMLDataElement *nested) {
+    if (!is_named(nested, "Piece")) return;
+    ++n_pieces;
+    if (extent(nested, "Extent") != whole) fail_file(path_, "has a piece whose Extent is not the WholeExtent");
+  });
+  if (n_pieces != 1) fail_file(path_, "has ", n_pieces, " pieces; a structured grid must have one");
+}
+
 void XmlSizes::check_piece(vtkXMLDataParser *parser, vtkXMLDataElement *piece) {
   constexpr std::pair<const char *, const char *> kinds[] = {{"Cells", "NumberOfCells"},
                                                              {"Verts", "NumberOfVerts"},
                                                              {"Lines", "NumberOfLines"},
                                                              {"Strips", "NumberOfStrips"},
                                                              {"Polys", "NumberOfPolys"}};
-  const std::int64_t n_points = count(piece, "NumberOfPoints");
-  std::int64_t n_cells = 0;
+  std::int64_t n_points = count(piece, "NumberOfPoints"), n_cells = 0;
+  if (is_structured(parser)) {
+    const Lattice grid = lattice(piece);
+    n_points = grid.n_points();
+    n_cells = grid.n_cells();
+    for_each_nested(piece, [&](vtkXMLDataElement *nested) {
+      if (!is_named(nested, "Coordinates")) return;
+      const int n_axes = std::min(3, nested->GetNumberOfNestedElements());
+      for (int axis = 0; axis < n_axes; ++axis)
+        check_array(parser, nested->GetNestedElement(axis), grid.n[static_cast<std::size_t>(axis)]);
+    });
+  }
   for (const auto &[name, attribute] : kinds) {
     const std::int64_t n = count(piece, attribute);
     if (n > std::numeric_limits<std::int64_t>::max() - n_cells) fail_file(path_, "is damaged: ", attribute, " is ", n);
@@ -330,6 +373,7 @@ void XmlSizes::check_pieces(vtkXMLDataParser *parser) {
   const char *type = root->GetAttribute("type");
   vtkXMLDataElement *primary = type ? root->FindNestedElementWithName(type) : nullptr;
   if (!primary) return;
+  if (is_structured(parser)) check_extents(primary);
   for_each_nested(primary, [&](vtkXMLDataElement *nested) {
     if (is_named(nested, "Piece")) check_piece(parser, nested);
     if (is_named(nested, "FieldData"))

@@ -123,7 +123,7 @@ RIIS_API riis_status riis_vtk_mesh_get_boundary(const riis_vtk_mesh *mesh, riis_
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
     require(boundary, "boundary");
-    const Outside outside = outside_of(mesh->grid, nullptr, nullptr);
+    const Outside outside = outside_of(mesh->grid(), nullptr, nullptr);
     if (!outside.of_volumes) fail(RIIS_INVALID_ARGUMENT, "mesh has no volume cells, so it has no boundary");
     auto made = std::make_unique<riis_vtk_surface>();
     made->faces = faces_of("boundary", outside.faces, LeafletArray(nullptr));
