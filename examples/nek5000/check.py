@@ -11,9 +11,6 @@ import math
 import os
 import sys
 
-OPEN_ORIFICE = None  # cm^2, read from the beat's log
-
-
 class BadRecord(Exception):
     """Raised if a file is missing or is not a record of a run."""
 
@@ -117,7 +114,7 @@ class Flow:
 
 def leak(runs, judge):
     flow = Flow(runs, "closed")
-    formula = numbers(lines_of(runs, "closed", "RIIS_LEAK"))[0]
+    formula = numbers(lines_of(runs, "closed", "RIIS_LEAK")[0])[0]
     ratio = flow.outflow[-1] / formula
     judge.row(f"closed valve, {flow.drive[-1]:.0f} dyn/cm^2: leak of {flow.outflow[-1]:.4f} ml/s over the formula's {formula:.4f}",
               f"{ratio:.4f}", "0.98 to 1.02", 0.98 <= ratio <= 1.02)
@@ -131,7 +128,7 @@ def share(runs, judge):
 
 def beat(runs, judge):
     flow = Flow(runs, "beat")
-    orifice = numbers(lines_of(runs, "beat", "RIIS_ORIFICE"))[0]
+    orifice = numbers(lines_of(runs, "beat", "RIIS_ORIFICE")[0])[0]
     courant = [float(words[words.index("C=") + 1]) for words in lines_of(runs, "beat", "Step") if "C=" in words]
     peak = max(flow.outflow)
     reference = peak / orifice

@@ -17,7 +17,7 @@ BLUE, ORANGE, GREEN = "#0072b2", "#e69f00", "#009e73"
 def draw(run, path):
     runs, name = os.path.split(os.path.abspath(run))
     flow = Flow(runs, name)
-    orifice = numbers(lines_of(runs, name, "RIIS_ORIFICE"))[0]
+    orifice = numbers(lines_of(runs, name, "RIIS_ORIFICE")[0])[0]
     figure, axes = plt.subplots(4, 1, figsize=(8, 9), sharex=True, constrained_layout=True)
     axes[0].plot(flow.time, flow.opening, color=BLUE)
     axes[0].set_ylabel("opening")

@@ -90,18 +90,18 @@ nek_tools() {
   (cd "$NEK_SOURCE_ROOT/tools" && ./maketools genbox genmap gmsh2nek)
 }
 
-# nek_meshes: the duct by genbox, and two pipes by gmsh: 8 layers of elements for the beat, and 12 for the held valve. The tools
-# of Nek5000 read their answers from the keyboard.
+# nek_meshes: the duct by genbox, and two pipes by gmsh: 8 layers of 20 elements for the beat, and 12 of 33 for the held valve.
+# The tools of Nek5000 read their answers from the keyboard.
 nek_meshes() {
-  local layers from to
+  local layers n from to
   mkdir -p "$nek_work/mesh" && cd "$nek_work/mesh" || return
   genbox <<<"$nek_here/plate.box" && mv box.re2 plate.re2 && printf 'plate\n0.2\n' | genmap || return
-  while read -r layers from to; do
-    gmsh -3 -nt 1 -setnumber nz "$layers" -setnumber z0 "$from" -setnumber z1 "$to" -o "pipe$layers.msh" \
+  while read -r layers n from to; do
+    gmsh -3 -nt 1 -setnumber n "$n" -setnumber nz "$layers" -setnumber z0 "$from" -setnumber z1 "$to" -o "pipe$layers.msh" \
       "$nek_here/pipe.geo" </dev/null &&
       printf '3\npipe%s\n0\n0\npipe%s\n' "$layers" "$layers" | gmsh2nek &&
       printf 'pipe%s\n0.01\n' "$layers" | genmap || return
-  done <<<$'8 -1.5 2.5\n12 -2 4'
+  done <<<$'8 2 -2 3\n12 3 -2 4'
 }
 
 # nek_compile LX1 LXD: compiles the plate and the valve with LX1 points along each element, into $nek_work/LX1.
@@ -148,18 +148,18 @@ nek_plates() {
 
 # nek_held: the closed valve holds 7.5 mmHg until its leak is steady; two openings are marked.
 nek_held() {
-  nek_run closed 6 valve pipe12 1 numSteps=40 userParam02=0.15 userParam03=0 userParam10=0 userParam11=6 || return
-  local opening
+  local opening pipe=(userParam01=1e4 userParam02=0.15 userParam12=-1.5 userParam13=3.5 userParam14=4 userParam10=0)
+  nek_run closed 6 valve pipe12 1 "${pipe[@]}" numSteps=40 userParam03=0 || return
   for opening in 0.02 0.5; do
-    nek_run "held_$opening" 6 valve pipe12 1 numSteps=1 userParam02=0.15 userParam03="$opening" userParam04=0 userParam10=0 \
-      userParam11=6 || return
+    nek_run "held_$opening" 6 valve pipe12 1 "${pipe[@]}" numSteps=1 userParam03="$opening" userParam04=0 || return
   done
 }
 
-# nek_beat: the beat saves its state at step 100, while the valve opens. Another run starts there.
+# nek_beat: a beat, and a restart at its step 60, while the valve opens. The projection of pressures remembers more steps than
+# the three saved ones, so the two runs that are compared go without it.
 nek_beat() {
-  nek_run beat 5 valve pipe8 1 userParam08=100 userParam10=80 &&
-    nek_run whole 5 valve pipe8 1 numSteps=202 userParam08=100 || return
+  nek_run beat 5 valve pipe8 1 userParam10=80 &&
+    nek_run whole 5 valve pipe8 1 numSteps=163 residualProj=no userParam08=60 || return
   mkdir -p "$nek_runs/restart" && cp "$nek_runs"/whole/rs_valve0.f0000[123] "$nek_runs/restart" &&
-    nek_run restart 5 valve pipe8 1 numSteps=102 userParam09=1
+    nek_run restart 5 valve pipe8 1 numSteps=103 residualProj=no userParam09=1
 }

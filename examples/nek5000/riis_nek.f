@@ -69,11 +69,11 @@ c     except at walls, where the masks are 0: there the fluid rests.
       if (ifield.ne.1 .or. istep.eq.0) return
       ut = ut + rk(ix,iy,iz,e)*dt/bd(1)
       b = bm1(ix,iy,iz,e)
-      bfx(ix,iy,iz,e) = bfx(ix,iy,iz,e) + rks(1,ix,iy,iz,e)*b
+      bfx(ix,iy,iz,e) = bfx(ix,iy,iz,e) + rkx(ix,iy,iz,e)*b
      $   *v1mask(ix,iy,iz,e)
-      bfy(ix,iy,iz,e) = bfy(ix,iy,iz,e) + rks(2,ix,iy,iz,e)*b
+      bfy(ix,iy,iz,e) = bfy(ix,iy,iz,e) + rky(ix,iy,iz,e)*b
      $   *v2mask(ix,iy,iz,e)
-      bfz(ix,iy,iz,e) = bfz(ix,iy,iz,e) + rks(3,ix,iy,iz,e)*b
+      bfz(ix,iy,iz,e) = bfz(ix,iy,iz,e) + rkz(ix,iy,iz,e)*b
      $   *v3mask(ix,iy,iz,e)
       end
 c-----------------------------------------------------------------------
@@ -99,9 +99,9 @@ c     bd(1) of the second and later steps
             vs(i,k) = 0.
          enddo
          if (rk(i,1,1,1).gt.0.) then
-            vs(i,1) = v1mask(i,1,1,1)*rks(1,i,1,1,1)/rk(i,1,1,1)
-            vs(i,2) = v2mask(i,1,1,1)*rks(2,i,1,1,1)/rk(i,1,1,1)
-            vs(i,3) = v3mask(i,1,1,1)*rks(3,i,1,1,1)/rk(i,1,1,1)
+            vs(i,1) = v1mask(i,1,1,1)*rkx(i,1,1,1)/rk(i,1,1,1)
+            vs(i,2) = v2mask(i,1,1,1)*rky(i,1,1,1)/rk(i,1,1,1)
+            vs(i,3) = v3mask(i,1,1,1)*rkz(i,1,1,1)/rk(i,1,1,1)
          endif
       enddo
       call rzero(usrdiv,n)
@@ -116,29 +116,28 @@ c     bd(1) of the second and later steps
          call gradm1(g(1,1),g(1,2),g(1,3),w)
          call add2(usrdiv,g(1,k),n)
       enddo
+      do i=1,n
+         if (rk(i,1,1,1).le.0.) usrdiv(i,1,1,1) = 0.
+      enddo
       net = glsc2(usrdiv,bm1,n)
       end
 c-----------------------------------------------------------------------
       subroutine riis_brute(r,eps)
 c     Compares K with that of every point against every triangle.
-      use riis_c, only: riis_triangles, riis_surface_get_triangles
-      use riis_support, only: c_handle_of
-      use iso_c_binding
       include 'SIZE'
       include 'TOTAL'
       include 'RIISV'
-      type(riis_triangles) tr
-      integer(c_int64_t), pointer :: it(:)
-      real(c_double), pointer :: vt(:)
-      integer*8 nt,nv
+      include 'riisf.h'
+      parameter (most=20000)
+      common /riist/ corner(3,most),ntri(3,most),nleaf(most)
+     $ ,npatch(most),idtri(most)
+      integer*8 idtri
       integer istat
-      istat = riis_surface_get_triangles(c_handle_of(jsurf),tr,
-     $     c_sizeof(tr))
+      call riisf_surface_vertices(jsurf,most,nv,corner,istat)
+      call riis_check(istat,'vertices')
+      call riisf_surface_triangles(jsurf,most,nt,ntri,idtri,nleaf
+     $   ,npatch,istat)
       call riis_check(istat,'triangles')
-      nt = tr%n_triangles
-      nv = tr%n_vertices
-      call c_f_pointer(tr%xyz,vt,[3*nv])
-      call c_f_pointer(tr%vertex_id,it,[3*nt])
       nb = 0
       nd = 0
       dk = 0.
@@ -146,7 +145,8 @@ c     Compares K with that of every point against every triangle.
          dsq = 1e30
          do j=1,nt
             dsq = min(dsq,ptri2(xm1(i,1,1,1),ym1(i,1,1,1),zm1(i,1,1,1)
-     $         ,vt(3*it(3*j-2)+1),vt(3*it(3*j-1)+1),vt(3*it(3*j)+1)))
+     $         ,corner(1,ntri(1,j)),corner(1,ntri(2,j))
+     $         ,corner(1,ntri(3,j))))
          enddo
          dis = sqrt(dsq)
          rkb = 0.

@@ -62,9 +62,9 @@ c     of the velocity, after step 0. userchk leaves vtrans = rho.
             call ensure(udiff.eq.cpfld(ifield,1),'udiff')
             call close(utrans-rho,factor*rk(ix,iy,iz,e)*dt/1.5,'utrans')
             f = factor*bm1(ix,iy,iz,e)
-            call close(bfx(ix,iy,iz,e),f*rks(1,ix,iy,iz,e),'bfx')
-            call close(bfy(ix,iy,iz,e),f*rks(2,ix,iy,iz,e),'bfy')
-            call close(bfz(ix,iy,iz,e),f*rks(3,ix,iy,iz,e),'bfz')
+            call close(bfx(ix,iy,iz,e),f*rkx(ix,iy,iz,e),'bfx')
+            call close(bfy(ix,iy,iz,e),f*rky(ix,iy,iz,e),'bfy')
+            call close(bfz(ix,iy,iz,e),f*rkz(ix,iy,iz,e),'bfz')
          enddo
          enddo
          enddo

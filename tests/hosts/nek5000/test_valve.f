@@ -20,7 +20,7 @@ c     in the band where its value is known.
          uparam(3) = held(i)
          call userchk
          call ensure_marks(500)
-         call ensure(maxval(abs(rks)).eq.0.,'a held valve moves')
+         call ensure(maxval(abs(rkz)).eq.0.,'a held valve moves')
          call ensure(maxval(abs(usrdiv)).eq.0.,'source of a held valve')
       enddo
       istep = 0
@@ -31,24 +31,24 @@ c     in the band where its value is known.
          istep = i
          call userchk
          call ensure_marks(500)
-         call ensure(maxval(abs(rks)).gt.0.,'the valve rests')
+         call ensure(maxval(abs(rkz)).gt.0.,'the valve rests')
          call ensure(maxval(abs(usrdiv)).gt.0.,'no source')
       enddo
       call ensure_implicit
 c     A surface that moves as a whole has no source, for any K.
       do i=1,lx1*ly1*lz1*nelv
-         rks(1,i,1,1,1) = 3.*rk(i,1,1,1)
-         rks(2,i,1,1,1) = -2.*rk(i,1,1,1)
-         rks(3,i,1,1,1) = rk(i,1,1,1)
+         rkx(i,1,1,1) = 3.*rk(i,1,1,1)
+         rky(i,1,1,1) = -2.*rk(i,1,1,1)
+         rkz(i,1,1,1) = rk(i,1,1,1)
       enddo
       call riis_source(net)
       call ensure(maxval(abs(usrdiv)).lt.1e-9,'a source of a shift')
 c     A surface that stretches: th = K dt/1.5 / (rho + K dt/1.5)
       rk = 3180.
       do i=1,lx1*ly1*lz1*nelv
-         rks(1,i,1,1,1) = 2.*xm1(i,1,1,1)*rk(i,1,1,1)
-         rks(2,i,1,1,1) = 5.*ym1(i,1,1,1)*rk(i,1,1,1)
-         rks(3,i,1,1,1) = 0.
+         rkx(i,1,1,1) = 2.*xm1(i,1,1,1)*rk(i,1,1,1)
+         rky(i,1,1,1) = 5.*ym1(i,1,1,1)*rk(i,1,1,1)
+         rkz(i,1,1,1) = 0.
       enddo
       call riis_source(net)
       do i=1,lx1*ly1*lz1*nelv
