@@ -14,7 +14,10 @@ c     in the band where its value is known.
       uparam(4) = 1e4
       uparam(6) = 1.
       uparam(10) = -1.
-      uparam(11) = 4.
+      uparam(11) = .3
+      uparam(12) = .8
+      uparam(13) = 1.8
+      uparam(14) = 2.3
       do i=1,3
          istep = 0
          uparam(3) = held(i)
