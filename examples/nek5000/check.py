@@ -88,8 +88,8 @@ def ranks(runs, judge):
         marks = sum((points[i][3] > 0) != (one[i][3] > 0) for i in one)
         difference = max(abs(points[i][3] - one[i][3]) for i in one) / largest
         of_drops = max(abs(a - b) for a, b in zip(drops_of(runs, name), drops))
-        judge.row(f"{name[-1]} ranks and 1 rank: other marks, K over its largest, drop", f"{marks}, {difference:.1e}, {of_drops:.1e}",
-                  "0, 1e-12, 1e-5", marks == 0 and difference <= 1e-12 and of_drops <= 1e-5)
+        judge.row(f"{name[-1]} ranks and 1 rank: other marks, K over its largest, drop",
+                  f"{marks}, {difference:.1e}, {of_drops:.1e}", "0, 1e-12, 1e-5", marks == 0 and difference <= 1e-12 and of_drops <= 1e-5)
 
 
 def brute(runs, judge):
@@ -116,8 +116,8 @@ def leak(runs, judge):
     flow = Flow(runs, "closed")
     formula = numbers(lines_of(runs, "closed", "RIIS_LEAK")[0])[0]
     ratio = flow.outflow[-1] / formula
-    judge.row(f"closed valve, {flow.drive[-1]:.0f} dyn/cm^2: leak of {flow.outflow[-1]:.4f} ml/s over the formula's {formula:.4f}",
-              f"{ratio:.4f}", "0.98 to 1.02", 0.98 <= ratio <= 1.02)
+    judge.row(f"closed valve, {flow.drive[-1]:.0f} dyn/cm^2: leak of {flow.outflow[-1]:.4f} ml/s over the formula's "
+              f"{formula:.4f}", f"{ratio:.4f}", "0.98 to 1.02", 0.98 <= ratio <= 1.02)
 
 
 def share(runs, judge):
@@ -138,7 +138,8 @@ def beat(runs, judge):
     judge.row(f"largest speed of the beat, {flow.speed[fastest]:.1f} cm/s at {flow.time[fastest]:.3f} s, opening "
               f"{flow.opening[fastest]:.3f}, over peak flow {peak:.1f} ml/s / open orifice {orifice:.2f} cm^2",
               f"{flow.speed[fastest] / reference:.2f}", "2", flow.speed[fastest] <= 2 * reference)
-    judge.row("inflow - outflow + source of the band, over the peak flow", f"{balance / peak:.1e}", "1e-3", balance <= 1e-3 * peak)
+    judge.row("inflow - outflow + source of the band, over the peak flow", f"{balance / peak:.1e}", "1e-3",
+              balance <= 1e-3 * peak)
     judge.row("largest Courant number", f"{max(courant):.2f}", "", True)
 
 

@@ -22,7 +22,8 @@ FLOW = "RIIS_FLOW {:5d} {:9.6f} {:7.5f} {:8.1f} {:.9E} {:.9E} {:.9E} {:.9E} {:.1
 
 def closed(leak):
     lines = [FLOW.format(step, 1e-3 * step, 0., 1e4, leak, leak, 0., 3., 7., 2e-3, 1.5) for step in range(1, 9)]
-    return "RIIS_LEAK    1.235000\n RIIS_BRUTE step     0 triangles    988 marked    7088 differ   0 max dK/Kmax 6.98E-16\n" + "".join(lines)
+    brute = " RIIS_BRUTE step     0 triangles    988 marked    7088 differ   0 max dK/Kmax 6.98E-16\n"
+    return "RIIS_LEAK    1.235000\n" + brute + "".join(lines)
 
 
 BEAT = """RIIS_ORIFICE    3.921130    5.447010    2.506046
@@ -44,7 +45,8 @@ for ranks in (1, 2, 4):
 FAULTS = (("plate_0/log", "1.000127100", "1.021"), ("plate_20_1/log", "1.000127100", "0.979"),
           ("plate_20_2/log", "1.000127100", "1.000147100"), ("plate_20_4/points.001", "0.0000000000000000E+00", "1E-3"),
           ("plate_20_2/points.000", "4.0000000000000000E+05", "4.0000000000100000E+05"),
-          ("plate_0/log", "differ   0", "differ   1"), ("closed/log", "6.98E-16", "6.98E-12"), ("beat/log", "marked    4511", "marked 0"),
+          ("plate_0/log", "differ   0", "differ   1"), ("closed/log", "6.98E-16", "6.98E-12"),
+          ("beat/log", "marked    4511", "marked 0"),
           ("closed/log", "RIIS_LEAK    1.235000", "RIIS_LEAK    1.270000"), ("beat/log", "3.90000", "4.10000"),
           ("beat/log", "-1.05", "-1.25"), ("beat/log", "0.800000", "0.700000"),
           ("restart/points.000", "2.0E+00   2.0E+00", "2.0E+00   2.00001E+00"),
