@@ -33,7 +33,7 @@ Step      2, t= 2.0000000E-03, DT= 1.0000000E-03, C=  0.603 5.0000000E-01 5.0000
     800, .8, 0., 0., -.1, -.1, 0., 1., 2., 2e-3, .5)
 RUNS = {"plate_0/log": PLATE, "plate_0_stiff/log": PLATE, "held_0.02/log": closed(0.), "held_0.5/log": closed(0.),
         "closed/log": closed(1.2311), "beat/log": BEAT,
-        "whole/log": FLOW.format(203, .203, 1., 900., 80., 79., -1.05, 39., 9e3, 2e-3, .5), "whole/points.000": POINTS,
+        "whole/log": BEAT + FLOW.format(203, .203, 1., 900., 80., 79., -1.05, 39., 9e3, 2e-3, .5), "whole/points.000": POINTS,
         "restart/log": FLOW.format(103, .203, 1., 900., 80., 79., -1.05, 39., 9e3, 2e-3, .5), "restart/points.000": POINTS}
 for ranks in (1, 2, 4):
     RUNS[f"plate_20_{ranks}/log"] = PLATE
