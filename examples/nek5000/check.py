@@ -117,7 +117,7 @@ def leak(runs, judge):
     formula = numbers(lines_of(runs, "closed", "RIIS_LEAK")[0])[0]
     ratio = flow.outflow[-1] / formula
     judge.row(f"closed valve, {flow.drive[-1]:.0f} dyn/cm^2: leak of {flow.outflow[-1]:.4f} ml/s over the formula's "
-              f"{formula:.4f}", f"{ratio:.4f}", "0.98 to 1.02", 0.98 <= ratio <= 1.02)
+              f"{formula:.4f}", f"{ratio:.4f}", "0.95 to 1.05", 0.95 <= ratio <= 1.05)
 
 
 def share(runs, judge):

@@ -151,7 +151,7 @@ nek_plates() {
 
 # nek_held: the closed valve holds 7.5 mmHg until its leak is steady; two openings are marked.
 nek_held() {
-  local opening pipe=(userParam01=1e4 userParam02=0.25 userParam12=-1.5 userParam13=3.5 userParam14=4 userParam15=0 userParam10=0)
+  local opening pipe=(userParam01=1e4 userParam02=0.15 userParam12=-1.5 userParam13=3.5 userParam14=4 userParam15=0 userParam10=0)
   nek_run closed 6 valve pipe12 1 "${pipe[@]}" numSteps=15 userParam03=0 || return
   for opening in 0.02 0.5; do
     nek_run "held_$opening" 6 valve pipe12 1 "${pipe[@]}" numSteps=1 userParam03="$opening" userParam04=0 || return
