@@ -89,7 +89,8 @@ def ranks(runs, judge):
         difference = max(abs(points[i][3] - one[i][3]) for i in one) / largest
         of_drops = max(abs(a - b) for a, b in zip(drops_of(runs, name), drops))
         judge.row(f"{name[-1]} ranks and 1 rank: other marks, K over its largest, drop",
-                  f"{marks}, {difference:.1e}, {of_drops:.1e}", "0, 1e-12, 1e-5", marks == 0 and difference <= 1e-12 and of_drops <= 1e-5)
+                  f"{marks}, {difference:.1e}, {of_drops:.1e}", "0, 1e-12, 1e-5",
+                  marks == 0 and difference <= 1e-12 and of_drops <= 1e-5)
 
 
 def brute(runs, judge):
