@@ -7,7 +7,7 @@ c     in the band where its value is known.
       include 'RIISV'
       real held(3),net
       data held /0.,.02,.6/
-      call boxes(5,5,4,-1.25,1.25,-1.25,1.25,.3,2.3)
+      call boxes(4,4,3,-1.25,1.25,-1.25,1.25,.3,2.3)
       call usrdat2
       uparam(1) = 1e4
       uparam(2) = .2
@@ -15,14 +15,14 @@ c     in the band where its value is known.
       uparam(6) = 1.
       uparam(10) = -1.
       uparam(11) = .3
-      uparam(12) = .8
-      uparam(13) = 1.8
+      uparam(12) = .9
+      uparam(13) = 1.7
       uparam(14) = 2.3
       do i=1,3
          istep = 0
          uparam(3) = held(i)
          call userchk
-         call ensure_marks(500)
+         call ensure_marks(300)
          call ensure(maxval(abs(rkz)).eq.0.,'a held valve moves')
          call ensure(maxval(abs(usrdiv)).eq.0.,'source of a held valve')
       enddo
@@ -33,7 +33,7 @@ c     in the band where its value is known.
          time = .04+.02*i
          istep = i
          call userchk
-         call ensure_marks(500)
+         call ensure_marks(300)
          call ensure(maxval(abs(rkz)).gt.0.,'the valve rests')
          call ensure(maxval(abs(usrdiv)).gt.0.,'no source')
       enddo
