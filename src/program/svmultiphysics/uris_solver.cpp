@@ -227,7 +227,8 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
 
 double delta_of(double distance, double half_thickness) {
   if (!(distance < half_thickness)) return 0;
-  return (1 + cosine_of_pi(distance / half_thickness)) / (2 * half_thickness * half_thickness);
+  // As in the solver, a distance that was interpolated to a value below -eps is any number of periods away.
+  return (1 + sine_cosine(pi * distance / half_thickness).cosine) / (2 * half_thickness * half_thickness);
 }
 
 double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
