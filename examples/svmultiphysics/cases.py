@@ -11,7 +11,6 @@ The last form makes FOLDER with the meshes and solver.xml. The pressure at the l
 """
 import math
 import pathlib
-import re
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench/peers"))

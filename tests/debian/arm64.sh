@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # arm64.sh SOURCE FOLDER
 # Compiles the core for 64-bit ARM, and compares the bits of 60 states with those of this machine. An emulator runs the program,
-# 20 times as long as a processor. FOLDER keeps the compiled files, and Debian's libraries for ARM, which apt fetches there without
-# a change of this system's own packages.
+# 20 times as long as a processor. FOLDER keeps the compiled files, and Debian's libraries for ARM. apt fetches them there, and
+# this system's own packages stay as they are.
 set -euo pipefail
 source=$1 folder=$2
 root=$folder/root libraries=usr/lib/aarch64-linux-gnu

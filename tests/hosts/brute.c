@@ -32,7 +32,7 @@ void brute_distances(const riis_surface *surface, int64_t n_points, const double
   }
 }
 
-void brute_distances_(const int64_t *surface, const int32_t *n_points, const double *x, const double *y, const double *z,
-                      const int32_t *stride, const double *limit, double *distance) {
+void brute_distances_(const int64_t *surface, const int32_t *n_points, const double *x, const double *y,
+                      const double *z, const int32_t *stride, const double *limit, double *distance) {
   brute_distances((const riis_surface *)(intptr_t)*surface, *n_points, x, y, z, *stride, *limit, distance);
 }

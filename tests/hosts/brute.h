@@ -16,8 +16,8 @@ void brute_distances(const riis_surface *surface, int64_t n_points, const double
                      int64_t stride, double limit, double *distance);
 
 /* The same for Fortran 77: CALL BRUTE_DISTANCES(SURFACE, N, X, Y, Z, STRIDE, LIMIT, DISTANCE) with the handle of riisf_*. */
-void brute_distances_(const int64_t *surface, const int32_t *n_points, const double *x, const double *y, const double *z,
-                      const int32_t *stride, const double *limit, double *distance);
+void brute_distances_(const int64_t *surface, const int32_t *n_points, const double *x, const double *y,
+                      const double *z, const int32_t *stride, const double *limit, double *distance);
 
 #ifdef __cplusplus
 }
