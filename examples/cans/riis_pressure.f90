@@ -2,7 +2,7 @@
 ! The pressure of CaNS with a valve. CaNS solves a Poisson equation with constant coefficients, which does not know K. The
 ! pressure therefore reaches the valve's drop only after many steps. This module improves the pressure before CaNS projects:
 !
-!   jump           one number a call: the drop across the valve, by a Galerkin condition
+!   jump           the drop across the valve, one number a call, is computed by a Galerkin condition
 !   sweeps         predictor and projection are repeated
 !   cg             conjugate gradients on the equation with K, preconditioned by CaNS's own solver
 !   extrapolation  the last change of the pressure is repeated
@@ -28,7 +28,7 @@ module mod_riis_pressure
   integer, public :: sweeps = 1, cg = 0
   real(rp), public :: extrapolation = 0
 
-  ! Faces of a velocity component near the valve: 1 / (1 + a K), the velocity before a correction, and fluxes.
+  ! The faces of a velocity component near the valve have 1 / (1 + a K), the velocity before a correction, and fluxes.
   type :: faces
     real(rp), allocatable :: softened(:), before(:), flux(:)
   end type faces
@@ -133,7 +133,7 @@ contains
     call boundp(cbcpre, n, bcpre, nb, is_bound, dl, dzc, q)
   end subroutine solve
 
-  ! Divides the velocity by 1 + a K, and adds the valve's own velocity: u = (u + a K u_valve) / (1 + a K).
+  ! Lets the valve act on the velocity: u = (u + a K u_surface) / (1 + a K).
   subroutine riis_pressure_damp(a, u, v, w)
     real(rp), intent(in) :: a
     real(rp), intent(inout), contiguous :: u(0:, 0:, 0:), v(0:, 0:, 0:), w(0:, 0:, 0:)
@@ -230,7 +230,8 @@ contains
 
   ! Changes p by a multiple of the jump's shape s, such that s is orthogonal to the divergence of the predicted velocity. With the
   ! equation A p = b of the pressure with K, this is the best multiple in A's norm. The slow part of the error is a jump across
-  ! the valve: its gradient is in the band, where a solver with constant coefficients sees it 1 + a K times too large.
+  ! the valve. The gradient of the jump is in the band, where a solver with constant coefficients takes it for 1 + a K times too
+  ! large.
   subroutine correct_jump(a, u, v, w, p, pp)
     real(rp), intent(in) :: a
     real(rp), intent(inout), contiguous, dimension(0:, 0:, 0:) :: u, v, w, p
@@ -332,7 +333,7 @@ contains
       direction = pp + r_z / r_z_before * direction
       laplacian = -residual + r_z / r_z_before * laplacian
       if (jump) then
-        ! The direction stays orthogonal to the jump, which the residual has no more.
+        ! The residual contains no jump, so the direction must stay orthogonal to it.
         direction = direction - sums(2) / sums(3) * shape_of_jump
         do c = 1, 3
           band(c)%flux = -sums(2) / sums(3) * real(near(c)%K * near(c)%normal(c, :), rp)

@@ -101,7 +101,7 @@ contains
     end function axis_of
   end subroutine riis_valve_start
 
-  ! Makes the surface, at the beginning closed. A plate reaches beyond the walls.
+  ! Makes the surface, which is closed at the beginning. A plate reaches beyond the walls.
   subroutine make_valve
     real(real64) :: corners(3, 4), size_of
     if (kind == 'plate') then
@@ -147,7 +147,7 @@ contains
     is_marked = .true.
   end subroutine riis_valve_mark
 
-  ! Points to the lists of marked faces: numbers from 0, distances, K, normals, and K u_surface if the valve moves.
+  ! Lets `lists` point to the lists of marked faces: numbers from 0, distances, K, normals, and K u_surface if the valve moves.
   subroutine riis_valve_lists(lists)
     type(riis_mark_list), intent(inout) :: lists(3)
     integer :: c
@@ -179,8 +179,8 @@ contains
     seconds(2) = seconds(2) + real(improved - start, rp)
   end subroutine riis_valve_apply
 
-  ! Writes a line of valve.csv: the drop of the mean pressure between the two planes, with that of the body force, the mean
-  ! velocity of the flow, the marked faces, and this rank's processor time in riis, in the pressure and in all.
+  ! Writes a line of valve.csv: the drop of the mean pressure between the two planes, which contains the pressure of the body
+  ! force, the mean velocity, the number of marked faces, and this rank's processor time in riis, in the pressure and in all.
   subroutine riis_valve_report(step, time, u, p)
     integer, intent(in) :: step
     real(rp), intent(in) :: time

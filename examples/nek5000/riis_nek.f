@@ -1,9 +1,10 @@
 c     SPDX-License-Identifier: Apache-2.0
-c     riis in Nek5000: what every case needs. A .usr file includes this
-c     file, and calls
-c        riis_served  in usrdat2
-c        riis_reset   in userchk, before its marks for the next step
-c        riis_implicit in uservp
+c     riis in Nek5000: the part that all cases share. A .usr file
+c     includes this file, and calls
+c        riis_served    in usrdat2
+c        riis_reset     in userchk, before its marks for the next step
+c        riis_source    in userchk, after the marks, if the valve moves
+c        riis_implicit  in uservp
 c-----------------------------------------------------------------------
       subroutine riis_check(istat,where)
 c     Stops all ranks with the message of riis if a call failed.
@@ -49,8 +50,8 @@ c     Switches uservp on, and stops if this scheme would falsify K.
       end
 c-----------------------------------------------------------------------
       subroutine riis_reset
-c     Nek makes the right side with the vtrans of this time, which has
-c     to be rho, and calls uservp afterwards.
+c     Sets vtrans to rho. Nek makes the right-hand side of the next step
+c     with this vtrans, and calls uservp afterwards.
       include 'SIZE'
       include 'TOTAL'
       call cfill(vtrans,cpfld(1,2),lx1*ly1*lz1*nelv)
@@ -59,8 +60,9 @@ c-----------------------------------------------------------------------
       subroutine riis_implicit(ix,iy,iz,e,ut)
 c     Makes K implicit at one point. ut = rho + K dt/bd(1) divides in
 c     the pressure equation, and stands in the velocity equation beside
-c     bd(1)/dt. K u_surface joins the right side, which Nek has made,
-c     except at walls, where the masks are 0: there the fluid rests.
+c     bd(1)/dt. K u_surface joins the right-hand side, which Nek has
+c     made. At walls the masks are 0, so nothing joins: there the fluid
+c     rests.
       include 'SIZE'
       include 'TOTAL'
       include 'RIISV'
@@ -81,8 +83,8 @@ c-----------------------------------------------------------------------
 c     The source in the band, usrdiv, for the step that comes next, and
 c     its integral. In the band the fluid has the share th of the
 c     surface's velocity v. The source is th times the divergence of v,
-c     as div(th v) - v.grad(th): so no derivative crosses the edge of
-c     the band, where v ends. At walls v is 0.
+c     computed as div(th v) - v.grad(th). So no derivative of v crosses
+c     the edge of the band, where v ends. At walls v is 0.
       include 'SIZE'
       include 'TOTAL'
       include 'RIISV'
@@ -123,7 +125,7 @@ c     bd(1) of the second and later steps
       end
 c-----------------------------------------------------------------------
       subroutine riis_brute(r,eps)
-c     Compares K with that of every point against every triangle.
+c     Compares K with K from a loop over all points and triangles.
       include 'SIZE'
       include 'TOTAL'
       include 'RIISV'

@@ -5,7 +5,7 @@ module mpi
   implicit none
   integer, parameter :: MPI_COMM_WORLD = 0, MPI_IN_PLACE = 0, MPI_SUM = 0, MPI_INTEGER8 = 8, MPI_DOUBLE_PRECISION = 8
 contains
-  ! With one rank a sum in place stays as it is.
+  ! Adds up over the ranks. With one rank a sum in place stays as it is.
   subroutine MPI_ALLREDUCE(send, receive, n, kind_of, operation, communicator, error)
     type(*), dimension(..), intent(in) :: send
     type(*), dimension(..), intent(inout) :: receive
@@ -51,7 +51,7 @@ module mod_bound
   use mod_types
   implicit none
 contains
-  ! The walls and the inflow.
+  ! Sets the velocity at the walls and at the inflow.
   subroutine bounduvw(cbc, n, bc, nb, is_bound, dl, dzc, dzf, u, v, w, keep, halos_norm, halos_tang)
     character(len=1), intent(in) :: cbc(0:1, 3, 3)
     integer, intent(in) :: n(3), nb(0:1, 3)
@@ -70,7 +70,7 @@ contains
     w(:, :, n(3)) = 0
   end subroutine bounduvw
 
-  ! No gradient, but p = 0 at the outflow.
+  ! Sets p in the halo: p is 0 at the outflow, and has no gradient at the other boundaries.
   subroutine boundp(cbc, n, bc, nb, is_bound, dl, dzc, p, halo_side)
     character(len=1), intent(in) :: cbc(0:1, 3)
     integer, intent(in) :: n(3), nb(0:1, 3)

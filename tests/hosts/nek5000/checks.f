@@ -34,8 +34,8 @@ c     least so many points are marked.
       end
 c-----------------------------------------------------------------------
       subroutine ensure_implicit
-c     uservp adds K dt/bd(1) to rho and K u_surface to the right side:
-c     of the velocity, after step 0. userchk leaves vtrans = rho.
+c     uservp adds K dt/bd(1) to rho, and K u_surface to the right-hand
+c     side of the velocity, after step 0. userchk leaves vtrans = rho.
       include 'SIZE'
       include 'TOTAL'
       include 'NEKUSE'

@@ -61,7 +61,7 @@ c     The faces 5 and 6 are the ends of an element along z.
       end
 c-----------------------------------------------------------------------
       subroutine gradm1(gx,gy,gz,u)
-c     The gradient of the polynomials of the elements
+c     Gives the gradient of the polynomials of the elements.
       include 'SIZE'
       include 'TOTAL'
       real gx(lx1,lx1,lx1,lelt),gy(lx1,lx1,lx1,lelt)
@@ -84,8 +84,8 @@ c     The gradient of the polynomials of the elements
       enddo
       end
       subroutine slopes(x,d)
-c     d(i,j): the slope at x(i) of the polynomial that is 1 at x(j) and
-c     0 at the other points
+c     d(i,j) is the slope at x(i) of the polynomial that is 1 at x(j)
+c     and 0 at the other points.
       include 'SIZE'
       real x(lx1),d(lx1,lx1)
       do j=1,lx1
@@ -104,7 +104,8 @@ c     0 at the other points
       end
 c-----------------------------------------------------------------------
       subroutine boxes(nx,ny,nz,x0,x1,y0,y1,z0,z1)
-c     Makes nx x ny x nz elements, and what Nek sets before userchk.
+c     Makes nx x ny x nz elements, and sets the variables that Nek sets
+c     before userchk.
       include 'SIZE'
       include 'TOTAL'
       real g(5)

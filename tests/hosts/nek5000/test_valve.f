@@ -46,7 +46,8 @@ c     A surface that moves as a whole has no source, for any K.
       enddo
       call riis_source(net)
       call ensure(maxval(abs(usrdiv)).lt.1e-9,'a source of a shift')
-c     A surface that stretches: th = K dt/1.5 / (rho + K dt/1.5)
+c     The source of a surface that stretches is th div v. Here v is
+c     (2x, 5y, 0), and th = K dt/1.5 / (rho + K dt/1.5) is 2/3.
       rk = 3180.
       do i=1,lx1*ly1*lz1*nelv
          rkx(i,1,1,1) = 2.*xm1(i,1,1,1)*rk(i,1,1,1)
