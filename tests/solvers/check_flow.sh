@@ -56,16 +56,17 @@ awk 'NR > 2 { last = $2; if ($1 < 30) opened = $NF } END { exit !(opened > 1 && 
   problem "the cusp of springs does not follow the flow: $(<membrane.log)"
 
 # The drop of a half-open valve is that of a narrow one without an offset. With the offset 0.75 it is near Bernoulli's.
-# drop_of OFFSET: prints the drop over rho Q^2/(2 A^2), in mmHg and cm2.
+# drop_of OFFSET: prints the drop over rho Q^2/(2 A^2), in mmHg and cm2. Leaves what the program printed in drop_OFFSET.log.
 drop_of() {
-  "$drop" cells=12 eps=3e-3 opening=0.5 settled=0.1 offset="$1" | tail -n 1 |
-    LC_ALL=C awk -F , '{ print $12 / (530 * ($3 / $8 / 100) ^ 2 / 133.322) }'
+  "$drop" cells=12 eps=3e-3 opening=0.5 settled=0.1 offset="$1" >"drop_$1.log"
+  tail -n 1 "drop_$1.log" | LC_ALL=C awk -F , '{ print $12 / (530 * ($3 / $8 / 100) ^ 2 / 133.322) }'
 }
-LC_ALL=C awk -v without="$(drop_of 0)" -v with="$(drop_of 0.75)" 'BEGIN { exit !(without > 3 && with > 1 && with < 2) }' ||
-  problem "the drop of a half-open valve does not follow the offset: $(drop_of 0), $(drop_of 0.75)"
+without=$(drop_of 0) with=$(drop_of 0.75)
+LC_ALL=C awk -v without="$without" -v with="$with" 'BEGIN { exit !(without > 3 && with > 1 && with < 2) }' ||
+  problem "the drop of a half-open valve does not follow the offset: $without, $with"
 
 # The script of the drops computes only what is missing in its table.
-names=$("$drop" cells=12 eps=3e-3 settled=0.1 | tail -n 2)
+names=$(tail -n 2 drop_0.75.log)
 mkdir -p drops
 {
   head -n 1 <<<"$names"

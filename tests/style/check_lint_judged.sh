@@ -87,4 +87,7 @@ echo 'std::vector<int> numbers;' >>src/twice.cpp
 refuses includes "'vector' in namespace 'std' does not name a template type"
 printf '\nstd::string lost(std::string text) {\n  std::string kept = std::move(text);\n  return kept + text;\n}\n' >>src/twice.cpp
 refuses tidy bugprone-use-after-move
+mkdir -p src/riis/api
+printf 'using std::string;\nusing std::move;\nvoid keep(string);\n' >src/riis/api/moved.cpp
+refuses tidy 'src/riis/api/moved.cpp: the name move of a using-declaration is not used'
 rm -rf "$scratch"

@@ -8,7 +8,8 @@
 #   columns  no line is too long (check_columns.py)
 #   python   pyflakes reports nothing
 #   includes each file of the core compiles alone, though other builds read the core in batches or with a precompiled header
-#   tidy     clang-tidy 14 (.clang-tidy) reports nothing in the files of build-lint/compile_commands.json
+#   tidy     clang-tidy 14 (.clang-tidy) reports nothing in the files of build-lint/compile_commands.json; each name of a
+#            using-declaration is used
 #   tools    the programs for the other parts are installed; status 77 if one is missing or of another version
 # shellcheck disable=SC2317 # the parts are called by their names
 set -euo pipefail
@@ -99,8 +100,21 @@ includes() {
     g++ -std=c++17 -fopenmp -DRIIS_X86_KERNELS -Iinclude -Isrc/riis -Isrc -w -fsyntax-only
 }
 
+# clang-tidy finds no unused using-declarations in batches of files.
+usings() {
+  local file name status=0
+  ending '^(src|bench)/.*\.cpp$'
+  for file in "${found[@]}"; do
+    while read -r name; do
+      (($(grep -cw "$name" "$file") > 1)) || { echo "$file: the name $name of a using-declaration is not used" >&2; status=1; }
+    done < <(sed -nE 's/^ *using [A-Za-z_:]*::([A-Za-z_]+);$/\1/p' "$file")
+  done
+  return "$status"
+}
+
 tidy() {
   local status=0 faults
+  usings || status=1
   mapfile -t found < <(sed -nE 's/^ *"file": "(.*)",?$/\1/p' build-lint/compile_commands.json | sort -u)
   # In a unity build a batch file includes the sources, so clang-tidy treats them as headers.
   faults=$(printf '%s\0' "${found[@]}" |

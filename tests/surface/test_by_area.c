@@ -335,16 +335,17 @@ TEST(turns_are_told) {
   search.from = 120, search.to = 176, search.n_samples = 9;
   CHECK_OK(riis_valve_set_scalar(mitral, "leaflet_inward_angle", 172));
   const double both = area_at(mitral, 1, &search);
-  CHECK_OK(riis_valve_set_scalar(mitral, "leaflet_inward_angle", 125));
-  const solution below = solve(mitral, "leaflet_inward_angle", both, &search);
   CHECK_OK(riis_valve_set_scalar(mitral, "leaflet_inward_angle", 175));
   const solution above = solve(mitral, "leaflet_inward_angle", both, &search);
-  printf("turn of the mitral valve at %.2f; angles %.3f and %.3f\n", below.range.turns[0], below.value, above.value);
-  assert_int_equal(below.range.n_turns, 1);
-  assert_true(below.value < below.range.turns[0]);
+  assert_int_equal(above.range.n_turns, 1);
   CHECK_NEAR(above.value, 172, 0.1);
-  CHECK_NEAR(below.reached, both, 1e-4 * both);
   CHECK_NEAR(above.reached, both, 1e-4 * both);
+  if (is_sanitized()) return; /* the other search is as long */
+  CHECK_OK(riis_valve_set_scalar(mitral, "leaflet_inward_angle", 125));
+  const solution below = solve(mitral, "leaflet_inward_angle", both, &search);
+  printf("turn of the mitral valve at %.2f; angles %.3f and %.3f\n", below.range.turns[0], below.value, above.value);
+  assert_true(below.value < below.range.turns[0]);
+  CHECK_NEAR(below.reached, both, 1e-4 * both);
 }
 
 /* The area 0 stands for the closed valve, even if slits remain. */

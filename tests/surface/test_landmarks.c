@@ -308,7 +308,7 @@ TEST(test_noisy_trileaflet) {
   } rows[] = {{0.3, false, {0.17, 0.17, 0.25}, 0.37, 0.8},
               {1.0, false, {0.58, 0.57, 0.82}, 1.2, 2.6},
               {0.5, true, {0.28, 0.27, 0.40}, 1.4, 2.5}};
-  const int n = is_long_test() ? 4000 : 400;
+  const int n = trials(400, 4000);
   print_message("%d patients a row, errors in mm: R, Rc, h; residual rms, worst; axis in degrees; within 3 errors\n",
                 n);
   for (int row = 0; row < 3; ++row) {
@@ -321,7 +321,7 @@ TEST(test_noisy_trileaflet) {
     for (int k = 0; k < 3; ++k) CHECK_NEAR(found.size[k], rows[row].size[k], share * rows[row].size[k]);
     CHECK_NEAR(found.rms, rows[row].rms, share * rows[row].rms);
     CHECK_NEAR(found.axis, rows[row].axis, share * rows[row].axis);
-    CHECK_AT_MOST(0.95, found.covered);
+    CHECK_MET(found.covered >= 0.95);
   }
 }
 
@@ -462,7 +462,7 @@ TEST(test_noisy_sectors) {
   static const cusp_sizes truth[3] = {{2, 1.35, 1.35, {150, 210}, {1.9, 1.9}},
                                       {3, 1.25, 1.3, {130, 100, 130}, {1.9, 1.6, 1.75}},
                                       {4, 1.3, 1.3, {100, 100, 100, 60}, {1.9, 1.7, 1.9, 1.7}}};
-  const int n = is_long_test() ? 2000 : 100;
+  const int n = trials(100, 2000);
   for (int row = 0; row < 3; ++row) {
     const cusp_sizes *c = &truth[row];
     double squares = 0, expected = 0, sectors = 0;
@@ -493,6 +493,7 @@ TEST(test_noisy_sectors) {
         "standard errors; within 3 errors %.3f\n",
         kinds_of[c->n], n, sqrt(sectors / (n * c->n)), sqrt(expected / (n * c->n)), sqrt(squares / n_values),
         (double)n_covered / n_values);
+    if (is_sanitized()) continue; /* these are too few patients for statistics */
     CHECK_AT_MOST(0.97 * n_values, n_covered);
     /* The standard errors come from the stated noise or from larger residuals, so they are rather too large. */
     CHECK_NEAR(sqrt(sectors / expected), 0.9, 0.25);
@@ -685,7 +686,7 @@ TEST(test_saddle) {
 }
 
 TEST(test_noisy_mitral) {
-  const int n = is_long_test() ? 400 : 24;
+  const int n = trials(24, 400);
   for (int points = 8; points <= 16; points += 8) {
     double squares[n_sizes] = {0}, residual = 0;
     int n_undetermined = 0, n_covered = 0;
@@ -710,6 +711,7 @@ TEST(test_noisy_mitral) {
         "%.2f; %d with undetermined sizes; within 3 errors %.3f\n",
         points, n, sqrt(squares[0]), sqrt(squares[1]), sqrt(squares[5]), sqrt(squares[6]), sqrt(squares[3]),
         sqrt(residual), n_undetermined, (double)n_covered / (n_sizes * n));
+    if (is_sanitized()) continue; /* these are too few patients for statistics */
     CHECK_AT_MOST(0.95 * n_sizes * n, n_covered);
     if (points == 16) {
       const double most_times = 1.2 + 3 / sqrt(2.0 * n); /* the measured errors, 20 %, and three times their scatter */
@@ -899,7 +901,7 @@ TEST(test_saddle_with_lengths) {
 }
 
 TEST(test_noisy_saddles) {
-  const int n = is_long_test() ? 1000 : 60;
+  const int n = trials(60, 1000);
   for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
     double squares[6] = {0}, in_squares[6] = {0};
     int n_sizes_of = 0, n_covered = 0;
@@ -925,6 +927,7 @@ TEST(test_noisy_saddles) {
         10 * sqrt(squares[3]), sqrt(squares[2]), sqrt(squares[4]), sqrt(squares[5]), sqrt(in_squares[0]),
         sqrt(in_squares[1]), sqrt(in_squares[2]), sqrt(in_squares[3]), sqrt(in_squares[4]), sqrt(in_squares[5]),
         (double)n_covered / (n * n_sizes_of));
+    if (is_sanitized()) continue; /* these are too few patients for statistics */
     CHECK_AT_MOST(0.96 * n * n_sizes_of, n_covered);
     for (int i = 0; i < n_sizes_of; ++i) CHECK_NEAR(sqrt(in_squares[i]), 0.85, 0.35);
   }

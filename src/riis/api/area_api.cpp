@@ -26,12 +26,12 @@ using riis::require_handle;
 
 namespace {
 
-constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t most_areas = 1'000'000;
 constexpr double largest_area = 1e120;
 constexpr std::int32_t most_samples = 100'001;
 
-const riis_area_search default_search{sizeof(riis_area_search), nullptr, nullptr, no_value, no_value, 1e-8, 33,
+const riis_area_search default_search{sizeof(riis_area_search), nullptr, nullptr, no_number, no_number, 1e-8, 33,
                                       RIIS_AREA_GEOMETRIC};
 
 // The number that changes until the orifice has an area: the opening, the scale of the placement, or a parameter.
@@ -180,7 +180,7 @@ riis_area_range range_of(const riis::AreaSearch &areas, const Values &values) {
                        areas.most().area,
                        areas.least().value,
                        areas.most().value,
-                       {no_value, no_value, no_value, no_value},
+                       {no_number, no_number, no_number, no_number},
                        0,
                        riis::view(areas.turns()).size(),
                        0,

@@ -16,15 +16,15 @@ using riis::require;
 
 namespace {
 
-const riis_closest_options default_options{sizeof(riis_closest_options),
-                                           std::numeric_limits<double>::infinity(),
-                                           RIIS_FAR_DISTANCE,
-                                           nullptr,
-                                           0,
-                                           nullptr,
-                                           0,
-                                           0};
-const riis_closest_arrays default_arrays{
+const riis_closest_options default_closest_options{sizeof(riis_closest_options),
+                                                   std::numeric_limits<double>::infinity(),
+                                                   RIIS_FAR_DISTANCE,
+                                                   nullptr,
+                                                   0,
+                                                   nullptr,
+                                                   0,
+                                                   0};
+const riis_closest_arrays default_closest_arrays{
     sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
 
 // Writes entry i for a closest point on the patches. Such points have no triangle id and no side.
@@ -145,17 +145,17 @@ riis_status riis_closest_point(const riis_surface *surface, const double *point,
   });
 }
 
-RIIS_DEFINE_INIT(riis_closest_options_init, riis_closest_options, options, default_options)
+RIIS_DEFINE_INIT(riis_closest_options_init, riis_closest_options, options, default_closest_options)
 
-RIIS_DEFINE_INIT(riis_closest_arrays_init, riis_closest_arrays, arrays, default_arrays)
+RIIS_DEFINE_INIT(riis_closest_arrays_init, riis_closest_arrays, arrays, default_closest_arrays)
 
 riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
                                 const riis_closest_options *options, const riis_closest_arrays *arrays) {
   return guarded([&] {
     const riis::Surface &content = riis::content_of(surface);
     const riis_points from = riis::completed(require(points, "points"), "points", riis::default_points);
-    const riis_closest_options whole = riis::completed(options, "options", default_options);
-    const riis_closest_arrays to = riis::completed(require(arrays, "arrays"), "arrays", default_arrays);
+    const riis_closest_options whole = riis::completed(options, "options", default_closest_options);
+    const riis_closest_arrays to = riis::completed(require(arrays, "arrays"), "arrays", default_closest_arrays);
     if (from.n_points < 0)
       riis::fail(RIIS_INVALID_ARGUMENT, "points.n_points is ", from.n_points, "; it must be at least 0");
     riis::check_bits("points.real_bits", from.real_bits);

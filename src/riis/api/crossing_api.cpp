@@ -16,10 +16,10 @@ using riis::require_handle;
 
 namespace {
 
-const riis_crossing_options default_options{sizeof(riis_crossing_options), 1e-6, 0, 0};
+const riis_crossing_options default_crossing_options{sizeof(riis_crossing_options), 1e-6, 0, 0};
 
 riis_crossing_options checked(const riis_crossing_options *options) {
-  const riis_crossing_options whole = riis::completed(options, "options", default_options);
+  const riis_crossing_options whole = riis::completed(options, "options", default_crossing_options);
   riis::check_range("options", "depth", whole.depth, 0, 1);
   riis::check_threads(whole.n_threads, "options.n_threads");
   riis::check_reserved("options.reserved", whole.reserved);
@@ -49,7 +49,7 @@ riis_crossing_list list_of(const riis::TriangleSet &set, const riis::Crossings &
 
 extern "C" {
 
-RIIS_DEFINE_INIT(riis_crossing_options_init, riis_crossing_options, options, default_options)
+RIIS_DEFINE_INIT(riis_crossing_options_init, riis_crossing_options, options, default_crossing_options)
 
 riis_status riis_crossings_create(riis_crossings **crossings) { return riis::create_handle(crossings, "crossings"); }
 

@@ -13,7 +13,7 @@ namespace {
 const riis_keyframe_arrays default_frames{sizeof(riis_keyframe_arrays), 0, 0, nullptr, nullptr, 0,
                                           RIIS_INTERPOLATION_LINEAR,    64};
 
-riis_surface_arrays default_arrays() {
+riis_surface_arrays default_keyframes_arrays() {
   riis_surface_arrays arrays;
   riis_surface_arrays_init(&arrays, sizeof arrays);
   return arrays;
@@ -29,7 +29,8 @@ riis_status riis_keyframes_create(const riis_surface_arrays *arrays, const riis_
                                   riis_keyframes **keyframes) {
   return guarded([&] {
     require(keyframes, "keyframes");
-    const riis_surface_arrays whole_arrays = riis::completed(require(arrays, "arrays"), "arrays", default_arrays());
+    const riis_surface_arrays whole_arrays =
+        riis::completed(require(arrays, "arrays"), "arrays", default_keyframes_arrays());
     const riis_keyframe_arrays whole = riis::completed(require(frames, "frames"), "frames", default_frames);
     riis::Keyframes made(whole_arrays, whole);
     riis::find_attachment(made.faces(), made.first_frame());

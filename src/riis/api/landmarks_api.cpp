@@ -23,7 +23,7 @@ constexpr double usual_noise = 0.03;
 const riis_landmarks default_landmarks{
     sizeof(riis_landmarks), 0, nullptr, nullptr, nullptr, 1, nullptr, nullptr, RIIS_AUTO, RIIS_AUTO, {0, 0, 0}, 64, 0};
 
-const riis_placement_arrays default_arrays{sizeof(riis_placement_arrays), nullptr, nullptr, nullptr, nullptr};
+const riis_placement_arrays default_placement_arrays{sizeof(riis_placement_arrays), nullptr, nullptr, nullptr, nullptr};
 
 riis::Landmarks landmarks_of(const riis_landmarks &given) {
   if (given.n_landmarks < 1 || given.n_landmarks > most_landmarks)
@@ -74,7 +74,7 @@ extern "C" {
 
 RIIS_DEFINE_INIT(riis_landmarks_init, riis_landmarks, landmarks, default_landmarks)
 
-RIIS_DEFINE_INIT(riis_placement_arrays_init, riis_placement_arrays, arrays, default_arrays)
+RIIS_DEFINE_INIT(riis_placement_arrays_init, riis_placement_arrays, arrays, default_placement_arrays)
 
 riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
                        const riis_placement_arrays *arrays, riis_placement *placement, int64_t struct_size) {
@@ -82,7 +82,7 @@ riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const
     require_handle(valve, "valve");
     const riis_landmarks whole = riis::completed(require(landmarks, "landmarks"), "landmarks", default_landmarks);
     require(held, "held");
-    const riis_placement_arrays to = riis::completed(arrays, "arrays", default_arrays);
+    const riis_placement_arrays to = riis::completed(arrays, "arrays", default_placement_arrays);
     require(placement, "placement");
     riis::check_struct_size<riis_placement>(struct_size, "placement");
     riis::PlacedValve placed = riis::place_valve(valve->valve, landmarks_of(whole), held);

@@ -19,8 +19,8 @@ using riis::require_handle;
 
 namespace {
 
-const riis_mark_options default_options{sizeof(riis_mark_options), RIIS_AUTO, nullptr, nullptr, 0, RIIS_SEARCH_AUTO, 0,
-                                        RIIS_INSTRUCTIONS_AUTO};
+const riis_mark_options default_mark_options{
+    sizeof(riis_mark_options), RIIS_AUTO, nullptr, nullptr, 0, RIIS_SEARCH_AUTO, 0, RIIS_INSTRUCTIONS_AUTO};
 const riis_resistance default_resistance{sizeof(riis_resistance), std::numeric_limits<double>::quiet_NaN(), RIIS_AUTO,
                                          RIIS_RIM_ROUND, 0};
 const riis_dense_arrays default_dense{
@@ -154,7 +154,7 @@ riis_reaction checked_reaction(const riis_reaction *reaction) {
 }
 
 riis_mark_options whole_of(const riis_mark_options *options) {
-  return riis::completed(options, "options", default_options);
+  return riis::completed(options, "options", default_mark_options);
 }
 
 riis::Threads threads_of(const riis_mark_options &options, const riis::Mesh &mesh) {
@@ -245,7 +245,7 @@ void riis_marks_destroy(riis_marks **marks) { riis::destroy_handle(marks, "marks
 
 RIIS_DEFINE_INIT(riis_resistance_init, riis_resistance, resistance, default_resistance)
 
-RIIS_DEFINE_INIT(riis_mark_options_init, riis_mark_options, options, default_options)
+RIIS_DEFINE_INIT(riis_mark_options_init, riis_mark_options, options, default_mark_options)
 
 riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
                             riis_marks *marks) {

@@ -19,26 +19,26 @@ using riis::require_handle;
 
 namespace {
 
-const riis_surface_arrays default_arrays{sizeof(riis_surface_arrays),
-                                         0,
-                                         nullptr,
-                                         nullptr,
-                                         nullptr,
-                                         1,
-                                         nullptr,
-                                         nullptr,
-                                         nullptr,
-                                         1,
-                                         0,
-                                         nullptr,
-                                         nullptr,
-                                         3,
-                                         32,
-                                         0,
-                                         64,
-                                         0,
-                                         nullptr,
-                                         nullptr};
+const riis_surface_arrays default_surface_arrays{sizeof(riis_surface_arrays),
+                                                 0,
+                                                 nullptr,
+                                                 nullptr,
+                                                 nullptr,
+                                                 1,
+                                                 nullptr,
+                                                 nullptr,
+                                                 nullptr,
+                                                 1,
+                                                 0,
+                                                 nullptr,
+                                                 nullptr,
+                                                 3,
+                                                 32,
+                                                 0,
+                                                 64,
+                                                 0,
+                                                 nullptr,
+                                                 nullptr};
 
 // Returns measure_tolerance * half_thickness. If measure_tolerance is RIIS_AUTO, uses tolerance instead.
 double distance_error_of(const riis_surface_options &options) {
@@ -120,7 +120,7 @@ void check_can_add_direction(const riis_surface &surface) {
 }
 
 riis_surface_arrays completed(const riis_surface_arrays *arrays) {
-  return riis::completed(require(arrays, "arrays"), "arrays", default_arrays);
+  return riis::completed(require(arrays, "arrays"), "arrays", default_surface_arrays);
 }
 
 void check_options_for_faces(const riis_surface_options &options) {
@@ -164,7 +164,7 @@ extern "C" {
 
 RIIS_DEFINE_INIT(riis_surface_options_init, riis_surface_options, options, riis::default_surface_options)
 
-RIIS_DEFINE_INIT(riis_surface_arrays_init, riis_surface_arrays, arrays, default_arrays)
+RIIS_DEFINE_INIT(riis_surface_arrays_init, riis_surface_arrays, arrays, default_surface_arrays)
 
 riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options, riis_surface **surface) {
   return guarded([&] {

@@ -20,7 +20,7 @@ using riis::Vec3;
 
 namespace {
 
-const riis_warp_options default_options{sizeof(riis_warp_options), 0, nullptr};
+const riis_warp_options default_warp_options{sizeof(riis_warp_options), 0, nullptr};
 constexpr std::int64_t max_landmarks = 1000;
 
 Vec3 to_valve(const riis::Placement &placement, Vec3 p) {
@@ -73,12 +73,12 @@ void fit(riis_warp &warp) {
 
 extern "C" {
 
-RIIS_DEFINE_INIT(riis_warp_options_init, riis_warp_options, options, default_options)
+RIIS_DEFINE_INIT(riis_warp_options_init, riis_warp_options, options, default_warp_options)
 
 riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp) {
   return guarded([&] {
     require(warp, "warp");
-    const riis_warp_options whole = riis::completed(options, "options", default_options);
+    const riis_warp_options whole = riis::completed(options, "options", default_warp_options);
     riis::check_range("options", "noise", whole.noise, 0, 1e50);
     riis::Placement placement{1, riis::no_rotation, {0, 0, 0}};
     if (whole.placement) {
