@@ -146,7 +146,7 @@ TEST(masked_nodes_are_left_out) {
       mask[i] = kind == 0   ? 0
                 : kind == 1 ? 255
                 : kind == 2 ? nodes.xyz[3 * i] > 0
-                : kind == 3 ? i % 2
+                : kind == 3 ? i % 2 != 0
                             : random_bits(&rng) % 8 == 0;
     riis_mark_options options = mark_options();
     options.node_mask = mask;

@@ -128,7 +128,7 @@ TEST(points_nearer_to_another_sheet_are_left_out) {
     n_nearer += truth_offset(i) == (is_upper ? -1 : 1);
     n_upper += is_upper;
   }
-  assert_true(llabs(n_upper - n_points / 2) < 6 * sqrt(n_points) / 2);
+  assert_true((double)llabs(n_upper - n_points / 2) < 6 * sqrt(n_points) / 2);
   assert_int_equal(truth.n_curved, 0);
   assert_int_equal(truth.n_nearer, n_nearer);
   assert_int_equal(truth.off.n, n_points - n_nearer);
