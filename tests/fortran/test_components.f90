@@ -34,6 +34,7 @@ program test_components
   call marks%destroy()
   call moving%destroy()
   call mesh%destroy()
+  deallocate (velocity, weight, u3, v3, w3, weight3, u4, v4, w4, weight4)
   call free_box()
   call finish()
 
