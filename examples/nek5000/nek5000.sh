@@ -11,8 +11,8 @@ nek_known=$nek_here/known.sha256
 # ./run nek5000 FOLDER [--beat]
 #   Runs valves in Nek5000, a spectral element code: a closed plate, upright and leaning, on 1, 2 and 4 ranks, a trileaflet valve
 #   in a pipe, held closed and open, and the same valve while it opens, with a restart. FOLDER holds Nek5000 and gslib
-#   (examples/nek5000/README.md), and stays as it is. It leaves a table in out/nek5000. --beat adds a beat of 0.8 s, which has not
-#   run to its end yet. Without Nek5000 the status is 77.
+#   (examples/nek5000/README.md), and stays as it is. It leaves a table in out/nek5000. --beat adds a beat of 0.8 s, whose
+#   largest speed is above its bar. Without Nek5000 the status is 77.
 run_nek5000() {
   local beat='' python out=$PWD/out/nek5000
   case ${2:-} in

@@ -59,5 +59,41 @@ c     (2x, 5y, 0), and th = K dt/1.5 / (rho + K dt/1.5) is 2/3.
          call close(usrdiv(i,1,1,1),7.*2./3.,'the source')
       enddo
       call close(net,7.*2./3.*.001*lx1**3*nelv,'its integral')
+      call ensure_ends(-1.,1.,600.,-1.)
+      call ensure_ends(1.,1.,0.,0.)
+      call ensure_ends(1.,-1.,600.,0.)
       write(6,*) 'valve: fine'
+      end
+c-----------------------------------------------------------------------
+      subroutine ensure_ends(flow,point,most,to)
+c     With the mean velocity flow and point at each point of the outlet,
+c     K is most at the outlet's end, and holds the blood to the velocity
+c     to. At the inlet, where blood has the mean velocity 3, it is 600.
+      include 'SIZE'
+      include 'TOTAL'
+      include 'NEKUSE'
+      include 'RIISV'
+      integer e
+      real most
+      common /ends/ uin,uout
+      istep = 1
+      uparam(15) = 600.
+      uin = 3.
+      uout = flow
+      rk = 0.
+      rkz = 0.
+      call cfill(vz,point,lx1*ly1*lz1*nelv)
+      do e=1,nelv
+      do iz=1,lz1
+         call rzero(bfz,lx1*ly1*lz1*nelv)
+         call uservp(2,3,iz,e)
+         zz = zm1(2,3,iz,e)
+         a = 600.*max(.9-zz,0.)**2/.36
+         b = a*3.
+         if (zz.gt.1.7) a = most*(zz-1.7)**2/.36
+         if (zz.gt.1.7) b = a*to
+         call close(utrans-1.06,a*dt/1.5,'K of the ends')
+         call close(bfz(2,3,iz,e),b*.001,'its velocity')
+      enddo
+      enddo
       end
