@@ -279,7 +279,7 @@ RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh) 
       auto made = std::make_unique<riis_vtk_mesh>();
       if (is_structured(path)) {
         StructuredFile file = read_structured(path, caught);
-        made->data = std::move(file.data);
+        made->data = file.data;
         made->axes = std::move(file.axes);
       } else {
         made->data = read_grid(path, caught);
