@@ -138,8 +138,8 @@ def beat(runs, judge):
     judge.row("the beat: seconds at a fixed step", f"{flow.time[-1]:.4f}", "0.8", flow.time[-1] > 0.7999)
     judge.row(f"largest speed of the beat, {flow.speed[fastest]:.1f} cm/s at {flow.time[fastest]:.3f} s, opening "
               f"{flow.opening[fastest]:.3f}, over peak flow {peak:.1f} ml/s / open orifice {orifice:.2f} cm^2",
-              f"{flow.speed[fastest] / reference:.2f}; {flow.speed[fastest] / peak * effective:.2f} with the effective orifice of "
-              f"{effective:.2f} cm^2", "2", flow.speed[fastest] <= 2 * reference)
+              f"{flow.speed[fastest] / reference:.2f}; {flow.speed[fastest] / peak * effective:.2f} with the effective "
+              f"orifice of {effective:.2f} cm^2", "2", flow.speed[fastest] <= 2 * reference)
     judge.row("inflow - outflow + source of the band, over the peak flow", f"{balance / peak:.1e}", "1e-3",
               balance <= 1e-3 * peak)
     judge.row("largest Courant number", f"{max(courant):.2f}", "", True)
