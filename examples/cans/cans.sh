@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run cans: copy the sources, insert the valve, compile, run, check, draw. `run` sources this file. The steps use
-# $build, $n_jobs, $packages, install_missing, python_of_packages, say and step of `run`.
+# $build, $packages, install_library, install_missing, python_of_packages, say, set_ranks and step of `run`.
 
 cans_packages=(gcc g++ gfortran cmake make ninja-build pkg-config libembree-dev libtbb-dev libfftw3-dev openmpi-bin
   libopenmpi-dev python3-numpy python3-matplotlib)
@@ -30,9 +30,9 @@ run_cans() {
   cans_runs=$cans_work/runs
   rm -rf "$cans_runs" "$out"
   mkdir -p "$cans_runs" "$out"
-  cans_environment
+  set_ranks
   step "copy the sources, and insert the valve" cans_copy "$1"
-  step "build the library with its Fortran modules" cans_install_riis
+  step "build the library with its Fortran modules" install_library "$cans_work" -D RIIS_WITH_FORTRAN=ON
   step "compile CaNS" cans_compile
   step "the closed plate for 300 steps, and on 1, 2 and 4 ranks" cans_stable
   if [[ ! $short ]]; then
@@ -53,12 +53,6 @@ cans_check_sources() {
   fi
 }
 
-cans_environment() {
-  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
-  export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none
-  export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
-}
-
 # cans_copy FOLDER: copies the sources, so that FOLDER stays as it is, and inserts the valve. A copy that exists is kept, with its
 # compiled files, and gets the present user files.
 cans_copy() {
@@ -75,16 +69,10 @@ cans_copy() {
   cp "$cans_here"/riis_{valve,pressure}.f90 "$cans_work/CaNS/src"
 }
 
-cans_install_riis() {
-  cmake -S . -B "$cans_work/riis" -G Ninja -D CMAKE_BUILD_TYPE=Release -D CMAKE_INSTALL_PREFIX="$cans_work/prefix" \
-    -D RIIS_WITH_VTK=OFF -D RIIS_WITH_FORTRAN=ON -D RIIS_BUILD_PROGRAM=OFF -D RIIS_BUILD_TESTS=OFF -D RIIS_BUILD_BENCH=OFF &&
-    cmake --build "$cans_work/riis" --parallel "$n_jobs" && cmake --install "$cans_work/riis"
-}
-
 # Compiles with the flags of the installed library. The dependencies of CaNS's makefile are made again, because a file was added.
 cans_compile() {
   local config includes libraries
-  config=$(find "$cans_work/prefix" -name riis-fortran.pc -printf '%h') || return
+  config=$(find "$cans_work/riis" -name riis-fortran.pc -printf '%h') || return
   includes=$(PKG_CONFIG_PATH=$config pkg-config --cflags riis-fortran) &&
     libraries=$(PKG_CONFIG_PATH=$config pkg-config --libs riis-fortran) || return
   rm -f "$cans_work/CaNS/build/.depend.mk"

@@ -36,7 +36,8 @@ run_dealii() {
   rm -rf "$di_runs" "$out"
   mkdir -p "$di_runs" "$out"
   step "build the library and the example" dealii_build
-  dealii_settings
+  export OPENBLAS_NUM_THREADS=1
+  set_ranks
   di_check() { "$python" -B "$dealii_here/check.py" "$@"; }
 
   step "bad input, which must be refused" di_check refusals "$di_program" "$di_runs/refusals" "$dealii_here"/{beat,closed}.prm
@@ -64,19 +65,9 @@ run_dealii() {
 }
 
 dealii_build() {
-  cmake --preset library -G Ninja -B "$di_work/library" -D CMAKE_INSTALL_PREFIX="$di_work/riis" &&
-    cmake --build "$di_work/library" --parallel "$n_jobs" &&
-    cmake --install "$di_work/library" &&
+  install_library "$di_work" &&
     cmake -S "$dealii_here" -B "$di_work/example" -G Ninja -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH="$di_work/riis" &&
     cmake --build "$di_work/example"
-}
-
-# There may be more ranks than processors, and the user may be root. The settings in the second line are for Open MPI 4, and the
-# settings in the third line for Open MPI 5. Each rank has one thread.
-dealii_settings() {
-  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
-  export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none
-  export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
 }
 
 # dealii_run NAME RANKS CASE [SUBSECTION/ENTRY=VALUE...]: runs CASE.prm with these entries, in the folder NAME.

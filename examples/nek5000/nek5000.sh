@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run nek5000: copy the sources, compile, mesh, run, check, draw. `run` sources this file. The steps use $build,
-# $n_jobs, $packages, install_missing, python_of_packages, say and step of `run`.
+# $packages, install_library, install_missing, python_of_packages, say, set_ranks and step of `run`.
 
 nek_packages=(gcc g++ gfortran cmake make ninja-build pkg-config libembree-dev libtbb-dev openmpi-bin libopenmpi-dev gmsh
   python3-numpy python3-matplotlib)
@@ -31,9 +31,10 @@ run_nek5000() {
   nek_runs=$nek_work/runs
   rm -rf "$nek_runs" "$out"
   mkdir -p "$nek_runs" "$out"
-  nek_environment
+  export NEK_SOURCE_ROOT=$nek_work/Nek5000 NEK_DEPS_LOCAL_SRC=1 PATH=$nek_work/Nek5000/bin:$PATH
+  set_ranks
   step "copy the sources" nek_copy "$1"
-  step "build the library with its Fortran modules" nek_install_riis
+  step "build the library with its Fortran modules" install_library "$nek_work" -D RIIS_WITH_FORTRAN=ON
   step "build the tools of Nek5000" nek_tools
   step "mesh the duct and the pipe" nek_meshes
   step "compile Nek5000 with 6 points along an element" nek_compile 6 9
@@ -63,13 +64,6 @@ nek_check_sources() {
   }
 }
 
-nek_environment() {
-  export NEK_SOURCE_ROOT=$nek_work/Nek5000 NEK_DEPS_LOCAL_SRC=1 PATH=$nek_work/Nek5000/bin:$PATH
-  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
-  export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none
-  export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
-}
-
 # nek_copy FOLDER: copies the sources, so that FOLDER stays as it is. A copy that exists is kept, with its compiled files.
 nek_copy() {
   [[ -d $nek_work/Nek5000 ]] || {
@@ -81,12 +75,6 @@ nek_copy() {
       mv "$nek_work/copy/Nek5000" "$nek_work/Nek5000" &&
       rmdir "$nek_work/copy"
   }
-}
-
-nek_install_riis() {
-  cmake -S . -B "$nek_work/riis" -G Ninja -D CMAKE_BUILD_TYPE=Release -D CMAKE_INSTALL_PREFIX="$nek_work/prefix" \
-    -D RIIS_WITH_VTK=OFF -D RIIS_WITH_FORTRAN=ON -D RIIS_BUILD_PROGRAM=OFF -D RIIS_BUILD_TESTS=OFF -D RIIS_BUILD_BENCH=OFF &&
-    cmake --build "$nek_work/riis" --parallel "$n_jobs" && cmake --install "$nek_work/riis"
 }
 
 nek_tools() {
@@ -116,11 +104,11 @@ nek_compile() {
     "$NEK_SOURCE_ROOT/core/SIZE.template" >SIZE.new &&
     { cmp -s SIZE.new SIZE || mv SIZE.new SIZE; } &&
     cp "$nek_here"/{RIISV,riis_nek.f,plate.usr,valve.usr} . || return
-  export PKG_CONFIG_PATH=$nek_work/prefix/lib/pkgconfig
+  export PKG_CONFIG_PATH=$nek_work/riis/lib/pkgconfig
   for case in plate valve; do
     export FFLAGS USR_LFLAGS
     FFLAGS=$(pkg-config --cflags riis-fortran) &&
-      USR_LFLAGS="$(pkg-config --libs riis-fortran) -Wl,-rpath,$nek_work/prefix/lib" &&
+      USR_LFLAGS="$(pkg-config --libs riis-fortran) -Wl,-rpath,$nek_work/riis/lib" &&
       nekconfig "$case" && nekconfig -build-dep && make -j "$n_jobs" && mv nek5000 "$case.nek" || return
   done
 }

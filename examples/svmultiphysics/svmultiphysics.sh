@@ -35,7 +35,7 @@ run_svmultiphysics() {
   step "build svMultiPhysics as it is (the longest step)" sv_plain
   step "make riis its valve engine" sv_engine
   step "make the meshes and export the valves" sv_cases
-  sv_settings
+  set_ranks
   step "the closed valve with both engines" sv_closed
   sv_check drop closed closed_solver "$(sv_area closed)" | tee "$out/drop.txt"
   step "a beat with a ramp and a scaffold, with three engines" sv_beats
@@ -58,9 +58,7 @@ run_svmultiphysics() {
 }
 
 sv_library() {
-  cmake --preset library -G Ninja -B "$sv_work/library" -D CMAKE_INSTALL_PREFIX="$sv_work/riis" &&
-    cmake --build "$sv_work/library" --parallel "$n_jobs" &&
-    cmake --install "$sv_work/library" &&
+  install_library "$sv_work" &&
     cmake --preset default &&
     cmake --build --preset default --parallel "$n_jobs" --target riis_program
 }
@@ -85,14 +83,6 @@ sv_engine() {
 
 sv_undo() {
   sv_compile -U CMAKE_PROJECT_SV_INCLUDE && sha256sum --check "$sv_work/plain.sha256"
-}
-
-# There may be more ranks than processors, and the user may be root. The settings in the second line are for Open MPI 4, and the
-# settings in the third line for Open MPI 5.
-sv_settings() {
-  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
-  export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none
-  export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
 }
 
 # ---- Cases ----
