@@ -241,9 +241,7 @@ void BandMeasures::add_lengths(const Piece &piece, const riis_mark_list &marked)
     if (nodes.is_ghost(i)) continue;
     piece.mesh->for_each_neighbor(i, [&](std::int64_t j) {
       if (j < i || nodes.is_ghost(j) || !(view(is_marked)[i] || view(is_marked)[j])) return;
-      const NodePoints::Point p = nodes.point(i), q = nodes.point(j);
-      const double length =
-          std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) + (p[2] - q[2]) * (p[2] - q[2]));
+      const double length = distance_between(nodes.point(i).data(), nodes.point(j).data());
       if (!(length > 0)) return;
       if (nodes.is_shared(i) && nodes.is_shared(j))
         shared_.push_back(edge_between(nodes.key(i), nodes.key(j), length));

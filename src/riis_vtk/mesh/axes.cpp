@@ -4,11 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
 #include <vtkImageData.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkRectilinearGrid.h>
 #include <vtkXMLImageDataWriter.h>
@@ -19,17 +16,6 @@
 #include "riis_vtk/mesh/mesh.hpp"
 
 namespace riis::vtk {
-namespace {
-
-// Copies the arrays.
-template <class DataSet>
-void take_arrays(DataSet *to, vtkUnstructuredGrid *from) {
-  to->GetPointData()->ShallowCopy(from->GetPointData());
-  to->GetCellData()->ShallowCopy(from->GetCellData());
-  to->GetFieldData()->ShallowCopy(from->GetFieldData());
-}
-
-}  // namespace
 
 double median_edge_of(const GridAxes &axes) {
   const std::array<std::int64_t, 3> n = {axes.size(0) - 1, axes.size(1) - 1, axes.size(2) - 1};
@@ -83,7 +69,7 @@ void write_axes(const std::string &path, const riis_vtk_mesh &mesh, const Caught
     made->SetExtent(extent);
     made->SetOrigin(image.origin.data());
     made->SetSpacing(image.spacing.data());
-    take_arrays(made.Get(), mesh.data);
+    share_arrays(mesh.data, made);
     return write_xml<vtkXMLImageDataWriter>(path, ending, made, caught);
   }
   vtkNew<vtkRectilinearGrid> made;
@@ -96,7 +82,7 @@ void write_axes(const std::string &path, const riis_vtk_mesh &mesh, const Caught
   made->SetXCoordinates(coordinates(0));
   made->SetYCoordinates(coordinates(1));
   made->SetZCoordinates(coordinates(2));
-  take_arrays(made.Get(), mesh.data);
+  share_arrays(mesh.data, made);
   write_xml<vtkXMLRectilinearGridWriter>(path, ending, made, caught);
 }
 

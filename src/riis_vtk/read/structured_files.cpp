@@ -85,6 +85,12 @@ void add_structured_cells(vtkUnstructuredGrid *grid, const std::array<std::int64
   grid->SetCells(types.at(corners.size()), cells);
 }
 
+void share_arrays(vtkDataSet *from, vtkDataSet *to) {
+  to->GetPointData()->ShallowCopy(from->GetPointData());
+  to->GetCellData()->ShallowCopy(from->GetCellData());
+  to->GetFieldData()->ShallowCopy(from->GetFieldData());
+}
+
 namespace {
 
 using Sizes = std::array<std::int64_t, 3>;
@@ -176,9 +182,7 @@ StructuredFile file_of(const std::string &path, DataSet *data) {
   check_array_lengths(path, data->GetPointData(), "point", data->GetNumberOfPoints());
   check_array_lengths(path, data->GetCellData(), "cell", data->GetNumberOfCells());
   StructuredFile made{vtkSmartPointer<vtkUnstructuredGrid>::New(), axes_of(data)};
-  made.data->GetPointData()->ShallowCopy(data->GetPointData());
-  made.data->GetCellData()->ShallowCopy(data->GetCellData());
-  made.data->GetFieldData()->ShallowCopy(data->GetFieldData());
+  share_arrays(data, made.data);
   if (is_single(data)) add_note(made.data, "its points have single precision");
   if (made.axes) return made;
   check_claim(path, sizes_of(data), false);

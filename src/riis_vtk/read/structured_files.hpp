@@ -37,6 +37,9 @@ struct GridAxes {
 // vertex if some axes have one node.
 void add_structured_cells(vtkUnstructuredGrid *grid, const std::array<std::int64_t, 3> &n);
 
+// Lets a data set have the arrays of another one, on points, cells and the whole.
+void share_arrays(vtkDataSet *from, vtkDataSet *to);
+
 // Whether the ending, or the header of a legacy file, says that the file has a structured grid.
 bool is_structured(const std::string &path);
 
