@@ -14,8 +14,8 @@
 namespace riis::program {
 
 struct PatientMeshOptions {
-  std::string folder;     // which exists; the files go here
-  std::string field;      // the file of riis size-field
+  std::string folder;       // which exists; the files go here
+  std::string field;        // the file of riis size-field
   double largest_edge = 0;  // edge length outside the field's grid: --largest-edge of riis size-field
   // Called with each command before it runs, as a user would type it.
   std::function<void(const std::string &command)> announce = [](const std::string &) {};
