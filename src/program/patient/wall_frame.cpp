@@ -21,10 +21,12 @@ std::string millimetres(double length) { return printed("%.2g", length) + " mm";
 Surface surface_of(const PatientWall &wall) {
   auto arrays = defaults<riis_surface_arrays>();
   arrays.n_vertices = view(wall.xyz).size() / 3;
-  arrays.xyz = wall.xyz.data();
+  arrays.x = wall.xyz.data();
+  arrays.y = wall.xyz.data() + 1;
+  arrays.z = wall.xyz.data() + 2;
+  arrays.stride = 3;
   arrays.n_faces = view(wall.corners).size() / 3;
-  arrays.corners_per_face = 3;
-  arrays.vertex_id = wall.corners.data();
+  arrays.vertex_ids = wall.corners.data();
   auto how = defaults<riis_surface_options>();
   how.zero_area = RIIS_ZERO_AREA_SKIP;
   return create_for<Surface>(wall.path, riis_surface_create_from_arrays, &arrays, &how);
