@@ -37,12 +37,12 @@ constexpr double least_half_thickness_mm = 0.1, most_half_thickness_mm = 4, most
 constexpr double usual_band_edge = 0.95, usual_largest_edge = 3;
 constexpr double usual_resistance = 1e4;  // kg/(m s)
 // Where an edge leaks, edges of the second mesh are shorter by this factor.
-constexpr double shorter = 0.9;
+constexpr double shorter_by = 0.9;
 // Flow solvers on one computer take meshes up to about this size.
 constexpr std::int64_t many_nodes = 40000;
 // The number of nodes grows with this power of the shortness of edges in the band, by meshes of a root and of a ventricle.
 constexpr double power_of_nodes = 2.5;
-constexpr int n_openings = 11;
+constexpr int n_marked_openings = 11;
 
 // The opening of a beat of 0.72 s: times in seconds, as in examples/demo, and the times to be written.
 struct Beat {
@@ -284,14 +284,14 @@ class PatientRun {
       make_mesh_once();
       const std::int64_t n_leaks = mark_all_openings();
       report_["n_leaking_edges"] = n_leaks;
-      if (n_leaks == 0) return steps_.say("marks", "no edge leaks at " + std::to_string(n_openings) + " openings", marks_seconds_);
+      if (n_leaks == 0) return steps_.say("marks", "no edge leaks at " + std::to_string(n_marked_openings) + " openings", marks_seconds_);
       const std::string text = counted(n_leaks, "edge") + " leak" + (n_leaks == 1 ? "s" : "") + " at " +
-                               std::to_string(n_openings) + " openings";
+                               std::to_string(n_marked_openings) + " openings";
       if (attempt == 1)
         refuse_data(text + " also in the second mesh, whose edges in the band have " + shown(band_edge_) +
-                    " half thicknesses: --band-edge " + shown(shorter * band_edge_) + " makes them shorter, or --half-thickness " +
+                    " half thicknesses: --band-edge " + shown(shorter_by * band_edge_) + " makes them shorter, or --half-thickness " +
                     option_mm(1.1 * half_thickness_) + " thickens the band");
-      band_edge_ *= shorter;
+      band_edge_ *= shorter_by;
       steps_.say("marks", text + ": the mesh is made once more, with edges of " + shown(band_edge_) + " half thicknesses",
                  marks_seconds_);
     }
@@ -331,7 +331,7 @@ class PatientRun {
     Words typed = with_valve({"riis", "mark", "mesh.msh"});
     steps_.announce("for x in 0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1; do " + command_text(typed) +
                     " --opening $x --stats logs/marks_$x.json; done");
-    for (const double opening : openings_from_0_to_1(n_openings)) {
+    for (const double opening : openings_from_0_to_1(n_marked_openings)) {
       const std::string name = "marks_" + shortest(std::round(100 * opening) / 100);
       const StepEnd end = steps_.run_silently(
           name, with_valve({"mark", "mesh.msh"}, {"--opening", name.substr(6), "--stats", "logs/" + name + ".json"}));

@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char *const marker = "UNFINISHED.txt", *const report = "patient.json";
+const char *const marker_file = "UNFINISHED.txt", *const report_file = "patient.json";
 
 // What riis patient writes into the folder. Files with other names stay when the folder is taken over.
-const char *const own_names[] = {report,          "wall.stl",   "placed.json",   "params.json", "valve.dat",      "gmsh",
+const char *const own_names[] = {report_file,          "wall.stl",   "placed.json",   "params.json", "valve.dat",      "gmsh",
                                  "mesh.msh",      "mesh.vtu",   "faces",         "closed.vtu",  "open.vtu",       "closed.png",
                                  "open.png",      "beat.csv",   "beat.pvd",      "beat",        "leaflets.pvd",   "leaflets",
                                  "beat.mp4",      "logs",       "openfoam",      "fenicsx",     "svmultiphysics", "landmarks.json",
@@ -43,7 +43,7 @@ std::string taken(const std::string &path, bool replace, const std::vector<std::
   const fs::path folder = fs::absolute(path).lexically_normal();
   if (fs::exists(folder, error)) {
     if (!fs::is_directory(folder, error)) refuse_folder(path, "is a file, not a folder");
-    const bool is_unfinished = fs::exists(folder / marker, error), is_own = is_unfinished || fs::exists(folder / report, error);
+    const bool is_unfinished = fs::exists(folder / marker_file, error), is_own = is_unfinished || fs::exists(folder / report_file, error);
     const bool is_empty = fs::is_empty(folder, error);
     if (error) refuse_folder(path, "cannot be read: " + error.message());
     if (!is_empty && !is_own) refuse_folder(path, "the folder is not empty, and riis patient did not make it: name another");
@@ -62,19 +62,19 @@ std::string taken(const std::string &path, bool replace, const std::vector<std::
 }  // namespace
 
 PatientFolder::PatientFolder(const std::string &path, bool replace, const std::vector<std::string> &inputs)
-    : path_(taken(path, replace, inputs)), locks_({(fs::path(path_) / marker).string()}) {
+    : path_(taken(path, replace, inputs)), locks_({(fs::path(path_) / marker_file).string()}) {
   std::error_code error;
   fs::current_path(path_, error);
   if (error) refuse_folder(path, "cannot be entered: " + error.message());
-  write_text(marker, "riis patient has not finished this folder. If it no longer runs, run it again.\n");
+  write_text(marker_file, "riis patient has not finished this folder. If it no longer runs, run it again.\n");
   fs::create_directory("logs", error);
   if (error) refuse_folder(path, "cannot be written to: " + error.message());
 }
 
 void PatientFolder::finish() {
   std::error_code error;
-  fs::remove(marker, error);
-  if (error) refuse_data(std::string(marker) + ": cannot be removed: " + error.message());
+  fs::remove(marker_file, error);
+  if (error) refuse_data(std::string(marker_file) + ": cannot be removed: " + error.message());
 }
 
 std::string command_text(const std::vector<std::string> &words) {

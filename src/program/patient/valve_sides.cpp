@@ -16,7 +16,7 @@
 namespace riis::program {
 namespace {
 
-constexpr std::int32_t n_openings = 11;
+constexpr std::int32_t n_sides_openings = 11;
 // Radii of the balls in millimetres: the largest that there is room for is taken.
 constexpr double radii[] = {4, 3, 2, 1.5, 1};
 
@@ -49,7 +49,7 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
   std::vector<double> away = distances_from(wall_of(marking), xyz);
   std::vector<std::int64_t> region(static_cast<std::size_t>(nodes.n()));
   const double half_thickness = marking.surface_options.half_thickness;
-  for (const double opening : openings_from_0_to_1(n_openings)) {
+  for (const double opening : openings_from_0_to_1(n_sides_openings)) {
     check(riis_valve_set_scalar(valve, "opening", opening));
     const auto surface = create<Surface>(riis_surface_create, valve, &marking.surface_options);
     const std::vector<double> from_valve = distances_from(surface, xyz);

@@ -18,7 +18,7 @@ constexpr double clearly_farther = 2;
 
 std::string millimetres(double length) { return printed("%.2g", length) + " mm"; }
 
-Surface surface_of(const PatientWall &wall) {
+Surface wall_surface_of(const PatientWall &wall) {
   auto arrays = defaults<riis_surface_arrays>();
   arrays.n_vertices = view(wall.xyz).size() / 3;
   arrays.x = wall.xyz.data();
@@ -71,7 +71,7 @@ std::string options_of(const WallFrame &frame, const WallFrame &other) {
 
 WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, std::optional<Unit> unit,
                         const std::string &axes) {
-  const Surface surface = surface_of(wall);
+  const Surface surface = wall_surface_of(wall);
   const std::string own = name_of(landmarks.axes);
   if (landmarks.axes == Axes::mesh && !axes.empty())
     refuse_usage("--axes: " + landmarks.path + " states the axes mesh, which are those of the wall: leave --axes out");
