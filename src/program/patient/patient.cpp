@@ -508,9 +508,9 @@ class PatientRun {
   }
 
   void print_end() {
-    const double finer = usual_band_edge * std::pow(static_cast<double>(many_nodes) / static_cast<double>(mesh_.n_nodes), -1 / power_of_nodes);
+    const double finer = std::pow(static_cast<double>(mesh_.n_nodes) / many_nodes, 1 / power_of_nodes);
     steps_.say("edges", "the mesh has " + grouped(mesh_.n_nodes) + " nodes with --band-edge " + shown(band_edge_) + ", and would have about " +
-                            grouped(many_nodes) + " with " + printed("%.2f", finer * band_edge_ / usual_band_edge));
+                            grouped(many_nodes) + " with " + printed("%.2f", finer * band_edge_));
     steps_.say("done", "in " + printed("%.0f", steps_.seconds()) + " s. " + options_.folder + " has:");
     const std::pair<const char *, const char *> files[] = {
         {"mesh.msh", "the mesh for gmsh's readers; mesh.vtu for ParaView, and faces/ with its boundaries"},
