@@ -16,10 +16,13 @@
 #include "program/input/valve_source.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
+#include "program/patient/fenicsx_case.hpp"
 #include "program/patient/flat_ends.hpp"
+#include "program/patient/openfoam_case.hpp"
 #include "program/patient/patient_mesh.hpp"
 #include "program/patient/patient_steps.hpp"
 #include "program/patient/solver_case.hpp"
+#include "program/patient/svmultiphysics_case.hpp"
 #include "program/patient/valve_sides.hpp"
 #include "program/patient/vectors.hpp"
 #include "program/patient/wall_frame.hpp"
@@ -50,7 +53,7 @@ struct Beat {
 };
 constexpr Beat aortic_beat{"time,opening\n0.00,0\n0.06,1\n0.17,0.79\n0.21,0\n", "0:0.22:0.02"};
 constexpr Beat mitral_beat{"time,opening\n0.00,0\n0.22,0\n0.29,1\n0.40,0.62\n0.50,0.55\n0.57,0.85\n0.66,0\n", "0.2:0.68:0.04"};
-const char *const beat_period = "0.72";
+const char *const shown_period = "0.72";
 
 bool is_mitral_kind(const std::string &kind) { return kind == "mitral" || kind == "mitral_coapting"; }
 
@@ -446,7 +449,7 @@ class PatientRun {
     write_text("beat.csv", beat.text);
     const Words words = with_valve(
         {"mark", "mesh.msh"},
-        {"--resistance", shortest(resistance_), "--cycle", "beat.csv", "--period", beat_period, "--interpolation", "cubic", "--times",
+        {"--resistance", shortest(resistance_), "--cycle", "beat.csv", "--period", shown_period, "--interpolation", "cubic", "--times",
          beat.times, "--output", "beat.pvd", "--surface-output", "leaflets.pvd", "--series-table", "beat_table.csv"});
     Words with_movie = words;
     with_movie.insert(with_movie.end(), {"--movie", "beat.mp4", "--frame-rate", "6"});
@@ -476,7 +479,12 @@ class PatientRun {
 
   void write_case() {
     if (options_.solver == "none") return;
-    refuse_usage("--solver: " + options_.solver + " has no writer yet");
+    const double begin = steps_.seconds();
+    const SolverCase the = solver_case();
+    if (options_.solver == "openfoam") write_openfoam_case(the);
+    if (options_.solver == "svmultiphysics") write_svmultiphysics_case(the);
+    if (options_.solver == "fenicsx") write_fenicsx_case(the);
+    steps_.say("case", "for " + options_.solver, steps_.seconds() - begin);
   }
 
   void write_report() {
