@@ -5,6 +5,7 @@
 #include <riis/riis_vtk.h>
 #include <riis/riis.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -59,6 +60,23 @@ struct Picture {
   std::int32_t view;
 };
 
+// The names of captions and panels. A name's position is the value of its RIIS_VTK_CAPTIONS_* or RIIS_VTK_PANELS_*.
+inline const std::vector<std::string> caption_names = {"all", "scale", "none"};
+inline const std::vector<std::string> panel_names = {"both", "valve", "marks"};
+
+struct PictureSize {
+  std::int32_t width = 1600, height = 800;
+  static constexpr std::int32_t least = 64, most = 8192;  // the range that riis_vtk accepts
+};
+
+// How all pictures of a run and its movie look.
+struct PictureStyle {
+  std::optional<PictureSize> size;  // not set if the user gave none
+  std::array<double, 4> background = {1, 1, 1, 1};  // red, green, blue and opacity
+  std::int32_t captions = RIIS_VTK_CAPTIONS_ALL;
+  std::int32_t panels = RIIS_VTK_PANELS_BOTH;
+};
+
 // The options of a series in time, and of a case of several valves.
 struct SeriesOptions {
   std::string case_file;      // "" if the command line describes the only valve
@@ -99,6 +117,7 @@ struct MarkOptions : ValveOptions {
   std::string output, surface_output, stats;  // "" if not wanted
   std::string surface_output_option = "--surface-output";
   std::vector<Picture> pictures;
+  PictureStyle style;
   std::int32_t n_steps = 0;     // number of steps to be timed
   std::string prefix = "riis";  // the prefix of the arrays in the output
   bool replace = false;         // whether to replace existing arrays with these names

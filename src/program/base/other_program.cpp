@@ -8,7 +8,9 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <new>
+#include <system_error>
 
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
@@ -92,6 +94,17 @@ ProgramEnd run_program(const std::vector<std::string> &words, std::FILE *input,
   std::rewind(messages.get());
   read_lines(messages.get(), [&end](const std::string &line) { end.last_message = line; });
   return end;
+}
+
+std::string program_on_path(const std::string &name) {
+  const char *path = std::getenv("PATH");
+  for (const std::string &folder : split(path ? path : "", ":")) {
+    const std::string program = folder + "/" + name;
+    std::error_code error;
+    if (!folder.empty() && std::filesystem::is_regular_file(program, error) && access(program.c_str(), X_OK) == 0)
+      return program;
+  }
+  return "";
 }
 
 std::string python_of_user() {

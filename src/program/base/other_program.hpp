@@ -29,6 +29,9 @@ ProgramEnd run_program(
     const std::vector<std::string> &words, std::FILE *input = nullptr,
     const std::function<void(const std::string &)> &read = [](const std::string &) {});
 
+// Returns the path of the program with that name on the PATH, or "" if there is none.
+std::string program_on_path(const std::string &name);
+
 // Returns the Python that the program starts: `python3`, or the one that the environment variable RIIS_PYTHON names.
 std::string python_of_user();
 

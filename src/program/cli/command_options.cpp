@@ -267,6 +267,43 @@ void declare_loudness(Command &command, ValveOptions &options) {
   command.flag("--strict", "Exit with status 4 if there was a warning", options.strict);
 }
 
+// Reads a text such as 3840x2160.
+PictureSize parse_size(const std::string &text, const std::string &subject) {
+  const std::vector<std::string> sides = split(text, "x");
+  PictureSize size;
+  if (sides.size() != 2) refuse_usage(subject + ": " + text + " is not WIDTHxHEIGHT, such as 1920x1080");
+  size.width = parse_integer(sides[0], subject);
+  size.height = parse_integer(sides[1], subject);
+  for (const std::int32_t side : {size.width, size.height})
+    if (side < PictureSize::least || side > PictureSize::most)
+      refuse_usage(subject + ": " + text + ": " + std::to_string(side) + " is not from " +
+                   std::to_string(PictureSize::least) + " to " + std::to_string(PictureSize::most) + " pixels");
+  return size;
+}
+
+// Reads white, black, transparent, or a colour as six hexadecimal digits.
+std::array<double, 4> parse_background(const std::string &text, const std::string &subject) {
+  if (text == "white") return {1, 1, 1, 1};
+  if (text == "black") return {0, 0, 0, 1};
+  if (text == "transparent") return {1, 1, 1, 0};
+  const std::string digits = text.substr(text.rfind('#', 0) == 0 ? 1 : 0);
+  if (digits.size() != 6 || digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
+    refuse_usage(subject + ": " + text + " is not white, black, transparent, or six hexadecimal digits such as f4f1ea");
+  std::array<double, 4> colour = {0, 0, 0, 1};
+  for (std::size_t k = 0; k < 3; ++k) colour[k] = std::stoi(digits.substr(2 * k, 2), nullptr, 16) / 255.0;
+  return colour;
+}
+
+void declare_style(Command &command, PictureStyle &style) {
+  command.parsed("--picture-size", "WIDTHxHEIGHT", "Pixels of pictures and movies (default 1600x800)", style.size,
+                 parse_size);
+  command.parsed("--picture-background", "COLOUR", "white (default), black, transparent, or as f4f1ea: riis help pictures",
+                 style.background, parse_background);
+  command.choice("--picture-captions", "all (default), scale (only the scale bar) or none", caption_names,
+                 style.captions, "WHICH");
+  command.choice("--picture-panels", "both (default), valve or marks", panel_names, style.panels, "WHICH");
+}
+
 // --view is declared after --picture, so CLI11 passes the pictures first. Their number is then known when the views are read.
 void declare_pictures(Command &command, MarkOptions &options) {
   CLI::Option *const pictures =
@@ -287,6 +324,7 @@ void declare_pictures(Command &command, MarkOptions &options) {
       ->allow_extra_args(false)
       ->check(CLI::IsMember(view_names))
       ->needs(pictures);
+  declare_style(command, options.style);
 }
 
 void declare_stats(Command &command, MarkOptions &options) {
