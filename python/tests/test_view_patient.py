@@ -7,7 +7,7 @@ import os
 import pathlib
 import shlex
 import subprocess
-import sys
+from random import Random
 
 import numpy
 import pytest
@@ -44,9 +44,11 @@ def patient(tmp_path_factory):
     """A folder with the root and the landmarks of docs/patient.md, and a tube of tetrahedra around the root."""
     folder = tmp_path_factory.mktemp("patient")
     make = synthetic_patient()
-    subprocess.run([sys.executable, ROOT / "examples/patient/make_patient.py", folder], check=True)
-    root = make.Root()
-    points, cells = tube.mesh(27, radius=17.0, length=32.0, middle=8.0)
+    make.N_ANGLES, make.SPACING = 60, 1.5  # a coarser wall
+    rng, root = Random(1), make.Root()
+    make.write_stl(folder / "root.stl", make.wall_triangles(root, make.waves(rng)))
+    make.write_landmarks(folder / "landmarks.mrk.json", root, rng, 0.3)
+    points, cells = tube.mesh(21, radius=17.0, length=32.0, middle=8.0)
     axes = numpy.array([root.e1, root.e2, root.e3])
     write_mesh(folder / "tube.vtk", points @ axes + root.centre, cells)
     return folder
@@ -464,23 +466,29 @@ def test_without_a_mesh_the_command_writes_the_surface(patient, wall, tmp_path):
     assert numpy.array_equal(pyvista.read(tmp_path / "seen.vtp").points, model.surface(0).vertices)
 
 
-def test_a_command_that_the_program_would_refuse_is_refused(patient, wall, mesh):
-    """The wall is within the skirt of the closed valve, but not of the open one."""
-    model = model_of(patient, wall, mesh)
-    model.add("coapting")
-    model.read_landmarks(patient / "landmarks.mrk.json")
-    model.place_by_landmarks(0, warp="smoothed")
-    widest, closed = model.widest_gap(0), model.surface(0).gap(wall.surface).most
-    model.set_skirt(0, 6.0)
-    assert model.widest_gap(0) == widest >= closed
-    if widest > 1.02 * closed:
-        model.set_skirt(0, 1.005 * closed)
-        assert light(model, "wall").level == "bad" and "at the opening" in light(model, "wall").text
-        with pytest.raises(riis.InvalidArgumentError, match="skirt: of the valve coapting is .* mm at most, and the wall is up to"):
-            model.command()
-        model.cure("wall")
-        assert light(model, "wall").level == "good"
-    assert "--wall=" in model.command()
+def test_a_command_that_the_program_would_refuse_is_refused():
+    """The wall, a cone, is within the skirt of the closed valve, but not of the open one, whose annulus has moved."""
+    n, (low, high) = 90, (-3.0, 3.0)
+    turn = numpy.linspace(0.0, 2.0 * numpy.pi, n, endpoint=False)
+    around = numpy.column_stack([numpy.cos(turn), numpy.sin(turn)])
+    points = numpy.concatenate([numpy.column_stack([(2.6 - 0.35 * z) * around, numpy.full(n, z)]) for z in (low, high)])
+    k, after = numpy.arange(n), (numpy.arange(n) + 1) % n
+    faces = numpy.concatenate([numpy.column_stack([k, after, n + k]), numpy.column_stack([after, n + after, n + k])])
+    wall = Wall(points, faces, "cone.stl")
+    model = view.Model(None, wall=wall, unit="cm")
+    model.add("mitral")
+    model.place(0, (0.0, 0.0, 0.0))
+    widest, closed = wall.widest(model.valves[0]), model.surface(0).gap(wall.surface).most
+    assert widest.opening > 0.0 and widest.gap > 1.02 * closed and not widest.is_missed
+    assert wall.gap(model.surface(0)).most == closed
+    model.set_skirt(0, 1.005 * closed)
+    assert wall.widest(model.valves[0]) == widest
+    assert light(model, "wall").level == "bad" and f"at the opening {shown(widest.opening)}" in light(model, "wall").text
+    for refused in (model.command, model.case):
+        with pytest.raises(riis.InvalidArgumentError, match="skirt: of the valve mitral is .* cm at most, and the wall is up to"):
+            refused()
+    model.cure("wall")
+    assert light(model, "wall").level == "good" and "--wall=" in model.command()
 
 
 def test_a_session_of_a_patient_opens_as_it_was(patient, wall, mesh, tmp_path):

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy
 
-from riis._riis import Keyframes, Marks, Surface
+from riis._riis import Keyframes, Marks, Surface, Valve
 from riis.view._landmark_files import LandmarkSet
 from riis.view._valves import ValveState, refuse
 from riis.view._walls import Wall
@@ -29,15 +29,22 @@ class Placed:
     marks: Marks
     seconds: float  # that the surface took
     wall: Wall | None  # to which the skirt leads; None without a skirt
+    valve: Valve | None  # with this skirt; None without a skirt
 
     @classmethod
     def of(cls, state: ValveState, before: Placed | None = None, wall: Wall | None = None) -> Placed:
         start = clock.perf_counter()
         same = before is not None and before.state.surface is state.surface
         keyframes = before.keyframes if before is not None and same else state.keyframes()
-        surface = state.made_surface(keyframes, None if wall is None else wall.surface)
+        valve = None
+        if state.skirt > 0.0:  # the skirt is that of the closed valve, so it stays while the valve opens
+            known = before is not None and before.valve is not None and before.wall is wall and before.state.has_skirt_of(state)
+            valve = before.valve if known and before is not None else state.valve_in(None if wall is None else wall.surface)
+            assert valve is not None
+            valve["opening"] = state.opening
+        surface = state.made_surface(keyframes, valve)
         marks = before.marks if before is not None else Marks()
-        return cls(state, surface, keyframes, marks, clock.perf_counter() - start, wall if state.skirt > 0.0 else None)
+        return cls(state, surface, keyframes, marks, clock.perf_counter() - start, wall if valve is not None else None, valve)
 
 
 class Snapshot(NamedTuple):

@@ -12,7 +12,6 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy
-from numpy.typing import NDArray
 
 from riis._fit import FitResult, fit
 from riis._place import UNITS, PlaceResult, place
@@ -21,14 +20,11 @@ from riis._riis import PlacedFile, Valve, with_parameters
 from riis.view import _landmark_files as files
 from riis.view._history import Snapshot, Valves
 from riis.view._landmark_files import FLOW, LandmarkSet, canonical, missing, next_name, role_of, roles_of
-from riis.view._lights import MOST_BEYOND, N_OPENINGS
 from riis.view._numbers import in_unit, with_unit
 from riis.view._valves import (
     PlacedSource, ValveState, WarpState, check_kind, parameters_of, point, refuse, values_that_were_set, vector,
 )
-from riis.view._walls import Wall, checked_skirt
-
-Reals = NDArray[numpy.float64]
+from riis.view._walls import MOST_BEYOND, Wall, checked_skirt
 
 WARPS = ("none", "smoothed", "exact")
 
@@ -67,31 +63,16 @@ class LandmarkedValves(Valves):
             raise refuse("skirt: there is no wall that it could reach; open a wall first, such as root.stl")
         self._replace(i, ("skirt", i), skirt=length)
 
-    def widest_gap(self, i: int) -> float | None:
-        """Returns the widest gap between a valve and the wall over all openings, mesh units. None: there is no wall beside a
-        part of the attachment."""
-        state, wall = self._at(i).state, self._wall
-        if wall is None or state.surface is not None:
-            return None
-        widest = 0.0
-        for opening in numpy.linspace(0.0, 1.0, N_OPENINGS).tolist():
-            surface = _changed(state, opening=opening, skirt=0.0).made_surface()
-            gap = surface.gap(wall.surface)
-            if gap.n_without_wall == gap.distance.size or (opening == 0.0 and gap.n_without_wall > 0):
-                return None
-            widest = max(widest, gap.most)
-        return widest
-
     def _check_skirts(self) -> None:
         """Refuses a skirt that the program would refuse: the wall must be within reach at all openings."""
-        for k, state in enumerate(self.valves):
-            if state.skirt > 0.0:
-                widest = self.widest_gap(k)
-                if widest is None or widest > (1.0 + MOST_BEYOND) * state.skirt:
-                    found = "missed" if widest is None else f"up to {with_unit(widest, self._unit)} away as the valve opens"
+        for state in self.valves:
+            if state.skirt > 0.0 and self._wall is not None:
+                widest = self._wall.widest(state)
+                if widest.is_missed or widest.gap > (1.0 + MOST_BEYOND) * state.skirt:
+                    found = "missed" if widest.is_missed else f"up to {with_unit(widest.gap, self._unit)} away as the valve opens"
                     raise refuse(
-                        f"skirt: of the valve {state.name} is {with_unit(state.skirt, self._unit)} at most, and the wall is {found}: take a longer "
-                        "skirt, as the light wall proposes"
+                        f"skirt: of the valve {state.name} is {with_unit(state.skirt, self._unit)} at most, and the wall is {found}: "
+                        "take a longer skirt, as the light wall proposes"
                     )
 
     # ---- Landmarks ----

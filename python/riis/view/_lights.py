@@ -22,15 +22,13 @@ from riis._riis import (
 from riis.view._cells import Region, WholeMesh
 from riis.view._numbers import shown, with_unit
 from riis.view._valves import ValveState
-from riis.view._walls import Wall
+from riis.view._walls import MOST_BEYOND, Wall
 
 Reals = NDArray[numpy.float64]
 
 NAMES = ("unit", "inside", "half_thickness", "crossing", "wall", "sealed")  # in the order in which faults are corrected
 LEVELS = ("bad", "warn", "good", "off")  # the worst first
 
-N_OPENINGS = 11  # at which the program tests that the wall is within the longest skirt
-MOST_BEYOND = 0.01  # the share by which the gap may exceed the longest skirt, as in the program
 _MOST_DRAWN = 300  # crossing pairs that are drawn
 
 _NO_POINTS = numpy.empty((0, 3))
@@ -244,20 +242,19 @@ def crossing(scene: Scene) -> Light:
 
 def wall(scene: Scene) -> Light:
     """Judges the gap between the valve's attachment and the wall."""
-    state = scene.state
-    if scene.given_wall is not None:
-        boundary: Surface | None = scene.given_wall.surface
-    else:
-        boundary = scene.region.wall() if scene.region.has_cells else None
-    if boundary is None:
+    state, given = scene.state, scene.given_wall
+    boundary = None if given is not None or not scene.region.has_cells else scene.region.wall()
+    if given is None and boundary is None:
         return Light("wall", "off", "the mesh has no wall near the valve", valve=scene.number)
     if state.kind == "bileaflet":
-        return _ring(scene, scene.given_wall.outward if scene.given_wall is not None else boundary)
+        around = boundary if given is None else given.outward
+        assert around is not None
+        return _ring(scene, around)
     if state.surface is not None:
         return Light("wall", "off", "the attachment of a surface from a file is unknown", valve=scene.number)
     bare = scene.surface if state.skirt == 0.0 else dataclasses.replace(state, skirt=0.0).made_surface()
     try:
-        gap = bare.gap(boundary)
+        gap = given.gap(bare) if boundary is None and given is not None else bare.gap(boundary)  # type: ignore[arg-type]
     except Error as error:
         return Light("wall", "off", str(error), valve=scene.number)
     attachment = numpy.array(bare.attachment.edges)
@@ -279,12 +276,13 @@ def wall(scene: Scene) -> Light:
         return Light("wall", "warn", f"{text}; {100 * gap.n_without_wall / n_ends:.0f} % of the attachment has no wall beside it",
                      "move or turn the valve", edges=drawn, valve=scene.number)
     if state.skirt > 0.0:
-        return _reach(scene, text, boundary)
+        assert given is not None
+        return _reach(scene, text, given)
     if not wide.any():
         return Light("wall", "good", text, valve=scene.number)
     needed = rounded_up(1.02 * gap.most)
-    if scene.given_wall is not None:  # the attachment moves as the valve opens
-        needed = rounded_up(1.02 * _widest(scene, boundary)[0])
+    if given is not None:  # the attachment moves as the valve opens
+        needed = rounded_up(1.02 * given.widest(state).gap)
     advice = "make the annulus larger, or give the valve a skirt to the wall"
     cure = None
     if needed < 0.5 * scene.largest_side:
@@ -292,20 +290,12 @@ def wall(scene: Scene) -> Light:
     else:
         advice = "move the valve, or make its annulus larger: the gap is too wide for a skirt"
     return Light("wall", "bad", f"{text}: blood passes beside the valve", advice, cure, points=gap.widest_point[None, :],
-                 edges=drawn, valve=scene.number, value=needed if scene.given_wall is not None else needed / state.scale)
+                 edges=drawn, valve=scene.number, value=needed if given is not None else needed / state.scale)
 
 
-def _widest(scene: Scene, boundary: Surface) -> tuple[float, float]:
-    """Returns the widest gap over all openings, and the opening at which it is."""
-    return max(
-        (dataclasses.replace(scene.state, skirt=0.0, opening=opening).made_surface().gap(boundary).most, opening)
-        for opening in numpy.linspace(0.0, 1.0, N_OPENINGS).tolist()
-    )
-
-
-def _reach(scene: Scene, text: str, boundary: Surface) -> Light:
+def _reach(scene: Scene, text: str, given: Wall) -> Light:
     """Judges whether a skirt to the wall is long enough at all openings, as the program does."""
-    widest, opening = _widest(scene, boundary)
+    widest, opening, _ = given.widest(scene.state)
     if widest <= (1.0 + MOST_BEYOND) * scene.state.skirt:
         return Light("wall", "good", text, valve=scene.number)
     needed = rounded_up(1.02 * widest)

@@ -231,10 +231,15 @@ class ValveState:
             return None
         return Keyframes(source.times, source.vertices, source.faces, leaflet_id=source.leaflet_id, period=source.period)
 
-    def made_surface(self, keyframes: Keyframes | None = None, wall: Surface | None = None) -> Surface:
-        """Makes the surface."""
+    def has_skirt_of(self, other: ValveState) -> bool:
+        """Returns whether another valve has the same skirt to the same wall."""
+        names = ("kind", "parameters", "rotation", "origin", "scale", "warp", "skirt")
+        return all(getattr(self, name) == getattr(other, name) for name in names)
+
+    def made_surface(self, keyframes: Keyframes | None = None, valve: Valve | None = None) -> Surface:
+        """Makes the surface, of a valve with its skirt if that is given."""
         source = self.surface
-        valve = self.valve_in(wall)
+        valve = self.valve() if valve is None else valve
         if valve is not None:
             return Surface(valve, **self.options)
         assert source is not None
