@@ -26,7 +26,7 @@ import riis
 from riis._plot import COLOURS
 from riis.view import guard, reading, rows, saving
 from riis.view._lights import counted
-from riis.view._outputs import read_session
+from riis.view._sessions import read_session
 from riis.view.details import N_DETAILS, Details
 from riis.view.hand import Hand
 from riis.view.heartbeat import Heartbeat
