@@ -203,6 +203,24 @@ struct PlaceOptions : ValveOptions {
   std::string output, foam_output, c_output, fortran_output;  // "" if not wanted, "-" for stdout
 };
 
+// The options of riis patient. `wall` is the file of the wall. Points have its unit, and so have lengths without a unit.
+struct PatientOptions : ValveOptions {
+  std::string landmarks, folder;    // a file, and the folder for the results
+  bool has_valve = false;           // whether the user named the kind
+  std::string solver = "none";      // one of solver_names
+  std::optional<Unit> wall_unit;    // of the wall's file; nothing: found by the landmarks
+  std::string axes;                 // of the wall: "LPS" or "RAS"; "": found by the landmarks
+  std::int32_t warp_choice = smoothed_warp;  // a LandmarkWarp
+  std::optional<Amount> noise;               // of the landmarks
+  std::optional<std::vector<double>> flow;   // in the wall's axes
+  std::optional<std::vector<double>> inlet;  // a point near the flat end that the blood comes from
+  std::vector<std::vector<double>> outlets;  // points near the other ends
+  std::optional<Amount> given_half_thickness, given_skirt, given_largest_edge, given_resistance;
+  std::optional<double> band_edge;  // in half thicknesses
+  bool replace = false;             // whether to replace the files of an earlier run
+};
+inline const std::vector<std::string> solver_names = {"none", "openfoam", "svmultiphysics", "fenicsx"};
+
 // The options of riis params.
 struct ParamsOptions : ValveOptions {
   bool describe = false;  // print a table instead of JSON

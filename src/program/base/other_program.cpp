@@ -92,7 +92,8 @@ ProgramEnd run_program(const std::vector<std::string> &words, std::FILE *input,
   read_lines(output.get(), read);
   end.status = status_of(process);
   std::rewind(messages.get());
-  read_lines(messages.get(), [&end](const std::string &line) { end.last_message = line; });
+  read_lines(messages.get(), [&end](const std::string &line) { end.messages.push_back(line); });
+  if (!end.messages.empty()) end.last_message = end.messages.back();
   return end;
 }
 

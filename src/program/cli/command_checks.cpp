@@ -292,6 +292,22 @@ PlaceOptions finish_place(const Command &command, PlaceOptions options) {
   return options;
 }
 
+PatientOptions finish_patient(const Command &command, PatientOptions options) {
+  options.has_valve = command.has("--valve");
+  if (options.has_valve && is_valve_file(options.valve))
+    refuse_usage("--valve: " + options.valve + " is a file; landmarks place a kind of valve");
+  if (options.has_valve) use_named_valve(options);
+  check_set_opening(options, "has no effect: the valve opens and closes");
+  if (options.noise && options.noise->number < 0) refuse_usage("--noise: " + options.noise->text + " is below 0");
+  if (options.solver == "none") return options;
+  const Unit needed = options.solver == "svmultiphysics" ? Unit::centimetre : Unit::metre;
+  if (options.unit && *options.unit != needed)
+    refuse_usage("--unit: " + options.solver + " takes " + words_of(needed) + ", not " + words_of(*options.unit) +
+                 ": leave --unit out, because riis patient converts");
+  options.unit = needed;
+  return options;
+}
+
 // ---- Values that follow from options ----
 
 const std::vector<std::string> &triangulation_names() {

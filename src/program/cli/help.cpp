@@ -67,6 +67,11 @@ riis help parameters explains the names.)"},
   riis mark root.vtu --valve placed.json --opening 0.3 --output marked.vtu
   riis place annulus.csv --valve mitral --flow 0,0,-1 --set anterior_length=2.4 --c lines.c
 riis help landmarks explains the files and the report.)"},
+    {"patient", R"(Examples:
+  riis patient root.stl landmarks.mrk.json --output case
+  riis patient root.stl landmarks.mrk.json --output case --solver openfoam
+  riis patient ventricle.stl landmarks.json --valve mitral --output case --half-thickness '1.2 mm' --inlet 12,-40,85
+riis help patient explains the steps. The program gmsh makes the mesh.)"},
     {"view", R"(Examples:
   riis view root.vtu
   riis view root.vtu --unit mm --folder results --no-browser
@@ -227,6 +232,19 @@ landmarks that are not at the mesh are refused, and the message says if they wou
 Sizes from "proportion" have no landmark: they keep the proportions of --params or of the defaults. A size is NOT DETERMINED if
 its standard error at the noise moves the valve by more than a fifteenth of its radius. It is then drawn to its proportion.
 Landmarks are those of the closed valve. The report's residuals are distances from landmarks to the valve.
+)"},
+    {"patient", "from a wall and landmarks to a mesh with a valve",
+     R"(
+riis patient WALL LANDMARKS --output FOLDER makes all of a patient's valve: an aortic valve in its root, or a mitral valve in a
+ventricle with the ends of the atrium and of the aorta. It sizes and places the valve, warps it to the landmarks, leads a skirt to
+the wall, makes a mesh by gmsh, and marks it. It prints each command before it runs it. The commands also run one by one, in FOLDER.
+The unit and the axes of WALL are found: the landmarks must lie at the wall. If two possibilities fit, the command asks. The flat
+ends of the wall become the boundaries inlet, outlet, outlet_2 and so on, and the rest becomes wall. --inlet and --outlet name ends
+by points near them.
+The command stops, and says what to do, if WALL has a fault or is not within --skirt of the valve, if leaflets go through each
+other, if an edge leaks at one of 11 openings, or if the closed valve does not seal. If an edge leaks, it first makes the mesh
+once more with shorter edges. FOLDER has the file UNFINISHED.txt until all is done. A sick valve that never closes need not seal.
+--solver writes a case into FOLDER, and the last line on stdout runs it.
 )"},
     {"series", "many times: .pvd, movies, tables",
      R"(
