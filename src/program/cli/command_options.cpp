@@ -610,6 +610,10 @@ void declare_place(Command command, PlaceOptions &options) {
   command.text("--output", "OUT.json", "The placed valve, for --valve of the other commands; - is stdout",
                options.output);
   command.text("--foam", "OUT", "The valve and its placement as OpenFOAM reads them, in metres", options.foam_output);
+  command
+      .parsed("--skirt", "L", "The longest skirt that OpenFOAM accepts, in the mesh's unit (default 6 mm)",
+              options.skirt, parse_positive_finite)
+      ->needs(command.option("--foam"));
   command.text("--c", "OUT", "The valve and its placement as lines of C", options.c_output);
   command.text("--fortran", "OUT", "The valve and its placement as lines of Fortran", options.fortran_output);
   declare_loudness(command, options);
