@@ -397,9 +397,9 @@ enum {
 /* The contents and the view of a picture. Texts are in ASCII. Characters outside ASCII are drawn as "?". */
 typedef struct riis_vtk_picture_options {
   int64_t struct_size;    /* set by the init function */
-  const char *title;      /* the caption of the surface. Default NULL: "Surface" */
-  const char *unit;       /* follows the number at the scale bar, such as "mm". NULL, the default, and "" stand for
-                             "mesh units", or for "units" without a mesh */
+  const char *title;      /* the caption of the surface, which may have one line break. Default NULL: "Surface" */
+  const char *unit;       /* follows the number at the scale bar, such as "mm". A bar below 0.1 "m" is given in mm. NULL,
+                             the default, and "" stand for "mesh units", or for "units" without a mesh or a wall */
   int64_t n_leaflet_names;/* >= 0, default 0 */
   const char *const *leaflet_names; /* (n_leaflet_names): the names by leaflet_id, for the key of the colours. Default
                                        NULL: "leaflet 0", ..., as for leaflets without a name here */

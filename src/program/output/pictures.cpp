@@ -105,13 +105,14 @@ std::string fixed(double number, int decimals) {
   return printed(("%." + std::to_string(decimals) + "f").c_str(), number);
 }
 
-// Returns a text such as ", orifice 2.10 cm2". Returns "" for a surface without an outline. Areas are in cm2, as clinicians give
-// them, unless the unit of the mesh is not known.
+// Returns a text such as ", orifice 2.10 cm2". Returns "" for a surface without an outline. Slits of a closed valve do not count.
+// Areas are in cm2 and the half thickness is in mm, as people give them, unless the unit of the mesh is not known.
 std::string orifice_text(const riis_surface *surface, const std::optional<Unit> &unit) {
   const auto orifice = get<riis_orifice>(riis_surface_get_orifice, surface, nullptr);
   if (orifice.outline == RIIS_OUTLINE_NONE) return "";
+  const double area = has_slits(orifice) ? orifice.effective_area : orifice.area;
   const double factor = unit ? factor_between(*unit, Unit::centimetre) : 1;
-  return ", orifice " + (unit ? fixed(orifice.area * factor * factor, 2) + " cm2" : printed("%.3g", orifice.area));
+  return ", orifice " + (unit ? fixed(area * factor * factor, 2) + " cm2" : printed("%.3g", area));
 }
 
 // Returns the line of a title about the half thickness, after a line break. Returns "" if the valves have several.
@@ -119,7 +120,8 @@ std::string half_thickness_line(const std::vector<MovingValve> &valves, const st
   const double first = info_of(valves[0].surface()).half_thickness;
   for (const MovingValve &valve : valves)
     if (info_of(valve.surface()).half_thickness != first) return "";
-  return "\nhalf thickness " + printed("%.3g", first) + (unit ? std::string(" ") + name_of(*unit) : "");
+  const double factor = unit ? factor_between(*unit, Unit::millimetre) : 1;
+  return "\nhalf thickness " + printed("%.3g", first * factor) + (unit ? " mm" : "");
 }
 
 // The marks of several valves together. A node gets the leaflet of its nearest valve.

@@ -135,7 +135,10 @@ void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double
             layout.line_width(), ink);
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text << length << " " << unit << (length == 1 || !has_plural ? "" : "s");
+  // A length in metres is given in millimetres, as people do with a valve.
+  const bool is_small = unit == "m" && length < 0.1;
+  text << (is_small ? 1000 * length : length) << " " << (is_small ? "mm" : unit)
+       << (length == 1 || !has_plural ? "" : "s");
   const double after = end + 0.6 * layout.letter();
   const double right = layout.column_left(layout.n_columns() - 1) + layout.panel_width();
   add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter(), ink);

@@ -38,7 +38,7 @@ constexpr vtkIdType least_faces = 3;       // of an end
 constexpr double least_rest = 0.1;         // of the wall's area, without its flat ends
 
 // The shell's opacity where it is seen at a right angle, and what a grazing angle adds.
-constexpr double opacity_across = 0.10, opacity_along = 0.50, grazing_power = 2.5;
+constexpr double opacity_across = 0.10, opacity_along = 0.36, grazing_power = 2.2;
 constexpr unsigned char shell_grey = 150;
 
 // The normals and areas of faces, and the pairs of faces that share an edge.
