@@ -405,12 +405,12 @@ def states_of(model, tmp_path):
     model.place(0, numpy.array(model.valves[0].origin) + (0.2, -0.1, 0.3), axis=numpy.array(model.valves[0].axis) + 0.02)
     yield "moved by hand"
     model.place_by_landmarks(0, warp="exact")
-    model.set(0, "triangulation", "fixed")
     yield "placed anew, with an exact warp"
     model.place_by_landmarks(0)
     yield "placed without a warp"
     model.set_skirt(0, 0)
     model.place(0, scale=9.9)
+    model.set(0, "triangulation", "fixed")
     yield "scaled by hand"
 
 
