@@ -27,7 +27,8 @@ bool is_outlet(const std::string &name) { return name == "outlet" || name.rfind(
 
 Ends ends_of(const SolverCase &solver, Unit unit) {
   if (solver.unit != unit)
-    refuse_data(solver.folder + ": its mesh is in " + words_of(solver.unit) + ", and this solver needs " + words_of(unit));
+    refuse_data(solver.folder + ": its mesh is in " + words_of(solver.unit) + ", and this solver needs " +
+                words_of(unit));
   Ends ends;
   int n_inlets = 0, n_walls = 0;
   for (const Boundary &boundary : solver.boundaries) {
@@ -45,8 +46,9 @@ Ends ends_of(const SolverCase &solver, Unit unit) {
     }
   }
   if (n_inlets != 1 || n_walls != 1 || ends.outlets.empty())
-    refuse_data(solver.folder + ": a case needs one inlet, one wall and at least one outlet, not " + std::to_string(n_inlets) +
-                ", " + std::to_string(n_walls) + " and " + std::to_string(ends.outlets.size()));
+    refuse_data(solver.folder + ": a case needs one inlet, one wall and at least one outlet, not " +
+                std::to_string(n_inlets) + ", " + std::to_string(n_walls) + " and " +
+                std::to_string(ends.outlets.size()));
   return ends;
 }
 
@@ -74,7 +76,8 @@ void write_into(const SolverCase &solver, const std::string &name, const std::st
 void make_runnable(const SolverCase &solver, const std::string &name) {
   const std::string path = (fs::path(solver.solver) / name).string();
   std::error_code error;
-  fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add, error);
+  fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add,
+                  error);
   if (error) refuse_data(path + ": cannot be made a program: " + error.message());
 }
 

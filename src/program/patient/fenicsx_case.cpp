@@ -10,9 +10,9 @@
 namespace riis::program {
 namespace {
 
-constexpr double time_step = 0.002;  // s
+constexpr double dolfinx_step = 0.002;  // s
 // Processor time of a cell and a step, measured (examples/fenicsx/README.md, "A patient's valve").
-constexpr double seconds_of_cell = 1e-4;
+constexpr double dolfinx_seconds = 1e-4;
 
 Json keys_of(const PressureCurve &curve) {
   Json keys = Json::array();
@@ -35,8 +35,8 @@ Json numbers_of(const SolverCase &solver, const Ends &ends, int n_steps) {
     // Several outlets share the blood by their areas.
     const double share = outlet.area / ends.outlet_area;
     windkessels[outlet.name] = {{"numbers",
-                                 {body.proximal_resistance / share, body.distal_resistance / share, body.compliance * share,
-                                  body.distal_pressure}},
+                                 {body.proximal_resistance / share, body.distal_resistance / share,
+                                  body.compliance * share, body.distal_pressure}},
                                 {"pressure", body.initial_pressure}};
   }
   return {{"valve", solver.kind},
@@ -60,7 +60,7 @@ Json numbers_of(const SolverCase &solver, const Ends &ends, int n_steps) {
             {"filter_time", 0.002},
             {"dwell_time", 0.02}}},
           {"period", beat_period},
-          {"time_step", time_step},
+          {"time_step", dolfinx_step},
           {"steps", n_steps}};
 }
 
@@ -71,12 +71,13 @@ void write_fenicsx_case(const SolverCase &solver) {
   make_case_folder(solver);
   for (const char *name : {"mesh.msh", "placed.json", "wall.stl"})
     if (solver.skirt > 0 || name != std::string("wall.stl")) copy_into(solver, name, name);
-  const int n_steps = static_cast<int>(beat_period / time_step + 0.5);
+  const int n_steps = static_cast<int>(beat_period / dolfinx_step + 0.5);
   write_into(solver, "case.json", numbers_of(solver, ends, n_steps).dump(1) + "\n");
   write_into(solver, "run.py", fenicsx_run);
   make_runnable(solver, "run.py");
-  print_line("a beat has " + std::to_string(n_steps) + " steps of " + shortest(time_step) + " s; dolfinx needs about " +
-             duration_text(seconds_of_cell * static_cast<double>(solver.n_cells) * n_steps) + " on one processor");
+  print_line("a beat has " + std::to_string(n_steps) + " steps of " + shortest(dolfinx_step) +
+             " s; dolfinx needs about " +
+             duration_text(dolfinx_seconds * static_cast<double>(solver.n_cells) * n_steps) + " on one processor");
 }
 
 }  // namespace riis::program

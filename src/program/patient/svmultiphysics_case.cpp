@@ -25,7 +25,7 @@ constexpr double largest_edge = 0.35;
 constexpr double seconds_of_cell = 1e-4;
 constexpr int n_modes = 128;  // of a curve of pressure, which differs from its polygon by less than 0.5 mmHg
 
-constexpr double dyn_per_cm2 = 10;                              // in a Pa
+constexpr double dyn_per_cm2 = 10;                                   // in a Pa
 constexpr double resistance_in_cgs = 1e-5, compliance_in_cgs = 1e5;  // of a Windkessel, in dyn, cm and s
 
 std::string element(const std::string &name, const std::string &value) {
@@ -44,23 +44,26 @@ std::string condition(const std::string &face, const std::string &type, const st
   return "  <Add_BC name=\"" + face + "\">\n    " + element("Type", type) + "\n" + lines + "  </Add_BC>\n";
 }
 std::string driven(const std::string &face, const std::string &file) {
-  return condition(face, "Neu", "    " + element("Time_dependence", "Unsteady") + "\n    " +
-                                    element("Temporal_values_file_path", file) + "\n");
+  return condition(
+      face, "Neu",
+      "    " + element("Time_dependence", "Unsteady") + "\n    " + element("Temporal_values_file_path", file) + "\n");
 }
 std::string steady(const std::string &face, const std::string &type, double value) {
-  return condition(face, type,
-                   "    " + element("Time_dependence", "Steady") + "\n    " + element("Value", printed("%.6g", value)) + "\n");
+  return condition(
+      face, type,
+      "    " + element("Time_dependence", "Steady") + "\n    " + element("Value", printed("%.6g", value)) + "\n");
 }
 
 // Returns the Windkessel of an outlet. Several outlets share the blood by their areas.
-std::string windkessel(const Boundary &outlet, double share) {
+std::string windkessel_of(const Boundary &outlet, double share) {
   const Windkessel body;
   std::string lines = "    " + element("Time_dependence", "RCR") + "\n    <RCR_values>\n";
-  for (const auto &[name, value] : {std::pair("Proximal_resistance", resistance_in_cgs * body.proximal_resistance / share),
-                                    {"Capacitance", compliance_in_cgs * body.compliance * share},
-                                    {"Distal_resistance", resistance_in_cgs * body.distal_resistance / share},
-                                    {"Distal_pressure", dyn_per_cm2 * body.distal_pressure},
-                                    {"Initial_pressure", dyn_per_cm2 * body.initial_pressure}})
+  for (const auto &[name, value] :
+       {std::pair("Proximal_resistance", resistance_in_cgs * body.proximal_resistance / share),
+        {"Capacitance", compliance_in_cgs * body.compliance * share},
+        {"Distal_resistance", resistance_in_cgs * body.distal_resistance / share},
+        {"Distal_pressure", dyn_per_cm2 * body.distal_pressure},
+        {"Initial_pressure", dyn_per_cm2 * body.initial_pressure}})
     lines += "      " + element(name, printed("%.6g", value)) + "\n";
   return condition(outlet.name, "Neu", lines + "    </RCR_values>\n");
 }
@@ -73,7 +76,7 @@ std::string conditions_of(const SolverCase &solver, const Ends &ends) {
     return text;
   }
   text += driven("inlet", "ventricle.dat");
-  for (const Boundary &outlet : ends.outlets) text += windkessel(outlet, outlet.area / ends.outlet_area);
+  for (const Boundary &outlet : ends.outlets) text += windkessel_of(outlet, outlet.area / ends.outlet_area);
   return text;
 }
 
@@ -155,15 +158,16 @@ void write_svmultiphysics_case(const SolverCase &solver) {
   const int n_steps = static_cast<int>(beat_period / time_step + 0.5);
   const std::string step = shortest(time_step);
   write_into(solver, "solver.xml",
-             filled(svmultiphysics_xml, {{"TITLE", "One beat of a " + in_xml(solver.kind) + " valve, written by riis patient."},
-                                         {"STEPS", std::to_string(n_steps)},
-                                         {"TIME_STEP", step},
-                                         {"SAVE", std::to_string(steps_between_files)},
-                                         {"FACES", faces},
-                                         {"VALVE", valve},
-                                         {"DENSITY", printed("%.6g", solver.density * factor_from_si(a_density, Unit::centimetre))},
-                                         {"VISCOSITY", printed("%.6g", solver.viscosity * factor_from_si(a_viscosity, Unit::centimetre))},
-                                         {"CONDITIONS", conditions_of(solver, ends)}}));
+             filled(svmultiphysics_xml,
+                    {{"TITLE", "One beat of a " + in_xml(solver.kind) + " valve, written by riis patient."},
+                     {"STEPS", std::to_string(n_steps)},
+                     {"TIME_STEP", step},
+                     {"SAVE", std::to_string(steps_between_files)},
+                     {"FACES", faces},
+                     {"VALVE", valve},
+                     {"DENSITY", printed("%.6g", solver.density * factor_from_si(a_density, Unit::centimetre))},
+                     {"VISCOSITY", printed("%.6g", solver.viscosity * factor_from_si(a_viscosity, Unit::centimetre))},
+                     {"CONDITIONS", conditions_of(solver, ends)}}));
   write_into(solver, "Allrun", filled(svmultiphysics_allrun, {{"TIME_STEP", step}}));
   make_runnable(solver, "Allrun");
   print_line("a beat has " + std::to_string(n_steps) + " steps of " + step + " s; svMultiPhysics needs about " +

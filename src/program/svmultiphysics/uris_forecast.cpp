@@ -29,13 +29,13 @@ constexpr double least_of_sensible = 0.95;
 // Returns whether two corners are the ends of an edge.
 bool is_edge(const SolverElement &element, std::size_t a, std::size_t b) {
   const auto &p = element.node_places[a], &q = element.node_places[b];
-  const bool same[] = {p[0] == q[0], p[1] == q[1], p[2] == q[2]};
+  const bool agrees[] = {p[0] == q[0], p[1] == q[1], p[2] == q[2]};
   if (element.n_corners == 4) return true;
-  if (element.n_corners == 6) return same[2] || (same[0] && same[1]);
-  return same[0] + same[1] + same[2] == 2;
+  if (element.n_corners == 6) return agrees[2] || (agrees[0] && agrees[1]);
+  return agrees[0] + agrees[1] + agrees[2] == 2;
 }
 
-double median(std::vector<double> numbers) {
+double middle_of(std::vector<double> numbers) {
   const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
   std::nth_element(numbers.begin(), middle, numbers.end());
   return *middle;
@@ -240,24 +240,27 @@ class Forecaster {
     const SolverElement &element = *mesh_.element;
     for (std::int64_t e = 0; e < mesh_.n_elements(); ++e) {
       const std::int64_t *const nodes = mesh_.nodes_of(e);
-      if (std::none_of(nodes, nodes + element.n_corners, [&](std::int64_t i) { return view(near)[i] <= half_thickness_; }))
+      if (std::none_of(nodes, nodes + element.n_corners,
+                       [&](std::int64_t i) { return view(near)[i] <= half_thickness_; }))
         continue;
       for (std::size_t b = 0; b < element.n_corners; ++b)
         for (std::size_t a = 0; a < b; ++a)
-          if (is_edge(element, a, b)) lengths.push_back(distance_between(mesh_.point(nodes[a]).data(), mesh_.point(nodes[b]).data()));
+          if (is_edge(element, a, b))
+            lengths.push_back(distance_between(mesh_.point(nodes[a]).data(), mesh_.point(nodes[b]).data()));
     }
     for (std::int64_t i = 0; i < mesh_.n_nodes; ++i)
       if (view(near)[i] <= half_thickness_) volumes.push_back(view(mesh_.node_volume)[i]);
     if (lengths.empty() || volumes.empty()) return "";
-    const double edge = median(lengths), volume = median(volumes), shorter = edge - edge / factor;
+    const double edge = middle_of(lengths), volume = middle_of(volumes), shorter = edge - edge / factor;
     double n_nodes = 0;
     for (const double of_node : mesh_.node_volume) {
       const double of_edges = edge * std::cbrt(std::max(of_node, 0.0) / volume);
       // A node beside the wall has a small volume, but the edges of its neighbours.
       n_nodes += std::pow(std::max(of_edges, edge) / (std::max(of_edges, edge) - shorter), 3);
     }
-    return ", or edges of " + in_mesh(edge / factor) + " in the band, which are " + shown(edge / factor / half_thickness_) +
-           " half thicknesses and now are " + shown(edge / half_thickness_) + ", in about " + rounded(n_nodes) + " nodes";
+    return ", or edges of " + in_mesh(edge / factor) + " in the band, which are " +
+           shown(edge / factor / half_thickness_) + " half thicknesses and now are " + shown(edge / half_thickness_) +
+           ", in about " + rounded(n_nodes) + " nodes";
   }
 
   // Returns a count with two digits that are not 0.
