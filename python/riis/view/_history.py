@@ -171,7 +171,7 @@ class Valves:
         return True
 
     @contextmanager
-    def _one_step(self) -> Iterator[None]:
+    def one_step(self) -> Iterator[None]:
         """During this context, all changes are one step of undo. If one is refused, none of them stays."""
         before, undo, redo = self._now(), list(self._undo), list(self._redo)
         try:

@@ -12,6 +12,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy
+from numpy.typing import NDArray
 
 from riis._fit import FitResult, fit
 from riis._place import UNITS, PlaceResult, place
@@ -25,6 +26,9 @@ from riis.view._valves import (
     PlacedSource, ValveState, WarpState, check_kind, parameters_of, point, refuse, values_that_were_set, vector,
 )
 from riis.view._walls import MOST_BEYOND, Wall, checked_skirt
+
+Reals = NDArray[numpy.float64]
+Ids = NDArray[numpy.int64]
 
 WARPS = ("none", "smoothed", "exact")
 
@@ -74,6 +78,23 @@ class LandmarkedValves(Valves):
                         f"skirt: of the valve {state.name} is {with_unit(state.skirt, self._unit)} at most, and the wall is {found}: "
                         "take a longer skirt, as the light wall proposes"
                     )
+
+    def gap_ribbon(self, i: int) -> tuple[Reals, Ids]:
+        """Returns points (n, 3) and triangles (m, 3) of the gap between a valve and the wall: the skirt that would close it.
+
+        There are none without a wall, where the wall is missed, and for a valve with a skirt.
+        """
+        state, none = self._at(i).state, (numpy.empty((0, 3)), numpy.empty((0, 3), numpy.int64))
+        valve = state.valve()
+        if self._wall is None or valve is None or state.skirt > 0.0 or state.kind == "bileaflet" or valve["skirt_length"] > 0.0:
+            return none
+        gap = self._wall.gap(self._at(i).surface)
+        if gap.n_without_wall > 0 or not gap.most > 0.0:
+            return none
+        valve.skirt_to_wall(self._wall.surface, 2.0 * gap.most + self._at(i).surface.info.half_thickness, **state.placement)
+        surface = state.made_surface(valve=valve)
+        faces, skirt = surface.triangles, surface.info.skirt_leaflet_id
+        return numpy.array(surface.vertices), numpy.array(faces.vertex_id[faces.leaflet_id == skirt], numpy.int64)
 
     # ---- Landmarks ----
 
@@ -160,6 +181,12 @@ class LandmarkedValves(Valves):
         """Writes the landmarks as .mrk.json of 3D Slicer or as .json, with the unit and the axes. i: the valve of the .json."""
         kind = self.valves[i].kind if i < len(self.valves) and self.valves[i].surface is None else None
         Path(path).write_text(files.text_of(self._landmarks, path, self._unit, kind), encoding="utf-8")
+
+    def take_over(self, other: LandmarkedValves) -> None:
+        """Takes the valves, the landmarks, the wall and the unit of another model, such as that of the same patient without a
+        mesh."""
+        now = other._now()
+        self._change_to(now if self._unit is None else _in_unit(now, self._unit))
 
     # ---- Units ----
 

@@ -439,7 +439,7 @@ class Model(BumpedValves, LandmarkedValves):
         light = self._light(name)
         if light.cure is None:
             raise refuse(f"name: the light {name} is {light.level} and offers no cure: {light.text}")
-        with self._one_step():
+        with self.one_step():
             self._cure(light)
 
     def _cure(self, light: Light) -> None:
@@ -447,7 +447,7 @@ class Model(BumpedValves, LandmarkedValves):
         if name == "unit":
             self._rescale(light.value)
         elif name == "inside":
-            self._move_inside(i)
+            self.move_inside(i)
         elif name == "wall":
             if self._wall is not None:
                 self.set_skirt(i, light.value)
@@ -474,7 +474,8 @@ class Model(BumpedValves, LandmarkedValves):
         unit = next((known for known, size in UNITS.items() if scale == size), None)
         self._change(states, unit if all(state.surface is None for state in states) else self._unit)
 
-    def _move_inside(self, i: int) -> None:
+    def move_inside(self, i: int) -> None:
+        """Moves a valve to the middle of the mesh, or of the wall if there is no mesh."""
         placed = self._at(i)
         info = placed.surface.info
         nodes = self._mesh.points if self._wall is None or not self._mesh.is_missing else self._wall.points
@@ -529,7 +530,7 @@ class Model(BumpedValves, LandmarkedValves):
                 the built-in cycle of its kind
         """
         self._at(valve)
-        with self._one_step():
+        with self.one_step():
             for k, state in enumerate(self.valves):
                 if state.surface is not None:
                     continue

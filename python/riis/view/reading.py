@@ -175,6 +175,37 @@ def read_wall(path: str) -> Wall:
         raise Refusal(f"{path}: {error}") from error
 
 
+def read_points(path: str) -> Any:
+    """Returns the points of segmented leaflets for riis.fit: a surface, or rows of x, y and z."""
+    ending = os.path.splitext(path)[1].lower()
+    if not os.path.isfile(path):
+        raise Refusal(f"{path}: there is no such file")
+    if ending in (".csv", ".txt", ".xyz"):
+        points = []
+        with open(path, encoding="utf-8", errors="replace") as file:
+            for number, line in enumerate(file, 1):
+                cells = [cell for cell in re.split(r"[,;\s]+", line) if cell]
+                if not cells or cells[0].startswith("#") or (not points and cells[:3] == ["x", "y", "z"]):
+                    continue
+                if len(cells) != 3:
+                    raise Refusal(f"{path}: line {number} has {len(cells)} columns; it must have x, y and z")
+                points.append([number_of(cell, f"{path}: line {number}") for cell in cells])
+        if not points:
+            raise Refusal(f"{path}: has no points")
+        return numpy.array(points, numpy.float64)
+    if ending not in WALLS:
+        raise Refusal(f"{path}: points are a surface, {', '.join(WALLS)}, or rows of x, y and z in a .csv, .txt or .xyz")
+    import pyvista
+
+    try:
+        data = pyvista.read(path)
+    except Exception as error:  # PyVista raises many kinds of exceptions for files that it cannot parse
+        raise Refusal(f"{path}: is not a surface that VTK can read ({error})") from error
+    if not isinstance(data, pyvista.PolyData) or data.n_points == 0:
+        raise Refusal(f"{path}: has no points, or is not a surface that VTK can read")
+    return data
+
+
 def _volumes_of(grid: Any) -> Any:
     """Returns the volume cells. A mesh of gmsh also has the triangles of its boundaries."""
     is_volume = numpy.isin(grid.celltypes, VOLUME_TYPES)
