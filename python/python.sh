@@ -184,8 +184,8 @@ python_manylinux() {
 
 # ./run fit-study [N [FIRST]]
 #   Fits N random patients (300) with riis.fit, from the seed FIRST (7000) on, each on one thread, in the environment of ./run
-#   python. It prints the tables of docs/python.md, the undetermined sizes of whole valves, and the report of each fit that is
-#   wrong and not flagged.
+#   python. It prints the tables of docs/design/fits.md, the undetermined sizes of whole valves, and the report of each fit that
+#   is wrong and not flagged.
 run_fit_study() {
   local n=${1:-300} first=${2:-7000}
   [[ $n =~ ^[1-9][0-9]*$ && $first =~ ^[0-9]+$ && $# -le 2 ]] || {
