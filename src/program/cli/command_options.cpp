@@ -680,8 +680,8 @@ void declare_patient(Command command, PatientOptions &options) {
   command.group("Mesh and flow");
   command.parsed("--half-thickness", "L", "Half thickness of the band (default 1 mm, and 1.5 mm for a mitral valve)",
                  options.given_half_thickness, positive_amount_of(a_length));
-  command.parsed("--band-edge", "F", "Edge length in the band, in half thicknesses (default 0.95)", options.band_edge,
-                 parse_positive_finite);
+  command.parsed("--band-edge", "F", "Edge length in the band, in half thicknesses (default 0.95; svmultiphysics 0.55)",
+                 options.band_edge, parse_positive_finite);
   command.parsed("--largest-edge", "L", "Largest edge length of the mesh (default 3 half thicknesses)",
                  options.given_largest_edge, positive_amount_of(a_length));
   command.parsed("--resistance", "R", "Resistance of the valve in kg/(m s) (default 1e4)", options.given_resistance,

@@ -27,6 +27,7 @@ Surface wall_surface_of(const PatientWall &wall) {
   arrays.stride = 3;
   arrays.n_faces = view(wall.corners).size() / 3;
   arrays.vertex_ids = wall.corners.data();
+  arrays.id_bits = 64;
   auto how = defaults<riis_surface_options>();
   how.zero_area = RIIS_ZERO_AREA_SKIP;
   return create_for<Surface>(wall.path, riis_surface_create_from_arrays, &arrays, &how);
