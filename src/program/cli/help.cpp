@@ -392,7 +392,7 @@ bileaflet valve is a face. With --ring scaffold the solver adds its K to that of
 
 riis export FOLDER MESH also computes what the solver will do in MESH, by the solver's own rules: its box, its distances, their
 interpolation to Gauss points, and the bands in which it takes pressures. The comment of the block has the expected drop of the
-closed valve over (R/eps) u, and the nodes before and behind the valve. If the drop is below 0.95, a line on stderr names the
+closed valve over (R/eps) u, and the nodes before and behind the valve. If the drop is below 0.9, a line on stderr names the
 half thickness that the mesh needs. FOLDER/forecast.csv has the numbers of each frame. A valve that the solver could never open
 or never close is refused. The drop depends a little on --density and --viscosity. python3 computes it by
 NumPy and SciPy, or the Python that RIIS_PYTHON names. Without them only the drop is missing, and a line on stderr says so.

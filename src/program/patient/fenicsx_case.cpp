@@ -11,8 +11,8 @@ namespace riis::program {
 namespace {
 
 constexpr double dolfinx_step = 0.002;  // s
-// Processor time of a cell and a step, measured (examples/fenicsx/README.md, "A patient's valve").
-constexpr double dolfinx_seconds = 1e-4;
+// Processor time of a cell and a step, measured (docs/patient_fenicsx.md, "What was run").
+constexpr double dolfinx_seconds = 4e-5;
 
 Json keys_of(const PressureCurve &curve) {
   Json keys = Json::array();
