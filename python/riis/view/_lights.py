@@ -164,15 +164,16 @@ def inside(scene: Scene) -> Light:
         return Light("inside", "warn", outside, "move or turn the valve, or make it smaller",
                      points=points[:: 1 + len(points) // _MOST_DRAWN], valve=scene.number)
     if scene.whole.is_missing:
-        return Light("inside", "good", f"the valve lies inside the wall; {outside}", valve=scene.number)
+        text = "the valve lies inside the wall"
+        return Light("inside", "good", text + (f"; {outside}" if share > 0.0005 else ""), valve=scene.number)
     text = f"{counted(n_marked, 'node')} {'is' if n_marked == 1 else 'are'} marked"
     return Light("inside", "good", text + (f"; {outside}" if share > 0.0005 else ""),
                  valve=scene.number)
 
 
-def _no_edges(scene: Scene) -> str:
+def _no_edges(scene: Scene, what: str) -> str:
     if scene.whole.is_missing:
-        return "there is no mesh, only a wall, so nothing is marked"
+        return f"{what} needs a mesh, and there is only a wall"
     if not scene.region.has_cells:
         return "there are no volume cells near the valve, so the edges of the mesh are unknown"
     return "the mesh has cells of a type whose edges the view does not know"
@@ -188,7 +189,7 @@ def half_thickness(scene: Scene) -> Light:
                      "make it thinner", (f"Set the half thickness to {scene.length(better)}", "half_thickness"),
                      valve=scene.number, value=better)
     if not scene.region.has_edges:
-        return Light("half_thickness", "off", _no_edges(scene), valve=scene.number)
+        return Light("half_thickness", "off", _no_edges(scene, "the light of the half thickness"), valve=scene.number)
     if len(scene.marks) == 0:
         return Light("half_thickness", "off", "no node is marked", valve=scene.number)
     scene.region.adjacency()
@@ -337,7 +338,7 @@ def _ring(scene: Scene, boundary: Surface) -> Light:
 def sealed(scene: Scene) -> Light:
     """Judges whether unmarked nodes join the two sides of the valve, and shows the way."""
     if not scene.region.has_edges:
-        return Light("sealed", "off", _no_edges(scene), valve=scene.number)
+        return Light("sealed", "off", _no_edges(scene, "whether the valve seals"), valve=scene.number)
     if len(scene.marks) == 0:
         return Light("sealed", "off", "no node is marked", valve=scene.number)
     ends = _sides(scene)

@@ -245,6 +245,13 @@ class Hand(Part):
         self._look(how)
         self._moved.set()
 
+    def _look_at_all(self) -> None:
+        """Looks at the whole mesh or wall, in which the valve is not yet placed."""
+        lower, upper = self.model.bounds if self.model.wall is None else (self.model.wall.lower, self.model.wall.upper)
+        valve = self._valve()
+        self.scene.look("oblique", 0.5 * (lower + upper), valve.axis, valve.reference, 0.45 * float(numpy.linalg.norm(upper - lower)))
+        self.scene.cut_here(valve.origin, valve.axis)
+
     def _look(self, how: str) -> None:
         valve = self._valve()
         centre, reach = numpy.asarray(valve.origin, float), self._reach()
