@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // The name of something in the case, and its text.
-using Values = std::vector<std::pair<std::string, std::string>>;
+using FoamValues = std::vector<std::pair<std::string, std::string>>;
 
-std::string with_values(std::string text, const Values &values) {
+std::string with_foam_values(std::string text, const FoamValues &values) {
   for (const auto &[name, value] : values) {
     const std::string mark = "@" + name + "@";
     for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size()))
@@ -30,10 +30,10 @@ std::string with_values(std::string text, const Values &values) {
   return text;
 }
 
-std::string point_of(const std::array<double, 3> &point) { return "(" + numbers_text(point.data(), 3, " ") + ")"; }
+std::string foam_point_of(const std::array<double, 3> &point) { return "(" + numbers_text(point.data(), 3, " ") + ")"; }
 
 // Returns the text with four more levels of spaces before each line.
-std::string indented(const std::string &text) {
+std::string foam_indented(const std::string &text) {
   std::string made;
   for (const std::string &line : split(text, "\n"))
     if (!line.empty()) made += "    " + line + "\n";
@@ -41,13 +41,13 @@ std::string indented(const std::string &text) {
 }
 
 // The boundaries of the case by their roles.
-struct Ends {
+struct FoamEnds {
   const Boundary *inlet = nullptr;
   std::vector<const Boundary *> outlets;
 };
 
-Ends ends_of(const SolverCase &the) {
-  Ends ends;
+FoamEnds foam_ends_of(const SolverCase &the) {
+  FoamEnds ends;
   bool has_wall = false;
   for (const Boundary &boundary : the.boundaries) {
     if (boundary.name == "inlet") ends.inlet = &boundary;
@@ -65,14 +65,14 @@ Ends ends_of(const SolverCase &the) {
 }
 
 // The entries of 0/p for the ends, and the pressure at which the case begins.
-struct Pressures {
+struct FoamPressures {
   std::string patches;
   double start;
 };
 
-class PressureWriter {
+class FoamPressureWriter {
  public:
-  explicit PressureWriter(double density) : density_(density) {}
+  explicit FoamPressureWriter(double density) : density_(density) {}
 
   // The kinematic pressure of a pressure in Pa.
   double kinematic(double pressure) const { return pressure / density_; }
@@ -113,9 +113,9 @@ class PressureWriter {
   double density_;
 };
 
-Pressures pressures_of(const SolverCase &the, const Ends &ends) {
-  const PressureWriter writer(the.density);
-  Pressures made;
+FoamPressures foam_pressures_of(const SolverCase &the, const FoamEnds &ends) {
+  const FoamPressureWriter writer(the.density);
+  FoamPressures made;
   if (the.is_mitral) {
     made.start = writer.kinematic(pressure_of_filling_ventricle().at(0));
     made.patches = writer.constant("inlet", "The atrium", pressure_of_left_atrium);
@@ -132,7 +132,7 @@ Pressures pressures_of(const SolverCase &the, const Ends &ends) {
 }
 
 // The function objects that sum the flow through each end.
-std::string flows_of(const Ends &ends) {
+std::string foam_flows_of(const FoamEnds &ends) {
   std::string text =
       "    flow_inlet // postProcessing/flow_inlet/TIME/surfaceFieldValue.dat: the flow out of the blood [m3/s]\n    "
       "{\n"
@@ -150,32 +150,33 @@ void write_openfoam_case(const SolverCase &the) {
   if (the.unit != Unit::metre)
     refuse_data(std::string("--solver openfoam: the mesh is in ") + words_of(the.unit) + "; OpenFOAM takes metres");
   if (!the.starts_closed) refuse_data("--solver openfoam: the valve's law, switch, starts with a closed valve");
-  const Ends ends = ends_of(the);
-  const Pressures pressures = pressures_of(the, ends);
+  const FoamEnds ends = foam_ends_of(the);
+  const FoamPressures pressures = foam_pressures_of(the, ends);
   const std::string placed = (fs::path(the.folder) / "placed.json").string();
   const std::string valve = foam_valve_of(placed, parse_json_file(placed, "a placed valve"), the.skirt);
   // The backflow of a mitral valve in a rigid ventricle is larger, so this valve begins to close before the flow reverses.
-  const Values values = {{"NAME", the.name},
-                         {"DENSITY", shortest(the.density)},
-                         {"RESISTANCE", shortest(the.resistance)},
-                         {"HALF_THICKNESS", shortest(the.half_thickness)},
-                         {"KINEMATIC_VISCOSITY", printed("%.6g", the.viscosity / the.density)},
-                         {"MMHG", printed("%.6g", mmHg / the.density)},
-                         {"CLOSE_BELOW", the.is_mitral ? "1e-4" : "0"},
-                         {"PERIOD", shortest(beat_period)},
-                         {"MOTION_SECONDS", shortest(motion_seconds)},
-                         {"OPEN_ABOVE", shortest(opening_pressure)},
-                         {"UPSTREAM", point_of(the.upstream)},
-                         {"DOWNSTREAM", point_of(the.downstream)},
-                         {"RADIUS", shortest(the.ball_radius)},
-                         {"START", printed("%.6g", pressures.start)},
-                         {"PATCHES", pressures.patches},
-                         {"FLOWS", flows_of(ends)},
-                         {"VALVE", indented(valve)}};
+  const FoamValues values = {{"NAME", the.name},
+                             {"DENSITY", shortest(the.density)},
+                             {"RESISTANCE", shortest(the.resistance)},
+                             {"HALF_THICKNESS", shortest(the.half_thickness)},
+                             {"KINEMATIC_VISCOSITY", printed("%.6g", the.viscosity / the.density)},
+                             {"MMHG", printed("%.6g", mmHg / the.density)},
+                             {"CLOSE_BELOW", the.is_mitral ? "1e-4" : "0"},
+                             {"PERIOD", shortest(beat_period)},
+                             {"MOTION_SECONDS", shortest(motion_seconds)},
+                             {"OPEN_ABOVE", shortest(opening_pressure)},
+                             {"UPSTREAM", foam_point_of(the.upstream)},
+                             {"DOWNSTREAM", foam_point_of(the.downstream)},
+                             {"RADIUS", shortest(the.ball_radius)},
+                             {"START", printed("%.6g", pressures.start)},
+                             {"PATCHES", pressures.patches},
+                             {"FLOWS", foam_flows_of(ends)},
+                             {"VALVE", foam_indented(valve)}};
   const fs::path folder = the.solver;
   std::error_code error;
   for (const char *const part : {"0", "constant", "system"}) fs::create_directories(folder / part, error);
-  for (const FoamFile &file : foam_files) write_text((folder / file.path).string(), with_values(file.text, values));
+  for (const FoamFile &file : foam_files)
+    write_text((folder / file.path).string(), with_foam_values(file.text, values));
   fs::permissions(folder / "Allrun", fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                   fs::perm_options::add, error);
   fs::copy_file(fs::path(the.folder) / "mesh.msh", folder / "mesh.msh", fs::copy_options::overwrite_existing, error);
