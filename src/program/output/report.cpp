@@ -200,7 +200,6 @@ void add_flow(const ValveReport &valve, std::ostringstream &out) {
     out << "\n";
   }
 }
-}
 
 // Adds the line with the units of R and K.
 void add_resistance(const ValveReport &valve, std::ostringstream &out) {
