@@ -426,7 +426,7 @@ def test_files_that_are_no_meshes(tmp_path):
             reading.read_mesh(str(tmp_path / name), {})
         assert str(tmp_path / name) in str(refused.value)
     (tmp_path / "mesh.stl").write_text("")
-    with pytest.raises(reading.Refusal, match="is a surface, and riis view shows a mesh of volume cells"):
+    with pytest.raises(reading.Refusal, match="is a surface, and MESH has volume cells. Give it as the wall: riis view --wall"):
         reading.read_mesh(str(tmp_path / "mesh.stl"), {})
     (tmp_path / "mesh.cgns").write_text("")
     with pytest.raises(reading.Refusal, match=r"mesh.cgns: riis view reads [a-z., ]*$"):  # the program does not read it either

@@ -6,8 +6,8 @@
 
 namespace riis::program {
 
-inline constexpr double mmHg = 133.322;       // Pa
-inline constexpr double beat_period = 0.8;    // s
+inline constexpr double mmHg = 133.322;         // Pa
+inline constexpr double beat_period = 0.8;      // s
 inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and in which it closes
 inline constexpr double opening_pressure = 50;  // Pa; above it, rounding cannot open a valve between equal pressures
 
