@@ -37,7 +37,7 @@ constexpr std::size_t n_sectors = 12;
 constexpr double clear_mean = 55, clear_least = 20, unclear_mean = 30;
 // Four pi times the area over the square of the perimeter: 1 for a disc, 0.6 for an ellipse thrice as long as wide.
 constexpr double least_roundness = 0.25;
-// Flat parts that touch make each other unclear if their areas differ by less than this factor.
+// Flat parts that touch make each other unclear if their areas differ by less than this factor. Else the small one is no end.
 constexpr double most_apart = 10;
 // A refusal lists so many flat parts.
 constexpr std::size_t most_listed = 6;
@@ -101,9 +101,8 @@ class EndFinder {
     for (const std::int64_t seed : seeds) {
       if (view(is_known)[seed] != 0 || view(areas_)[seed] == 0) continue;
       FlatPart part = grown(seed, flat_share * size_);
-      view(is_known)[seed] = 1;
-      for (const std::int64_t i : part.triangles)
-        if (is_well_within(part, i)) view(is_known)[i] = 1;
+      // A triangle of a part is no seed of another part, but may belong to it.
+      for (const std::int64_t i : part.triangles) view(is_known)[i] = 1;
       if (!is_large(part)) continue;
       measure(part);
       if (part.mean_angle < unclear_mean || !part.is_behind) continue;
@@ -164,10 +163,6 @@ class EndFinder {
     for (std::size_t k = 0; k < 3; ++k)
       longest = std::max(longest, norm(all_.corner(i, (k + 1) % 3) - all_.corner(i, k)));
     return 2 * view(areas_)[i] <= 1e-6 * size_ * longest;
-  }
-
-  bool is_well_within(const FlatPart &part, std::int64_t i) const {
-    return is_in(part.plane, i, 0.25 * flat_share * size_);
   }
 
   // Returns the connected triangles in the plane around the seed. The plane follows the triangles.
@@ -329,10 +324,13 @@ class EndFinder {
     }
     for (std::size_t i = 0; i < parts.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
-        if (!parts[i].is_sharp() || !parts[j].is_sharp() || parts[j].area > most_apart * parts[i].area) continue;
+        if (!parts[i].is_sharp() || !parts[j].is_sharp()) continue;
         const bool touches = std::any_of(vertices[i].begin(), vertices[i].end(),
                                          [&](std::int64_t id) { return vertices[j].count(id) > 0; });
-        if (touches) parts[i].is_touching = parts[j].is_touching = true;
+        if (!touches) continue;
+        // A small part at the rim of an end is a facet of the wall there.
+        parts[i].is_touching = true;
+        if (parts[j].area <= most_apart * parts[i].area) parts[j].is_touching = true;
       }
   }
 
