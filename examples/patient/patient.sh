@@ -81,10 +81,10 @@ random_patients() {
   rm -rf "$folder"
   for seed in $(seq "$1"); do
     step "patient $seed" random_patient "$seed" "$folder/$seed"
-    inputs+=(-i "$folder/$seed/case/closed.png")
-    tiles+="[$n]crop=iw/2:0.8*ih:iw/2:0.1*ih,scale=320:-1[t$n];"
+    inputs+=(-i "$folder/$seed/closed.png")
+    tiles+="[$n]scale=320:-1,pad=iw:286:0:30:white,drawtext=text='patient $seed':fontsize=22:fontcolor=0x333333:x=(w-text_w)/2:y=6[t$n];"
     place=$((n / 5))
-    layout+="|$((n % 5 * 320))_$((place * 256))"
+    layout+="|$((n % 5 * 320))_$((place * 286))"
     n=$((n + 1))
   done
   printf '\n  %-4s  %-13s  %-18s  %-13s  %-14s\n' '' 'residual, mm' 'gap to wall, mm' 'attachment, mm' 'edges'
@@ -125,5 +125,7 @@ random_patient() {
   mkdir -p "$2" && cd "$2" &&
     python3 -B "$here/examples/patient/make_patient.py" . --random --seed "$1" --attachment 3 &&
     "$riis" patient root.stl landmarks.mrk.json --output case &&
+    "$riis" mark case/mesh.msh --valve case/placed.json --skirt 6 --wall case/wall.stl --opening 0 --quiet --picture closed.png \
+      --view valve-top --picture-panels valve --picture-captions none --picture-size 640x512 &&
     attachment_of_patient "$1" 0.3 smoothed noise.txt && attachment_of_patient "$1" 0 exact exact.txt
 }

@@ -150,7 +150,7 @@ class Cases(unittest.TestCase):
     def test_aortic(self):
         numbers = self.numbers("svmultiphysics")
         said = self.write("svmultiphysics", numbers)
-        self.assertRegex(said, r"(?m)^riis export '.*/svmultiphysics/valve' '.*/mesh.vtu' --unit cm --valve ")
+        self.assertRegex(said, r"(?m)^riis: cd '.*/svmultiphysics' && riis export valve ../mesh.vtu --unit cm --valve ../placed.json ")
         self.assertRegex(said, r"a beat has 400 steps of 0.002 s; svMultiPhysics needs about [0-9.]+ (seconds|minutes|hours)")
         tree, folder = self.read(numbers), pathlib.Path(numbers["solver"])
         step, n_steps = self.value(tree, ".//Time_step_size"), self.value(tree, ".//Number_of_time_steps")

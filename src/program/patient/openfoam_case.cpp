@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/json.hpp"
-#include "program/output/outputs.hpp"
+#include "program/patient/case_files.hpp"
 #include "program/patient/heartbeat.hpp"
 #include "program/patient/openfoam_valve.hpp"
 
@@ -18,17 +19,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The name of something in the case, and its text.
-using Values = std::vector<std::pair<std::string, std::string>>;
-
-std::string with_values(std::string text, const Values &values) {
-  for (const auto &[name, value] : values) {
-    const std::string mark = "@" + name + "@";
-    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size()))
-      text.replace(at, mark.size(), value);
-  }
-  return text;
-}
+// The files of the case, and their texts.
+constexpr std::pair<const char *, const char *> foam_files[] = {
+    {"0/U", "openfoam/U"},
+    {"0/p", "openfoam/p"},
+    {"constant/transportProperties", "openfoam/transportProperties"},
+    {"constant/turbulenceProperties", "openfoam/turbulenceProperties"},
+    {"system/controlDict", "openfoam/controlDict"},
+    {"system/decomposeParDict", "openfoam/decomposeParDict"},
+    {"system/fvOptions", "openfoam/fvOptions"},
+    {"system/fvSchemes", "openfoam/fvSchemes"},
+    {"system/fvSolution", "openfoam/fvSolution"},
+    {"Allrun", "openfoam/Allrun"},
+    {"report.py", "openfoam/report.py"}};
 
 std::string point_of(const std::array<double, 3> &point) { return "(" + numbers_text(point.data(), 3, " ") + ")"; }
 
@@ -38,30 +41,6 @@ std::string indented(const std::string &text) {
   for (const std::string &line : split(text, "\n"))
     if (!line.empty()) made += "    " + line + "\n";
   return made;
-}
-
-// The boundaries of the case by their roles.
-struct Ends {
-  const Boundary *inlet = nullptr;
-  std::vector<const Boundary *> outlets;
-};
-
-Ends ends_of(const SolverCase &the) {
-  Ends ends;
-  bool has_wall = false;
-  for (const Boundary &boundary : the.boundaries) {
-    if (boundary.name == "inlet") ends.inlet = &boundary;
-    if (boundary.name == "wall") has_wall = true;
-    if (boundary.name.rfind("outlet", 0) == 0) ends.outlets.push_back(&boundary);
-  }
-  const std::size_t known = ends.outlets.size() + (ends.inlet ? 1 : 0) + (has_wall ? 1 : 0);
-  if (!ends.inlet || ends.outlets.empty() || !has_wall || known != the.boundaries.size()) {
-    std::vector<std::string> names;
-    for (const Boundary &boundary : the.boundaries) names.push_back(boundary.name);
-    refuse_data("--solver openfoam: the boundaries are " + joined_by(names, ", ") +
-                "; they must be inlet, wall, and outlet, outlet_2 and so on");
-  }
-  return ends;
 }
 
 // The entries of 0/p for the ends, and the pressure at which the case begins.
@@ -119,15 +98,14 @@ Pressures pressures_of(const SolverCase &the, const Ends &ends) {
   if (the.is_mitral) {
     made.start = writer.kinematic(pressure_of_filling_ventricle().at(0));
     made.patches = writer.constant("inlet", "The atrium", pressure_of_left_atrium);
-    for (const Boundary *outlet : ends.outlets)
-      made.patches += writer.curve(outlet->name, "The ventricle", pressure_of_filling_ventricle());
+    for (const Boundary &outlet : ends.outlets)
+      made.patches += writer.curve(outlet.name, "The ventricle", pressure_of_filling_ventricle());
     return made;
   }
   made.start = writer.kinematic(pressure_of_left_ventricle().at(0));
   made.patches = writer.curve("inlet", "The ventricle", pressure_of_left_ventricle());
-  double area = 0;
-  for (const Boundary *outlet : ends.outlets) area += outlet->area;
-  for (const Boundary *outlet : ends.outlets) made.patches += writer.arteries(outlet->name, outlet->area / area);
+  for (const Boundary &outlet : ends.outlets)
+    made.patches += writer.arteries(outlet.name, outlet.area / ends.outlet_area);
   return made;
 }
 
@@ -139,49 +117,42 @@ std::string flows_of(const Ends &ends) {
       "        type surfaceFieldValue;\n        libs (fieldFunctionObjects);\n        regionType patch;\n"
       "        name inlet;\n        operation sum;\n        fields (phi);\n        writeFields no;\n        log no;\n"
       "        writePrecision 12;\n    }\n";
-  for (const Boundary *outlet : ends.outlets)
-    text += "    flow_" + outlet->name + " { $flow_inlet; name " + outlet->name + "; }\n";
+  for (const Boundary &outlet : ends.outlets)
+    text += "    flow_" + outlet.name + " { $flow_inlet; name " + outlet.name + "; }\n";
   return text;
 }
 
 }  // namespace
 
 void write_openfoam_case(const SolverCase &the) {
-  if (the.unit != Unit::metre)
-    refuse_data(std::string("--solver openfoam: the mesh is in ") + words_of(the.unit) + "; OpenFOAM takes metres");
   if (!the.starts_closed) refuse_data("--solver openfoam: the valve's law, switch, starts with a closed valve");
-  const Ends ends = ends_of(the);
+  const Ends ends = ends_of(the, Unit::metre);
   const Pressures pressures = pressures_of(the, ends);
   const std::string placed = (fs::path(the.folder) / "placed.json").string();
   const std::string valve = foam_valve_of(placed, parse_json_file(placed, "a placed valve"), the.skirt);
   // The backflow of a mitral valve in a rigid ventricle is larger, so this valve begins to close before the flow reverses.
-  const Values values = {{"NAME", the.name},
-                         {"DENSITY", shortest(the.density)},
-                         {"RESISTANCE", shortest(the.resistance)},
-                         {"HALF_THICKNESS", shortest(the.half_thickness)},
-                         {"KINEMATIC_VISCOSITY", printed("%.6g", the.viscosity / the.density)},
-                         {"MMHG", printed("%.6g", mmHg / the.density)},
-                         {"CLOSE_BELOW", the.is_mitral ? "1e-4" : "0"},
-                         {"PERIOD", shortest(beat_period)},
-                         {"MOTION_SECONDS", shortest(motion_seconds)},
-                         {"OPEN_ABOVE", shortest(opening_pressure)},
-                         {"UPSTREAM", point_of(the.upstream)},
-                         {"DOWNSTREAM", point_of(the.downstream)},
-                         {"RADIUS", shortest(the.ball_radius)},
-                         {"START", printed("%.6g", pressures.start)},
-                         {"PATCHES", pressures.patches},
-                         {"FLOWS", flows_of(ends)},
-                         {"VALVE", indented(valve)}};
-  const fs::path folder = the.solver;
-  std::error_code error;
-  for (const char *const part : {"0", "constant", "system"}) fs::create_directories(folder / part, error);
-  for (const FoamFile &file : foam_files) write_text((folder / file.path).string(), with_values(file.text, values));
-  fs::permissions(folder / "Allrun", fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
-                  fs::perm_options::add, error);
-  fs::copy_file(fs::path(the.folder) / "mesh.msh", folder / "mesh.msh", fs::copy_options::overwrite_existing, error);
-  if (error)
-    refuse_data((folder / "mesh.msh").string() + ": " + (fs::path(the.folder) / "mesh.msh").string() +
-                " could not be copied: " + error.message());
+  const std::map<std::string, std::string> values = {
+      {"NAME", the.name},
+      {"DENSITY", shortest(the.density)},
+      {"RESISTANCE", shortest(the.resistance)},
+      {"HALF_THICKNESS", shortest(the.half_thickness)},
+      {"KINEMATIC_VISCOSITY", printed("%.6g", the.viscosity / the.density)},
+      {"MMHG", printed("%.6g", mmHg / the.density)},
+      {"CLOSE_BELOW", the.is_mitral ? "1e-4" : "0"},
+      {"PERIOD", shortest(beat_period)},
+      {"MOTION_SECONDS", shortest(motion_seconds)},
+      {"OPEN_ABOVE", shortest(opening_pressure)},
+      {"UPSTREAM", point_of(the.upstream)},
+      {"DOWNSTREAM", point_of(the.downstream)},
+      {"RADIUS", shortest(the.ball_radius)},
+      {"START", printed("%.6g", pressures.start)},
+      {"PATCHES", pressures.patches},
+      {"FLOWS", flows_of(ends)},
+      {"VALVE", indented(valve)}};
+  make_case_folder(the);
+  for (const auto &[path, file] : foam_files) write_into(the, path, filled(case_texts().at(file), values));
+  make_runnable(the, "Allrun");
+  copy_into(the, "mesh.msh", "mesh.msh");
 }
 
 }  // namespace riis::program

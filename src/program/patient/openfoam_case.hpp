@@ -2,8 +2,6 @@
 // In: a patient's mesh with named boundaries, and the valve that is placed in it. Out: a folder that OpenFOAM 1912 runs as it is.
 #pragma once
 
-#include <cstddef>
-
 #include "program/patient/solver_case.hpp"
 
 namespace riis::program {
@@ -12,13 +10,5 @@ namespace riis::program {
 // a Windkessel drive an aortic valve. The pressures of the atrium and of the ventricle drive a mitral valve. Refuses another unit
 // than metres, a valve that starts open, and boundaries other than one inlet, outlets and a wall.
 void write_openfoam_case(const SolverCase &the);
-
-// A file of the case. Words between two @ stand for numbers and entries of the case.
-struct FoamFile {
-  const char *path, *text;
-};
-// CMake writes the files into the program, so the program needs no path to them.
-inline constexpr std::size_t n_foam_files = 11;
-extern const FoamFile foam_files[n_foam_files];
 
 }  // namespace riis::program

@@ -17,12 +17,12 @@
 namespace riis::program {
 namespace {
 
-constexpr double time_step = 0.002;  // s
+constexpr double solver_step = 0.002;  // s
 constexpr int steps_between_files = 10;
 // The triangles of the leaflets, in half thicknesses: K is then within 2.5 % (docs/export.md, "How fine the triangles must be").
 constexpr double largest_edge = 0.35;
-// Processor time of a cell and a step, measured (docs/export.md, "A patient's case").
-constexpr double seconds_of_cell = 1e-4;
+// Processor time of a cell and a step, measured (docs/patient_svmultiphysics.md, "What it costs").
+constexpr double seconds_of_cell = 7e-5;
 constexpr int n_modes = 128;  // of a curve of pressure, which differs from its polygon by less than 0.5 mmHg
 
 constexpr double dyn_per_cm2 = 10;                                   // in a Pa
@@ -97,41 +97,40 @@ std::string in_shell(const std::string &word) {
   return text + "'";
 }
 
+// Returns the words of the export. The files of the case's folder are in `folder`. The block of the export names the files of the
+// valve as the solver sees them, from its own folder.
+std::vector<std::string> export_words(const SolverCase &solver, const std::string &folder) {
+  std::vector<std::string> words = {"riis", "export", "valve", folder + "/mesh.vtu"};
+  const auto add = [&words](const char *option, const std::string &value) {
+    words.insert(words.end(), {option, value});
+  };
+  add("--unit", "cm");
+  add("--valve", folder + "/placed.json");
+  add("--half-thickness", shortest(solver.half_thickness));
+  add("--resistance", shortest(solver.resistance));
+  add("--density", shortest(solver.density));
+  add("--viscosity", shortest(solver.viscosity));
+  add("--time-step", shortest(solver_step));
+  add("--opening-seconds", shortest(motion_seconds));
+  add("--closing-seconds", shortest(motion_seconds));
+  add("--largest-edge", printed("%.3g", largest_edge * solver.half_thickness));
+  add("--name", solver.name);
+  add("--starts", solver.starts_closed ? "closed" : "open");
+  if (solver.skirt > 0) {
+    add("--skirt", shortest(solver.skirt));
+    add("--wall", folder + "/wall.stl");
+  }
+  return words;
+}
+
 std::string write_valve(const SolverCase &solver) {
-  std::vector<std::string> words = {"riis",
-                                    "export",
-                                    solver.solver + "/valve",
-                                    solver.folder + "/mesh.vtu",
-                                    "--unit",
-                                    "cm",
-                                    "--valve",
-                                    solver.folder + "/placed.json",
-                                    "--half-thickness",
-                                    shortest(solver.half_thickness),
-                                    "--resistance",
-                                    shortest(solver.resistance),
-                                    "--density",
-                                    shortest(solver.density),
-                                    "--viscosity",
-                                    shortest(solver.viscosity),
-                                    "--time-step",
-                                    shortest(time_step),
-                                    "--opening-seconds",
-                                    shortest(motion_seconds),
-                                    "--closing-seconds",
-                                    shortest(motion_seconds),
-                                    "--largest-edge",
-                                    printed("%.3g", largest_edge * solver.half_thickness),
-                                    "--name",
-                                    solver.name,
-                                    "--starts",
-                                    solver.starts_closed ? "closed" : "open"};
-  if (solver.skirt > 0)
-    words.insert(words.end(), {"--skirt", shortest(solver.skirt), "--wall", solver.folder + "/wall.stl"});
-  std::string line;
-  for (const std::string &word : words) line += (line.empty() ? "" : " ") + in_shell(word);
+  std::string line = "cd " + in_shell(solver.solver) + " &&";
+  for (const std::string &word : export_words(solver, "..")) line += " " + in_shell(word);
   print_line(line);
-  const UrisExport valve = write_uris(export_of(words), "valve");
+  ExportOptions options = export_of(export_words(solver, solver.folder));
+  const std::string named = options.folder;
+  options.folder = solver.solver + "/" + named;
+  const UrisExport valve = write_uris(options, named);
   if (!valve.failure.empty()) refuse_data(valve.failure);
   return valve.block;
 }
@@ -155,10 +154,10 @@ void write_svmultiphysics_case(const SolverCase &solver) {
   const std::string faces = faces_of(solver), valve = write_valve(solver);
   write_into(solver, "ventricle.dat",
              temporal_values(solver.is_mitral ? pressure_of_filling_ventricle() : pressure_of_left_ventricle()));
-  const int n_steps = static_cast<int>(beat_period / time_step + 0.5);
-  const std::string step = shortest(time_step);
+  const int n_steps = static_cast<int>(beat_period / solver_step + 0.5);
+  const std::string step = shortest(solver_step);
   write_into(solver, "solver.xml",
-             filled(svmultiphysics_xml,
+             filled(case_texts().at("svmultiphysics/solver.xml"),
                     {{"TITLE", "One beat of a " + in_xml(solver.kind) + " valve, written by riis patient."},
                      {"STEPS", std::to_string(n_steps)},
                      {"TIME_STEP", step},
@@ -168,7 +167,7 @@ void write_svmultiphysics_case(const SolverCase &solver) {
                      {"DENSITY", printed("%.6g", solver.density * factor_from_si(a_density, Unit::centimetre))},
                      {"VISCOSITY", printed("%.6g", solver.viscosity * factor_from_si(a_viscosity, Unit::centimetre))},
                      {"CONDITIONS", conditions_of(solver, ends)}}));
-  write_into(solver, "Allrun", filled(svmultiphysics_allrun, {{"TIME_STEP", step}}));
+  write_into(solver, "Allrun", filled(case_texts().at("svmultiphysics/Allrun"), {{"TIME_STEP", step}}));
   make_runnable(solver, "Allrun");
   print_line("a beat has " + std::to_string(n_steps) + " steps of " + step + " s; svMultiPhysics needs about " +
              duration_text(seconds_of_cell * static_cast<double>(solver.n_cells) * n_steps) + " on one processor");

@@ -320,6 +320,7 @@ Style::Style(const riis_vtk_picture_options &options)
   const double of_ink = is_bright ? 0.2 : 0.85, of_line = is_bright ? 0.45 : 0.65;
   ink = {of_ink, of_ink, of_ink};
   line = {of_line, of_line, of_line};
+  shell_grey = is_bright ? 0.59 : 0.95;
 }
 
 Layout::Layout(int width, int height, int n_panels, Panels panels, std::int32_t captions)
@@ -363,7 +364,7 @@ Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options)
   const vtkSmartPointer<vtkPolyData> wall = wall_of(grid, options);
   if (wall) {
     around_ = grid ? static_cast<vtkPointSet *>(grid) : wall.Get();
-    shell_.emplace(wall, style_.line, layout_.line_width());
+    shell_.emplace(wall, style_.shell_grey, style_.line, layout_.line_width());
   }
   window_->SetOffScreenRendering(1);
   window_->SetMultiSamples(4);

@@ -136,7 +136,8 @@ struct Style {
   explicit Style(const riis_vtk_picture_options &options);
   Colour background;
   bool is_transparent;
-  Colour ink, line;  // of texts, and of the wall's rims
+  Colour ink, line;   // of texts, and of the wall's rims
+  double shell_grey;  // the brightness of the wall
   std::int32_t captions, panels;
 };
 

@@ -4,9 +4,7 @@
 
 #include <vtkSmartPointer.h>
 
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "riis_vtk/picture/picture_view.hpp"
 
@@ -16,19 +14,11 @@ class vtkRenderer;
 
 namespace riis::vtk {
 
-struct FlatParts {
-  std::vector<std::uint8_t> is_end;  // for each face, whether it belongs to an end
-  bool are_all = false;              // the faces have hardly any other part, as those of a box
-};
-
-// Finds the flat ends of a wall: connected faces in one plane that meet the rest of the wall at a sharp rim. The faces must share
-// their points.
-FlatParts flat_ends(vtkPolyData *faces);
-
 class Shell {
  public:
-  // `faces` is a closed boundary or a wall with openings. `line` is the colour of the rims, and `pixels` is their width.
-  Shell(vtkPolyData *faces, const Colour &line, double pixels);
+  // `faces` is a closed boundary or a wall with openings. `grey` is the brightness of the shell, from 0 to 1, `line` is the colour
+  // of the rims, and `pixels` is their width.
+  Shell(vtkPolyData *faces, double grey, const Colour &line, double pixels);
   void add_to(vtkRenderer *renderer) const;
   // Turns to a view. The shell is denser where it is seen at a grazing angle. If it extends beyond the panel, it is cut there.
   void look(const View &view, const Sight &sight);
@@ -36,6 +26,7 @@ class Shell {
  private:
   void sort(const View &view);
 
+  unsigned char grey_;
   vtkSmartPointer<vtkPolyData> faces_;  // with normals at their points
   vtkSmartPointer<vtkActor> skin_, rims_, cut_;
   std::optional<View> sorted_for_;
