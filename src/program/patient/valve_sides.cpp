@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int32_t n_sides_openings = 11;
 // Radii of the balls in millimetres: the largest that there is room for is taken.
-constexpr double radii[] = {4, 3, 2, 1.5, 1};
+constexpr double ball_radii[] = {4, 3, 2, 1.5, 1};
 
 std::vector<double> distances_from(const riis_surface *surface, const std::vector<double> &xyz) {
   const riis_points points = points_of(xyz);
@@ -76,7 +76,7 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
     }
     return found;
   };
-  for (const double radius : radii) {
+  for (const double radius : ball_radii) {
     sides.ball_radius = radius * millimetre;
     before = nearest(-1, sides.ball_radius);
     after = nearest(1, sides.ball_radius);
