@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """test_openfoam_case.py WRITER: the case of OpenFOAM that riis patient writes: its dictionaries, its refusals, and its scripts.
 
-WRITER is write_openfoam_case. Stand-ins for OpenFOAM's programs run Allrun, so the test needs no OpenFOAM. If foamDictionary is
+WRITER is write_solver_case. Stand-ins for OpenFOAM's programs run Allrun, so the test needs no OpenFOAM. If foamDictionary is
 installed, OpenFOAM's own parser reads the dictionaries also.
 """
 import json
@@ -70,11 +70,16 @@ class OpenfoamCase(unittest.TestCase):
         shutil.rmtree(self.folder / "openfoam", ignore_errors=True)
         (self.folder / "placed.json").write_text(json.dumps(root), encoding="utf-8")
         (self.folder / "mesh.msh").write_text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", encoding="utf-8")
-        case = {"upstream": [0.01, -0.02, 0.985], "downstream": [0.01, -0.02, 1.02],
+        case = {"folder": str(self.folder), "solver": str(self.folder / "openfoam"), "unit": "m", "kind": "coapting",
+                "is_mitral": False, "name": "aortic_valve", "half_thickness": 1e-3, "skirt": 6e-3, "resistance": 1e4,
+                "starts_closed": True, "upstream": [0.01, -0.02, 0.985], "downstream": [0.01, -0.02, 1.02],
+                "ball_radius": 4e-3, "n_nodes": 0, "n_cells": 0,
                 "boundaries": [{"name": "inlet", "area": 4e-4}, {"name": "outlet", "area": 5e-4}, {"name": "wall"}]}
         case.update(changes)
+        for i, boundary in enumerate(case["boundaries"]):
+            boundary.update({"group": i + 1, "area": boundary.get("area", 1e-3)})
         (self.folder / "case.json").write_text(json.dumps(case), encoding="utf-8")
-        done = subprocess.run([WRITER, self.folder, self.folder / "case.json"], capture_output=True, text=True, check=False)
+        done = subprocess.run([WRITER, "openfoam", self.folder / "case.json"], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, status, done.stderr)
         return self.folder / "openfoam", done.stderr
 
