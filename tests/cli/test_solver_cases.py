@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""test_solver_cases.py WRITE_SOLVER_CASE TEXTS: reads the folders of solvers back, and runs them with stand-ins of the solvers."""
+"""test_solver_cases.py WRITE_SOLVER_CASE TEXTS: reads the folders of solvers back, and runs stand-ins of the solvers."""
 import importlib.util
 import json
 import math
