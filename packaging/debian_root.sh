@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# debian_root.sh build|try|wheel VERSION: the steps of debian.sh and wheels.sh inside a Debian of this version, as root.
+# debian_root.sh build|try|wheel|program|picture VERSION: the steps of debian.sh, wheels.sh and program.sh inside a Debian of this
+# version, as root.
 #   build  builds the packages twice from the archive in /riis.input, compares the bytes, and checks them by lintian; leaves them
 #          in out/packages
 #   try    installs the packages in /riis.input, runs their tests, removes them, and looks for traces; leaves a table's lines, and
 #          the marks of a program, in out/tried
 #   wheel  installs the wheel in /riis.input by pip, where there is no Embree; leaves the marks of a program in out/tried
+#   program  makes the archive of the program; leaves it in out/program
+#   picture  unpacks this archive from /riis.input as a user without rights, marks a mesh and draws a picture; leaves the picture,
+#            the numbers and the seconds in out/tried
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
 # shellcheck source=packaging/steps.sh
@@ -143,6 +147,7 @@ look_for_traces() {
 
 wheel() {
   local out=$PWD/out/tried venv=/tmp/riis-wheel
+  declare -A wheels=([12]=cp311-cp311 [13]=cp312-abi3)
   logs=$PWD/out/tried/logs
   rm -rf "$out" "$venv"
   mkdir -p "$logs"
@@ -151,9 +156,58 @@ wheel() {
   install_packages python3-venv
   ! find / -xdev -name 'libembree*' -not -path '/var/*' | grep . || { echo "this Debian has an Embree" >&2; exit 1; }
   python3 -m venv "$venv"
-  logged pip "$venv/bin/pip" install "$input"/riis-*.whl
+  logged pip "$venv/bin/pip" install "$input"/riis-*-"${wheels[$debian]}"-*.whl
   "$venv/bin/python" -B tests/install/stranger/marks.py >"$out/marks.txt"
   rm -rf "$venv"
+  logged strip-after strip_root
+}
+
+# Packages of Debian 12 from which relocatable.sh makes the archive.
+program_packages=(g++ cmake ninja-build pkg-config python3 xz-utils patchelf libvtk9-dev libx11-dev libcli11-dev
+  nlohmann-json3-dev libhdf5-dev libembree-dev libtbb-dev xvfb x11-xkb-utils xkb-data libgl1-mesa-dri meson bison flex
+  python3-mako libxext-dev libxcb-randr0-dev libxrandr-dev libexpat1-dev zlib1g-dev)
+
+program() {
+  logs=$PWD/out/program/logs
+  rm -rf out/program
+  mkdir -p "$logs"
+  logged update apt-get update
+  install_packages "${program_packages[@]}"
+  packaging/relocatable.sh out/program
+}
+
+picture() {
+  local out=$PWD/out/tried home=/tmp/riis-picture as_user=(setpriv --reuid 1234 --regid 1234 --clear-groups env -i) start=$SECONDS
+  logs=$PWD/out/tried/logs
+  rm -rf "$out" "$home"
+  mkdir -p "$logs" "$home"
+  logged update apt-get update
+  logged strip-before strip_root
+  install_packages xz-utils
+  chown 1234:1234 "$home"
+  # A box of hexahedra round the valve. The bare system has nothing that makes meshes.
+  awk -v n=36 'BEGIN {
+    print "# vtk DataFile Version 3.0\na box\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS", n ^ 3, "double"
+    for (i = 0; i < n ^ 3; ++i) print -1.75 + 0.1 * (i % n), -1.75 + 0.1 * (int(i / n) % n), -1.75 + 0.1 * int(i / n ^ 2)
+    m = n - 1
+    print "CELLS", m ^ 3, 9 * m ^ 3
+    for (z = 0; z < m; ++z) for (y = 0; y < m; ++y) for (x = 0; x < m; ++x) {
+      a = x + n * (y + n * z)
+      print 8, a, a + 1, a + 1 + n, a + n, a + n ^ 2, a + 1 + n ^ 2, a + 1 + n + n ^ 2, a + n + n ^ 2
+    }
+    print "CELL_TYPES", m ^ 3
+    for (i = 0; i < m ^ 3; ++i) print 12
+  }' >"$home/box.vtk"
+  logged unpack "${as_user[@]}" PATH="$PATH" tar -xJf "$input"/riis-*-linux-x86_64.tar.xz -C "$home"
+  logged mark "${as_user[@]}" PATH=/usr/bin:/bin HOME="$home" sh -c "cd $home && riis-*/bin/riis mark box.vtk --unit cm \
+    --valve coapting --opening 0.5 --output marked.vtu --stats stats.json --picture picture.png"
+  echo "$((SECONDS - start))" >"$out/seconds.txt"
+  ! pgrep -u 1234 || { echo "a process is left" >&2; exit 1; }
+  # A picture with a valve does not compress to nothing.
+  (($(stat -c %s "$home/picture.png") > 20000)) || { echo "the picture is empty" >&2; exit 1; }
+  grep -E '"n_(nodes|marked|triangles)"' "$home/stats.json" >"$out/numbers.txt"
+  cp "$home/picture.png" "$out"
+  rm -rf "$home"
   logged strip-after strip_root
 }
 
@@ -161,8 +215,10 @@ case $1 in
   build) build ;;
   try) try ;;
   wheel) wheel ;;
+  program) program ;;
+  picture) picture ;;
   *)
-    echo "debian_root.sh: '$1' is not build, try or wheel" >&2
+    echo "debian_root.sh: '$1' is not build, try, wheel, program or picture" >&2
     exit 2
     ;;
 esac

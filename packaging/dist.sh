@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# dist.sh [archive]: makes a release from the last commit in out/dist: the source archive, its checksum and the release notes. It
-# first checks that all versions agree, then makes the archive twice, in different surroundings, and compares the bytes. Without
-# the word `archive` it also unpacks the archive, and runs ./run test from it in a bare Debian 12 and a bare Debian 13.
+# dist.sh [archive | files]: makes a release from the last commit in out/dist: the source archive, its checksum and the release
+# notes. It first checks that all versions agree, then makes the archive twice, in different surroundings, and compares the bytes.
+# Without the word `archive` it also makes Python's wheels and the archive of the program, from the working tree, and tests them
+# (wheels.sh, program.sh). Without a word it then unpacks the source archive, and runs ./run test from it in a bare Debian 12 and
+# a bare Debian 13.
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
 # shellcheck source=packaging/steps.sh
 . packaging/steps.sh
 case $* in
-  '' | archive) ;;
+  '' | archive | files) ;;
   *)
     echo "./run dist: '$*' is not an argument of this command" >&2
     exit 2
@@ -61,6 +63,16 @@ notes >"$out/release-notes-$version.md"
 say "made twice with the same bytes: out/dist/${archive##*/}, $(size "$archive")"
 say "the release notes: out/dist/release-notes-$version.md"
 [[ ${1:-} != archive ]] || exit 0
+
+rows=$scratch/rows.tsv
+for part in wheels program; do
+  "packaging/$part.sh" "$rows"
+done
+cp out/packages/wheels/riis-*.whl out/packages/program/riis-*.tar.xz "$out"
+(cd "$out" && for file in riis-*.whl riis-*-linux-x86_64.tar.xz; do sha256sum "$file" >"$file.sha256"; done)
+say "for users without a compiler, in out/dist:"
+(cd "$out" && ls -s --si riis-*.whl riis-*-linux-x86_64.tar.xz)
+[[ ${1:-} != files ]] || exit 0
 
 # Only these tests use these roots. In another root ninja would keep the objects of other sources, because the archive's files are
 # older than those objects.

@@ -1,32 +1,33 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# wheels.sh ROWS [12] [13]: makes Python's wheel with its own Embree in a Debian of each version, and runs all tests and the type
-# checkers there (./run python tests). Installs the wheel by pip in a bare Debian, which has no Embree, and marks there. Leaves
-# the wheels in out/packages. Appends a line for each wheel to the file ROWS.
+# wheels.sh ROWS: makes both wheels of a release in a Debian 12, with their own Embree (./run python wheels). Runs all tests and
+# the type checkers with the wheel for Python 3.11 in Debian 12, and with the wheel for later versions in Debian 13. Installs
+# each wheel by pip in a bare Debian, which has neither Embree nor a compiler, and marks there. Leaves the wheels in
+# out/packages/wheels. Appends a line for each wheel to the file ROWS.
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
 # shellcheck source=packaging/steps.sh
 . packaging/steps.sh
-(($# > 0)) || { echo "usage: packaging/wheels.sh ROWS [12] [13]" >&2; exit 2; }
-rows=$(realpath -m -- "$1") roots=${RIIS_ROOTS:-$PWD}
-shift
-(($# > 0)) || set -- 12 13
-declare -A suites=([12]=bookworm [13]=trixie)
-for debian in "$@"; do
-  [[ ${suites[$debian]:-} ]] || { echo "wheels.sh: '$debian' is not a version of Debian, 12 or 13" >&2; exit 2; }
-done
-for debian in "$@"; do
-  out=$PWD/out/packages/wheel$debian
-  say "Debian $debian: the wheel"
-  tests/debian/in_root.sh "${suites[$debian]}" "$roots/build-debian$debian" python tests
-  rm -rf "$out"
-  mkdir -p "$out"
-  cp "$roots/build-debian$debian"/root/riis/build-python/repaired/riis-*.whl "$out"
-  say "Debian $debian: install it where there is no Embree"
-  RIIS_ROOT_INPUT=$out tests/debian/in_root.sh "${suites[$debian]}" "$roots/build-bare$debian" packages inside wheel "$debian"
-  cp "$roots/build-bare$debian/root/riis/out/tried/marks.txt" "$out"
-  same_marks "wheel$debian" "$out/marks.txt"
-  wheel=$(echo "$out"/riis-*.whl)
-  row "wheel $(basename "$wheel" .whl)" "in Debian $debian" "bare, without Embree" "tests, types, Python: same bits" \
+[[ $# == 1 ]] || { echo "usage: packaging/wheels.sh ROWS" >&2; exit 2; }
+rows=$(realpath -m -- "$1") roots=${RIIS_ROOTS:-$PWD} out=$PWD/out/packages/wheels
+declare -A suites=([12]=bookworm [13]=trixie) tags=([12]=cp311-cp311 [13]=cp312-abi3)
+
+inside() { RIIS_ROOT_INPUT=$out tests/debian/in_root.sh "${suites[$1]}" "$roots/$2$1" "${@:3}"; }
+
+rm -rf "$out"
+mkdir -p "$out"
+say "Debian 12: the wheels"
+inside 12 build-debian python tests
+inside 12 build-debian python wheels
+cp "$roots"/build-debian12/root/riis/out/wheels/riis-*.whl "$out"
+say "Debian 13: all tests with the wheel for Python 3.12 and later"
+inside 13 build-debian python wheel "/riis.input/$(basename "$out"/riis-*-cp312-abi3-*.whl)"
+for debian in 12 13; do
+  say "Debian $debian: install the wheel where there is no Embree"
+  inside "$debian" build-bare packages inside wheel "$debian"
+  cp "$roots/build-bare$debian/root/riis/out/tried/marks.txt" "$out/marks$debian.txt"
+  same_marks "wheel$debian" "$out/marks$debian.txt"
+  wheel=$(echo "$out"/riis-*-"${tags[$debian]}"-*.whl)
+  row "wheel $(basename "$wheel" .whl)" "in Debian 12" "bare Debian $debian, without Embree" "tests, types, Python: same bits" \
     "$(size "$wheel")"
 done

@@ -19,42 +19,17 @@ give_up() {
   exit 1
 }
 
-# source_lists FOLDER: writes apt's sources into the folder, as sources of source packages. Needs no root rights.
-source_lists() {
-  local file
-  mkdir -p "$1/lists/partial" "$1/parts"
-  for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.list; do
-    [[ ! -r $file ]] || sed -n 's/^deb\(-src\)\? /deb-src /p' "$file" | sort -u >"$1/parts/$(basename "$file" .list).list"
-  done
-  for file in /etc/apt/sources.list.d/*.sources; do
-    [[ ! -r $file ]] || sed 's/^Types:.*/Types: deb-src/' "$file" >"$1/parts/$(basename "$file")"
-  done
-}
-
-# fetch_source FOLDER: apt checks the signature of the distribution. The distribution's patches only concern its own package. The
-# package libembree-dev has the licences.
+# fetch_source FOLDER: the distribution's patches only concern its own package. The package libembree-dev has the licences.
 fetch_source() {
-  local folder licences=/usr/share/doc/libembree-dev/copyright options package
+  local folder licences=/usr/share/doc/libembree-dev/copyright
   folder=$(realpath -m -- "$1")
   [[ -f $licences ]] || give_up "there is no $licences: install libembree-dev"
   if [[ -f $folder/CMakeLists.txt && ! -e $folder/package ]]; then
     echo "embree.sh: takes the sources in $folder"
-    cp "$licences" "$folder/copyright"
-    return
+  else
+    "$(dirname -- "$(readlink -f -- "$0")")/../packaging/apt_fetch.sh" source libembree-dev "$folder"
   fi
-  rm -rf "$folder" "$folder.part"
-  source_lists "$folder.part"
-  options=(-o "Dir::Etc::SourceList=/dev/null" -o "Dir::Etc::SourceParts=$folder.part/parts"
-    -o "Dir::State::Lists=$folder.part/lists" -o "Dir::Cache=$folder.part" -o APT::Sandbox::User=root)
-  # Sources other than the distribution's may have no source packages. The next commands find out whether a source has Embree's.
-  apt-get "${options[@]}" -q update || true
-  package=$(dpkg-query -W -f='${source:Package}=${source:Version}' libembree-dev)
-  (cd "$folder.part" && apt-get "${options[@]}" -q --download-only --tar-only source "$package")
-  mkdir "$folder"
-  echo "$package" >"$folder/package"
-  tar -xf "$folder.part"/*.orig.tar.* --strip-components 1 -C "$folder"
   cp "$licences" "$folder/copyright"
-  rm -rf "$folder.part"
 }
 
 build() {

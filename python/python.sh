@@ -69,26 +69,48 @@ python_wheel() {
 python_own_wheel() {
   local settings
   mapfile -t settings < <(python_embree_settings)
-  python_wheel "${settings[@]}" &&
+  python_wheel "${settings[@]}" "$@" &&
     cmake --build "$(python_build_folder)" --target riis_python_c_marks
 }
 
-# python_repair: puts TBB and libgomp into the wheel. The module contains Embree.
+# python_repair [KIND]: puts TBB and libgomp into the wheel. The module contains Embree.
 python_repair() {
-  local tools=$PWD/$python_folder/tools/bin
-  PATH=$tools:$PATH auditwheel repair --wheel-dir "$python_folder/repaired" "$python_folder"/built/riis-*.whl
+  local tools=$PWD/$python_folder/tools/bin kind=${1:-}
+  PATH=$tools:$PATH auditwheel repair --wheel-dir "$python_folder/repaired$kind" "$python_folder/built$kind"/riis-*.whl
 }
 
-# python_licences: puts the licence texts of these libraries into the wheel.
+# python_licences [KIND]: puts the licence texts of these libraries into the wheel.
 python_licences() {
-  local tools=$PWD/$python_folder/tools/bin wheel folder=$python_folder/unpacked
-  wheel=$(echo "$python_folder"/repaired/riis-*.whl)
+  local tools=$PWD/$python_folder/tools/bin kind=${1:-} wheel folder=$python_folder/unpacked module=riis
+  [[ ! $kind ]] || module=${kind#-}
+  wheel=$(echo "$python_folder/repaired$kind"/riis-*.whl)
   rm -rf "$folder"
   python_json && cp "$python_folder/json/nlohmann-json.copyright" "$python_folder/embree/licences" &&
     "$tools/wheel" unpack --dest "$folder" "$wheel" &&
-    "$tools/python" -B python/licences.py "$(echo "$folder"/riis-*)" "$(echo "$(python_build_folder)"/python/riis/_riis*.so)" \
+    "$tools/python" -B python/licences.py "$(echo "$folder"/riis-*)" "$(echo "$(python_build_folder)/python/$module"/_riis*.so)" \
       "$python_folder/embree/licences" &&
-    "$tools/wheel" pack --dest-dir "$python_folder/repaired" "$(echo "$folder"/riis-*)"
+    "$tools/wheel" pack --dest-dir "$python_folder/repaired$kind" "$(echo "$folder"/riis-*)"
+}
+
+# python_headers: unpacks the headers of Debian 13's Python, for the wheel of the stable ABI.
+python_headers() {
+  [[ -d $python_folder/headers/usr/include ]] ||
+    packaging/apt_fetch.sh files trixie libpython3.13-dev "$python_folder/headers"
+}
+
+# python_abi3_wheel: makes the wheel for Python 3.12 and later from the wheel for this system's older Python, by another module.
+# The stubs and all other files are the same.
+python_abi3_wheel() {
+  local tools=$PWD/$python_folder/tools/bin folder=$python_folder/abi3 tree
+  rm -rf "$folder" "$python_folder/built-abi3" "$python_folder/repaired-abi3"
+  cmake --build "$(python_build_folder)" --target riis_python_abi3 &&
+    "$tools/wheel" unpack --dest "$folder" "$python_folder"/built/riis-*.whl || return
+  tree=$(echo "$folder"/riis-*)
+  rm "$tree"/riis/_riis.cpython-*.so &&
+    cp "$(python_build_folder)/python/abi3/_riis.abi3.so" "$tree/riis" &&
+    sed -i 's/^Tag: .*/Tag: cp312-abi3-linux_x86_64/' "$tree"/*.dist-info/WHEEL &&
+    mkdir -p "$python_folder/built-abi3" &&
+    "$tools/wheel" pack --dest-dir "$python_folder/built-abi3" "$tree"
 }
 
 # python_environment PYTHON FOLDER: installs the wheel in this folder of build-python into a fresh environment.
@@ -110,6 +132,30 @@ loaded = sorted(file for file in files if any(name in file for name in ("embree"
 print("\n".join(loaded))
 assert len(loaded) >= 2 and all("/riis.libs/" in file for file in loaded), "not all are the wheel's own"
 PYTHON
+}
+
+# python_test: runs all tests with the fresh environment.
+python_test() {
+  step "check that the module loads only its own libraries" python_is_alone
+  step "check the types" "$python_folder/fresh/bin/python" -B python/tests/check_types.py "$python_folder/types"
+  say "test"
+  RIIS_C_MARKS=$PWD/$(python_build_folder)/python/riis_python_c_marks \
+    xvfb-run -a "$python_folder/fresh/bin/python" -B -m pytest -p no:cacheprovider -q -rs python/tests
+}
+
+# python_c_program: builds the C program whose marks the tests compare with the wheel's, and what it needs.
+python_c_program() { python_wheel && cmake --build "$(python_build_folder)" --target riis_python_c_marks; }
+
+# python_test_wheel FILE: runs all tests with this wheel.
+python_test_wheel() {
+  [[ -f $1 ]] || { echo "./run python wheel: there is no file '$1'" >&2; exit 2; }
+  rm -rf "$python_folder/given"
+  mkdir -p "$python_folder/given"
+  cp "$1" "$python_folder/given"
+  python_start
+  step "build the C program of the tests, with the distribution's Embree" python_c_program
+  step "install the wheel into a fresh environment" python_environment "$(python_of_packages)" given
+  python_test
 }
 
 # python_tell: prints a description of the wheel.
@@ -184,8 +230,8 @@ python_manylinux() {
 
 # ./run fit-study [N [FIRST]]
 #   Fits N random patients (300) with riis.fit, from the seed FIRST (7000) on, each on one thread, in the environment of ./run
-#   python. It prints the tables of docs/python.md, the undetermined sizes of whole valves, and the report of each fit that is
-#   wrong and not flagged.
+#   python. It prints the tables of docs/design/fits.md, the undetermined sizes of whole valves, and the report of each fit that
+#   is wrong and not flagged.
 run_fit_study() {
   local n=${1:-300} first=${2:-7000}
   [[ $n =~ ^[1-9][0-9]*$ && $first =~ ^[0-9]+$ && $# -le 2 ]] || {
@@ -201,6 +247,32 @@ python_start() {
   packages=("${python_packages[@]}")
   install_missing
   step "build tools from PyPI" python_tools "$(python_of_packages)"
+}
+
+# python_wheels: makes both wheels of a release, on Debian 12, and copies them to out/wheels.
+python_wheels() {
+  local wheel
+  [[ $("$(python_of_packages)" -c 'import sys; print(sys.version_info < (3, 12))') == True ]] || {
+    echo "./run python wheels: makes wheels for many systems on Debian 12; ./run debian12 python wheels makes one" >&2
+    exit 2
+  }
+  python_start
+  step "the headers of Debian 13's Python" python_headers
+  step "build an Embree for the wheels (once, some minutes)" python_embree
+  step "build the wheel for this Python" python_own_wheel \
+    "--config-settings=cmake.define.RIIS_PYTHON_ABI3_HEADERS=$PWD/$python_folder/headers/usr/include"
+  step "repair it" python_repair
+  step "add the licences of its libraries" python_licences
+  step "build the wheel for Python 3.12 and later" python_abi3_wheel
+  step "repair it" python_repair -abi3
+  step "add the licences of its libraries" python_licences -abi3
+  rm -rf out/wheels
+  mkdir -p out/wheels
+  for wheel in "$python_folder"/repaired/riis-*.whl "$python_folder"/repaired-abi3/riis-*.whl; do
+    [[ $wheel == *-manylinux_2_35_x86_64.whl ]] || { echo "./run python: $wheel needs a later C library than 2.35" >&2; exit 1; }
+    cp "$wheel" out/wheels
+    say "out/wheels/$(basename "$wheel"), $(($(stat -c %s "$wheel") / 1000)) kB"
+  done
 }
 
 # python_make: makes the wheel, and a fresh environment with it.
@@ -228,6 +300,11 @@ python_make_here() {
 # ./run python tutorial | inverse | fit
 #   Uses the environment of ./run python. tutorial runs only the notebooks, and leaves them in out/python. inverse finds 20 valves
 #   from noisy velocities of Stokes flows (docs/theory/gradients.md). fit prints how well riis.fit recovers known valves.
+# ./run python wheels
+#   Makes the two wheels of a release on Debian 12, for Python 3.11 and for Python 3.12 and later, and leaves them in out/wheels.
+#   ./run packages wheels tests them.
+# ./run python wheel FILE
+#   Runs all tests with this wheel, in a fresh environment.
 # ./run python manylinux
 #   Builds the wheels for all systems with glibc 2.28 or later by cibuildwheel, and tests them. It needs Docker, and leaves the
 #   wheels in out/wheels.
@@ -239,6 +316,14 @@ run_python() {
     tutorial)
       python_needs_environment 'python tutorial'
       step "run the notebooks" python_tutorial
+      return
+      ;;
+    wheels)
+      python_wheels
+      return
+      ;;
+    'wheel '*)
+      python_test_wheel "$2"
       return
       ;;
     manylinux)
@@ -261,12 +346,8 @@ run_python() {
       ;;
   esac
   python_make
-  step "check that the module loads only its own libraries" python_is_alone
-  step "check the types" "$python_folder/fresh/bin/python" -B python/tests/check_types.py "$python_folder/types"
   python_tell
-  say "test"
-  RIIS_C_MARKS=$PWD/$(python_build_folder)/python/riis_python_c_marks \
-    xvfb-run -a "$python_folder/fresh/bin/python" -B -m pytest -p no:cacheprovider -q -rs python/tests || status=$?
+  python_test || status=$?
   [[ ! $cost ]] || {
     step "run the notebooks" python_tutorial
     say "out/python/tutorial.html and inverse.html have the notebooks with their pictures and the movie"

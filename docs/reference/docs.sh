@@ -38,7 +38,7 @@ run_docs() {
   step "C and pages (Doxygen)" env RIIS_DOCS_PYTHON="$venv/bin/python" doxygen docs/reference/Doxyfile
   # Copies the files to which pages link and which are not pages themselves.
   cp --parents examples/*.c examples/*.cpp examples/*.f90 examples/*.json examples/python/*.ipynb \
-    examples/cluster/mark_pieces.sh examples/flow_fortran/source.f90 examples/left_heart/heart.png \
+    examples/cluster/mark_pieces.sh examples/flow_fortran/source.f90 \
     tests/marking/test_{resistance,empty_mesh}.c tests/process/test_restart.c CITATION.cff LICENSE docs/*_parameters.png out/docs
   cp /usr/share/texmf/fonts/opentype/public/lm-math/latinmodern-math.otf out/docs
   sed -i 's/( <math/(<math/g' out/docs/*.html # Doxygen inserts a blank before tags that it does not know

@@ -10,15 +10,20 @@ openfoam_plugin=src/openfoam
 # shellcheck source=examples/openfoam/follow.sh
 . "$openfoam_here/follow.sh"
 
-# ./run openfoam [--short | --size CENTIMETRES | --headers FOLDER]
+# ./run openfoam [plugin [FOLDER] | --short | --size CENTIMETRES | --headers FOLDER]
 #   Builds the plug-in for OpenFOAM, and runs a beating valve in OpenFOAM. It compares marks on 1, 2 and 4 ranks, compares
 #   pressure drops with OpenFOAM's porosity, and checks forces and a restart. It leaves plots in out/openfoam. It fetches
 #   OpenFOAM's headers (45 MB), and is left out if there is no package openfoam. --size 0.1 makes edges of 0.1 cm. --headers only
-#   compiles the plug-in, against the headers of another OpenFOAM.
+#   compiles the plug-in, against the headers of another OpenFOAM. plugin only builds the plug-in, and installs it where the
+#   cases of riis patient look for it: in FOLDER, by default ~/.local/lib/riis/openfoam.
 run_openfoam() {
   of_size=0.16 of_time_step=1e-3 of_half_thickness=1.2e-3
   case $* in
     '') ;;
+    plugin | 'plugin '*)
+      openfoam_install_plugin "${2:-$HOME/.local/lib/riis/openfoam}"
+      return
+      ;;
     --short) of_size=0.25 of_time_step=2e-3 of_half_thickness=1.8e-3 ;;
     --size | '--size '*) of_size=${*:2} ;;
     --headers | '--headers '*) openfoam_headers "${*:2}" && return ;;
@@ -73,6 +78,27 @@ run_openfoam() {
   fi
   of_check pictures "$of_cases/beat" "$of_cases/beat-still" "$of_out"
   say "wrote out/openfoam/beat.png, out/openfoam/velocity.png, and the heartbeat in $of_cases/beat"
+}
+
+# openfoam_install_plugin FOLDER: builds the plug-in with the library inside, so that it can lie anywhere, and installs it.
+openfoam_install_plugin() {
+  openfoam_has_package || exit
+  packages=("${openfoam_packages[@]}")
+  install_missing
+  of_work=$PWD/$build/openfoam
+  mkdir -p "$of_work"
+  openfoam_has_source || exit
+  step "build the library" install_library "$of_work/static" -D BUILD_SHARED_LIBS=OFF
+  step "build the plug-in" openfoam_build_plugin "$of_work/static" riisFvOption foamDigest
+  mkdir -p "$1"
+  cp "$of_work"/static/plugin/lib{riisFvOption,foamDigest}.so "$1"
+  say "the plug-in is in $1"
+}
+
+# openfoam_build_plugin FOLDER [TARGET...]: compiles the plug-in in FOLDER/plugin, with the library in FOLDER/riis.
+openfoam_build_plugin() {
+  cmake -S "$openfoam_plugin" -B "$1/plugin" -G Ninja -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH="$1/riis" \
+    -D OPENFOAM_SOURCE="$of_source/src" && cmake --build "$1/plugin" --target "${@:2}"
 }
 
 # openfoam_headers FOLDER: compiles the plug-in against the headers of another OpenFOAM, whose sources lie in FOLDER. Nothing is
@@ -167,14 +193,7 @@ openfoam_source() {
   touch "$folder/with_dynamicMesh"
 }
 
-openfoam_build() {
-  cmake --preset library -B "$of_work/library" -D CMAKE_INSTALL_PREFIX="$of_work/riis" &&
-    cmake --build "$of_work/library" --parallel "$n_jobs" &&
-    cmake --install "$of_work/library" &&
-    cmake -S "$openfoam_plugin" -B "$of_work/plugin" -G Ninja -D CMAKE_BUILD_TYPE=Release \
-      -D CMAKE_PREFIX_PATH="$of_work/riis" -D OPENFOAM_SOURCE="$of_source/src" &&
-    cmake --build "$of_work/plugin"
-}
+openfoam_build() { install_library "$of_work" && openfoam_build_plugin "$of_work" all; }
 
 openfoam_environment() {
   export WM_PROJECT_DIR=/usr/share/openfoam

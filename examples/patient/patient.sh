@@ -99,9 +99,9 @@ random_patients() {
   for seed in $(seq "$1"); do
     step "patient $seed" random_patient "$seed" "$folder/$seed"
     inputs+=(-i "$folder/$seed/closed.png")
-    tiles+="[$n]crop=iw/2:0.8*ih:iw/2:0.1*ih,scale=320:-1[t$n];"
+    tiles+="[$n]scale=320:-1,pad=iw:286:0:30:white,drawtext=text='patient $seed':fontsize=22:fontcolor=0x333333:x=(w-text_w)/2:y=6[t$n];"
     place=$((n / 5))
-    layout+="|$((n % 5 * 320))_$((place * 256))"
+    layout+="|$((n % 5 * 320))_$((place * 286))"
     n=$((n + 1))
   done
   printf '\n  %-4s  %-13s  %-18s  %-13s  %-14s\n' '' 'residual, mm' 'gap to wall, mm' 'attachment, mm' 'edges'
@@ -166,6 +166,7 @@ random_patient() {
     marks_of_patient 0.95 "$from" "$to" || return
   if (($(leaking_edges .) > 0)); then marks_of_patient 0.85 "$from" "$to" || return; fi
   "$riis" check crossings "${valve[@]}" --stats crossings.json || (($? == 4)) || return # the table has a crossing's row
-  xvfb-run -a -s "-screen 0 1600x1200x24" "$riis" mark graded.vtk "${valve[@]}" --opening 0 --picture closed.png --quiet &&
+  "$riis" mark graded.vtk "${valve[@]}" --opening 0 --quiet --picture closed.png --view valve-top \
+    --picture-panels valve --picture-captions none --picture-size 640x512 &&
     attachment_of_patient "$1" 0.3 smoothed noise.txt && attachment_of_patient "$1" 0 exact exact.txt
 }

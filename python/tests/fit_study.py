@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fits random patients with riis.fit, and prints how many of the fits are wrong and not flagged (docs/python.md)."""
+"""Fits random patients with riis.fit, and prints how many of the fits are wrong and not flagged (docs/design/fits.md)."""
 
 import multiprocessing
 import sys

@@ -32,8 +32,14 @@ def a_mesh(folder):
         .save(folder / "mesh.vtu")
 
 
+def landmarks_and_a_mesh(folder):
+    landmarks_of_a_root(folder)
+    if importlib.util.find_spec("pyvista"):
+        a_mesh(folder)
+
+
 # What a document expects of its reader.
-GIVEN = {"docs/python.md": landmarks_of_a_root, "docs/view.md": a_mesh}
+GIVEN = {"docs/python.md": landmarks_and_a_mesh, "docs/view.md": a_mesh}
 SNIPPETS = [one for one in snippets.snippets() if one.language == "python"]
 
 
@@ -69,6 +75,26 @@ def check_whole(names):
 def check_marks(names):
     marks = riis.mark(names["surface"], riis.Mesh(names["xyz"]))
     assert numpy.array_equal(names["marks"].ids, marks.ids) and numpy.count_nonzero(names["K"]) > 100
+
+
+def check_plot(names):
+    """Checks the marks and the picture of the program that README begins with."""
+    assert len(names["marks"]) == len(riis.mark(names["surface"], riis.Mesh(names["mesh"].xyz))) > 1000
+    check_picture("valve.png")
+
+
+def check_own_mesh(names):
+    """Checks that the valve stands in the middle of the reader's mesh."""
+    middle = numpy.asarray(names["surface"].vertices).mean(axis=0) - names["grid"].center
+    assert len(names["marks"]) > 100 and numpy.abs(middle).max() < 1.0
+    check_picture("my_valve.png")
+
+
+def check_picture(name):
+    """Checks that a picture is neither empty nor of one colour."""
+    import pyvista
+    pixels = pyvista.read(name).point_data.active_scalars
+    assert len(numpy.unique(pixels, axis=0)) > 50
 
 
 def check_beat(names):
@@ -108,7 +134,10 @@ def check_view(names):
 
 # A check of what the program made, by the document and the program's first line.
 CHECKS = {(document, first): check for document, first, check in (
-    ("README.md", "import numpy, riis", check_marks),
+    ("README.md", "import pyvista, riis", check_plot),
+    ("docs/python.md", "import pyvista, riis", check_plot),
+    ("docs/python.md", 'grid = pyvista.read("mesh.vtu")                        # also .vtk, .vtp and more; .msh needs meshio',
+     check_own_mesh),
     ("docs/python.md", "import numpy, riis", check_whole),
     ("docs/python.md", "law, n_steps, dt = riis.OpeningTimes(0.45, 0.05, 0.95, 0.05, period=1.0), 6, 0.125", check_beat),
     ("docs/python.md", "aside = riis.Surface(valve, half_thickness=0.1, offset=0.75)", check_aside),

@@ -283,6 +283,11 @@ void riisValve::estimateDrop() {
   check(riis_surface_get_info(surface_.get(), &info, sizeof info));
   const int32_t housing = info.housing_leaflet_id;
   scalar area = returnReduce(areaInMesh(mesh_, triangles, halfThickness_, housing), sumOp<scalar>());
+  // Where two leaflets touch, their bands are one band, and both leaflets together count once (docs/theory/measures.md, "Closed
+  // area").
+  riis_coaptation contact;
+  check(riis_surface_get_coaptation(surface_.get(), halfThickness_ / 2, RIIS_ALL_LEAFLETS, &contact, sizeof contact));
+  area -= contact.area / 2;
   if (placement_.offset != 0) {
     // Blood passes the middle of the band, which has another area than the leaflets. The library's ideal leak has this area.
     double leak = 0;

@@ -201,6 +201,26 @@ check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
   fi
 }
 
+# The lines of README that compile and run an example, as its reader types them. The library of that reader is in $HOME/riis.
+check_readme() { # argument: prefix
+  local home=$work/home name
+  rm -rf "$home"
+  mkdir -p "$home/top"
+  cp -R "$1" "$home/riis"
+  ln -s "$source/examples" "$home/top/examples"
+  awk '/^```sh/ { inside = 1; block = ""; next }
+    inside && /^```/ { inside = 0; if (block ~ /^cmake --preset library/) printf "%s", block; next }
+    inside { block = block $0 "\n" }' "$source/README.md" | grep -v '^cmake ' >"$home/lines.sh" ||
+    problem "README.md has no lines that begin with cmake --preset library"
+  for name in opening_c opening_f; do
+    grep -q "./$name\$" "$home/lines.sh" || problem "the lines of README.md do not run $name"
+  done
+  (cd "$home/top" && env -u LD_LIBRARY_PATH -u PKG_CONFIG_PATH HOME="$home" bash -eu "$home/lines.sh") >"$home/printed.txt" ||
+    problem "the lines of README.md failed"
+  cat <(expected_of opening_valve) <(expected_of opening_valve) | diff - "$home/printed.txt" ||
+    problem "the lines of README.md do not print what they should"
+}
+
 check_bits() { # argument: prefix
   local pkg_config_path out=$work/bits sources=$source/tests/install/stranger program programs=(c cpp)
   pkg_config_path=$(library_dir "$1")/pkgconfig
@@ -255,6 +275,9 @@ check_prefix() { # arguments: prefix, all|few (examples)
   if [ "$kind" = static ]; then
     check_by_pkg_config "$1" few --static
     check_plugin "$1"
+  fi
+  if [ "$kind" = shared ] && has Fortran && [ "$2" = all ]; then
+    check_readme "$1"
   fi
   if has program; then
     quietly env -u LD_LIBRARY_PATH "$(find "$1" -name riis -type f)" --help

@@ -25,6 +25,10 @@ void run_from_area(const AreaOptions &options);
 // command takes, and as text for OpenFOAM, C and Fortran.
 void run_place(const PlaceOptions &options);
 
+// riis patient. In: a patient's wall and landmarks. Out: a folder with the placed valve, a mesh with named boundaries, marks that
+// seal, a beat, pictures, a report, and perhaps a case of a solver.
+ExitCode run_patient(const PatientOptions &options);
+
 // riis export. Writes a valve's opening and closing to a folder as files for svMultiPhysics, and prints the block of the solver's
 // input that names these files.
 void export_uris(const ExportOptions &options);

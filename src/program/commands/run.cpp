@@ -20,7 +20,7 @@ std::string advice_on_band(const std::string &kind) {
   std::string advice =
       "band: with a cut rim and a skirt, --offset 0.75 gives the flow the full width of an open valve. The half\n"
       "thickness must be at least twice the gap of the closed valve. Take 0.5 if it is at least the gap but less\n"
-      "than twice the gap, and 0 for a wider gap (README.md)\n";
+      "than twice the gap, and 0 for a wider gap (docs/choosing.md)\n";
   if (kind == "coapting")
     advice +=
         "A half-open coapting valve still has 5 % less area than walls at a half thickness of 1 mm "
@@ -43,6 +43,7 @@ ExitCode run_command(const Request &request) {
   if (const auto *options = std::get_if<AreaOptions>(&request)) run_from_area(*options);
   if (const auto *options = std::get_if<ExportOptions>(&request)) export_uris(*options);
   if (const auto *options = std::get_if<PlaceOptions>(&request)) run_place(*options);
+  if (const auto *options = std::get_if<PatientOptions>(&request)) return run_patient(*options);
   if (const auto *options = std::get_if<ParamsOptions>(&request)) print_params(*options);
   return exit_fine;
 }

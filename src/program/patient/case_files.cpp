@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <system_error>
 
 #include "program/base/refusal.hpp"
@@ -70,7 +71,11 @@ void copy_into(const SolverCase &solver, const std::string &from, const std::str
 }
 
 void write_into(const SolverCase &solver, const std::string &name, const std::string &text) {
-  write_text((fs::path(solver.solver) / name).string(), text);
+  const fs::path path = fs::path(solver.solver) / name;
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  if (error) refuse_data(path.parent_path().string() + ": cannot be made: " + error.message());
+  write_text(path.string(), text);
 }
 
 void make_runnable(const SolverCase &solver, const std::string &name) {
@@ -83,10 +88,14 @@ void make_runnable(const SolverCase &solver, const std::string &name) {
 
 std::string filled(std::string text, const std::map<std::string, std::string> &names) {
   for (const auto &[name, value] : names) {
-    const std::string mark = '{' + name + '}';
-    std::size_t at = text.find(mark);
-    if (at == std::string::npos) throw std::logic_error("no " + mark + " in the text of a case");
-    for (; at != std::string::npos; at = text.find(mark, at + value.size())) text.replace(at, mark.size(), value);
+    const std::string mark = '@' + name + '@';
+    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size()))
+      text.replace(at, mark.size(), value);
+  }
+  for (std::size_t at = text.find('@'); at != std::string::npos; at = text.find('@', at + 1)) {
+    const std::size_t end = text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_", at + 1);
+    if (end != std::string::npos && end > at + 1 && text[end] == '@')
+      throw std::logic_error(text.substr(at, end - at + 1) + " is left in the text of a case");
   }
   return text;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the writers of cases share: checks of a SolverCase, the folder, and texts with names in braces.
+// What the writers of cases share: checks of a SolverCase, the folder, and texts with names such as @NAME@.
 #pragma once
 
 #include <map>
@@ -27,13 +27,14 @@ void copy_into(const SolverCase &solver, const std::string &from, const std::str
 void write_into(const SolverCase &solver, const std::string &name, const std::string &text);
 void make_runnable(const SolverCase &solver, const std::string &name);
 
-// Replaces {NAME} by its text. Every name must be in the text.
+// Replaces @NAME@ by its text. Every name in the text must be among the names.
 std::string filled(std::string text, const std::map<std::string, std::string> &names);
 
 // Returns a duration for a message, such as "12 minutes".
 std::string duration_text(double seconds);
 
-// The texts of files in this folder, which CMake writes into the program.
-extern const char svmultiphysics_xml[], svmultiphysics_allrun[], fenicsx_run[];
+// The texts of the files in the folders fenicsx, openfoam and svmultiphysics, by names such as "openfoam/Allrun". CMake writes
+// them into the program, so the program needs no path to them.
+const std::map<std::string, std::string> &case_texts();
 
 }  // namespace riis::program

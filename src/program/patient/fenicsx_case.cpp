@@ -73,7 +73,7 @@ void write_fenicsx_case(const SolverCase &solver) {
     if (solver.skirt > 0 || name != std::string("wall.stl")) copy_into(solver, name, name);
   const int n_steps = static_cast<int>(beat_period / dolfinx_step + 0.5);
   write_into(solver, "case.json", numbers_of(solver, ends, n_steps).dump(1) + "\n");
-  write_into(solver, "run.py", fenicsx_run);
+  write_into(solver, "run.py", case_texts().at("fenicsx/run.py"));
   make_runnable(solver, "run.py");
   print_line("a beat has " + std::to_string(n_steps) + " steps of " + shortest(dolfinx_step) +
              " s; dolfinx needs about " +

@@ -158,7 +158,7 @@ void write_svmultiphysics_case(const SolverCase &solver) {
   const int n_steps = static_cast<int>(beat_period / solver_step + 0.5);
   const std::string step = shortest(solver_step);
   write_into(solver, "solver.xml",
-             filled(svmultiphysics_xml,
+             filled(case_texts().at("svmultiphysics/solver.xml"),
                     {{"TITLE", "One beat of a " + in_xml(solver.kind) + " valve, written by riis patient."},
                      {"STEPS", std::to_string(n_steps)},
                      {"TIME_STEP", step},
@@ -168,7 +168,7 @@ void write_svmultiphysics_case(const SolverCase &solver) {
                      {"DENSITY", printed("%.6g", solver.density * factor_from_si(a_density, Unit::centimetre))},
                      {"VISCOSITY", printed("%.6g", solver.viscosity * factor_from_si(a_viscosity, Unit::centimetre))},
                      {"CONDITIONS", conditions_of(solver, ends)}}));
-  write_into(solver, "Allrun", filled(svmultiphysics_allrun, {{"TIME_STEP", step}}));
+  write_into(solver, "Allrun", filled(case_texts().at("svmultiphysics/Allrun"), {{"TIME_STEP", step}}));
   make_runnable(solver, "Allrun");
   print_line("a beat has " + std::to_string(n_steps) + " steps of " + step + " s; svMultiPhysics needs about " +
              duration_text(seconds_of_cell * static_cast<double>(solver.n_cells) * n_steps) + " on one processor");
