@@ -286,6 +286,7 @@ class Cases(unittest.TestCase):
         self.write("fenicsx", numbers)
         case = json.loads((pathlib.Path(numbers["solver"]) / "case.json").read_text())
         self.assertEqual((sorted(case["pressures"]), case["windkessels"]), (["inlet", "outlet"], {}))
+        self.assertEqual(case["law"]["close_below"], 1e-4)
         self.assertFalse((pathlib.Path(numbers["solver"]) / "wall.stl").exists())
 
     def test_missing_packages(self):
