@@ -512,6 +512,31 @@ def test_a_session_of_a_patient_opens_as_it_was(patient, wall, mesh, tmp_path):
         assert again.command_files() == model.command_files() and again.command() == model.command()
 
 
+def test_openfoam_gets_the_warp_and_the_skirt(patient, wall, tmp_path):
+    """The dictionary has the landmarks in metres, also after the valve was moved by hand, and the longest skirt."""
+    model = model_of(patient, wall)
+    model.add("coapting")
+    model.read_landmarks(patient / "landmarks.mrk.json")
+    found = model.place_by_landmarks(0, warp="smoothed")
+    model.set_skirt(0, 6.0)
+    shift = numpy.array([0.1, 0.2, -0.1])
+    for moved in (numpy.zeros(3), shift):
+        model.place(0, numpy.array(model.valves[0].origin) + moved)
+        text = model.openfoam()
+        assert text.count("{") == text.count("}") and "    skirt\n    {\n        patch wall;\n        longest 0.006;\n    }\n" in text
+        entry = text[text.index("        targets") : text.index("        noise")]
+        rows = [[float(word) for word in line.strip(" ()").split()] for line in entry.splitlines() if line.startswith(12 * " ")]
+        assert numpy.allclose(rows, 1e-3 * (found.points + moved), rtol=1e-12)
+        assert f"noise {1e-3 * found.warp_noise:.6g}"[:12] in text
+        (tmp_path / "placed.json").write_text(model.placed_file(0))
+        assert json.loads((tmp_path / "placed.json").read_text())["warp"].get("coordinates", "mesh") == "mesh"
+        again = riis.read_placed(tmp_path / "placed.json")
+        bare = riis.Surface(again.valve, half_thickness=1.0, **again.placement).vertices
+        model.set_skirt(0, 0.0)
+        assert numpy.allclose(bare, model.surface(0).vertices, atol=1e-9)
+        model.undo()
+
+
 # ---- Fits ----
 
 

@@ -366,8 +366,8 @@ def _placed_text(state: ValveState, unit: str, axes: str | None) -> str:
         "valve": state.kind, "unit": unit, "axes": axes or "mesh", "rotate": list(state.rotation), "translate": list(state.origin),
         "parameters": files.nested(state.parameters),
     }  # fmt: skip
-    if state.warp is not None:
-        root["warp"] = warp_object(state.warp)
+    if state.warp is not None:  # in the mesh, as riis place writes it and OpenFOAM takes it
+        root["warp"] = warp_object(state.warp.in_mesh(state.placement))
     return json.dumps(root, indent=2) + "\n"
 
 

@@ -117,7 +117,7 @@ class Scene:
         self._actors: dict[str, Any] = {}
         self._wall_actors: dict[str, Any] = {}
         self._placed: Any = None
-        self._labels: Any = None
+        self._labels: list[Any] = []
         plotter.set_background("white")
         self.renew_wall()
 
@@ -353,9 +353,11 @@ class Scene:
         """Draws landmarks as points with their names. The chosen one is red."""
         for name in ("riis landmarks", "riis chosen landmark"):
             self._drop(name)
-        if self._labels is not None:
-            self.plotter.remove_actor(self._labels, reset_camera=False)
-            self._labels = None
+        for label in self._labels:
+            self.plotter.renderer.RemoveActor(label)
+        self._labels = [self._label_of(name.replace("_", " "), at) for name, at in landmarks.items()]
+        for label in self._labels:
+            self.plotter.renderer.AddActor(label)
         for name, colour, points in (
             ("riis landmarks", LANDMARK, [at for one, at in landmarks.items() if one != chosen]),
             ("riis chosen landmark", CHOSEN, [at for one, at in landmarks.items() if one == chosen]),
@@ -363,12 +365,21 @@ class Scene:
             if points:
                 self._put(name, self._pv.PolyData(numpy.array(points, float)), color=colour, point_size=13,
                           render_points_as_spheres=True, lighting=False, pickable=False)
-        if landmarks:
-            self._labels = self.plotter.add_point_labels(
-                numpy.array(list(landmarks.values()), float), [name.replace("_", " ") for name in landmarks], font_size=15,
-                text_color="#111111", shape_color="white", shape_opacity=0.65, shape="rounded_rect", margin=2, show_points=False,
-                always_visible=True, reset_camera=False, pickable=False, bold=False,
-            )  # fmt: skip
+    def _label_of(self, text: str, at: Any) -> Any:
+        """Returns a text that stands beside a point, and faces the camera."""
+        from vtkmodules.vtkRenderingCore import vtkBillboardTextActor3D
+
+        label = vtkBillboardTextActor3D()
+        label.SetInput(text)
+        label.SetPosition(*(float(x) for x in at))
+        label.SetDisplayOffset(9, 5)
+        label.ForceOpaqueOn()
+        look = label.GetTextProperty()
+        look.SetFontSize(15)
+        look.SetColor(0.07, 0.07, 0.07)
+        look.SetBackgroundColor(1.0, 1.0, 1.0)
+        look.SetBackgroundOpacity(0.65)
+        return label
 
     def show_points(self, points: Any) -> None:
         """Draws points that were clicked."""
@@ -595,23 +606,22 @@ class Scene:
         """During this context, lines, points and letters are larger by a factor."""
         looks = [actor.GetProperty() for actor in self._actors.values() if hasattr(actor, "GetProperty")]
         sizes = [(look, look.GetLineWidth(), look.GetPointSize()) for look in looks]
-        letters = None
-        if self._labels is not None:
-            letters = self._labels.GetMapper().GetLabelTextProperty()
-        font = 0 if letters is None else letters.GetFontSize()
+        letters = [(label, label.GetTextProperty().GetFontSize(), label.GetDisplayOffset()) for label in self._labels]
         try:
             for look, width, point_size in sizes:
                 look.SetLineWidth(factor * width)
                 look.SetPointSize(factor * point_size)
-            if letters is not None:
-                letters.SetFontSize(max(6, round(factor * font)))
+            for label, font, offset in letters:
+                label.GetTextProperty().SetFontSize(max(6, round(factor * font)))
+                label.SetDisplayOffset(*(round(factor * part) for part in offset))
             yield
         finally:
             for look, width, point_size in sizes:
                 look.SetLineWidth(width)
                 look.SetPointSize(point_size)
-            if letters is not None:
-                letters.SetFontSize(font)
+            for label, font, offset in letters:
+                label.GetTextProperty().SetFontSize(font)
+                label.SetDisplayOffset(*offset)
 
     def close(self) -> None:
         self.plotter.close()
