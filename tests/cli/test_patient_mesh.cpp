@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes with named boundaries, by gmsh, in random vessels whose cut ends are known. The files are read here by themselves: each face
-// of the tetrahedra without a second tetrahedron is in exactly one boundary. Programs that stand for gmsh fail in several ways.
+// Meshes with named boundaries, by gmsh, in random vessels whose cut ends are known. The test reads the files itself. Each face
+// that has only one tetrahedron must be in exactly one boundary. Programs that stand for gmsh fail in several ways.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -293,7 +293,7 @@ void failing_programs(random_source &random, const std::string &folder) {
                      "printf '$MeshFormat\\n2.2 0 8\\n$EndMeshFormat\\n$Nodes\\n3\\n1 0 0 0\\n2 1 0 0\\n3 0 1 0\\n"
                      "$EndNodes\\n$Elements\\n1\\n1 2 2 0 1 1 2 3\\n$EndElements\\n' > \"$mesh\"");
   expect_refused({"gmsh made a surface that is not closed at 3 edges"}, mesh);
-  setenv("PATH", folder.c_str(), 1);
+  setenv("PATH", (folder + "/faces").c_str(), 1);
   expect_refused({"gmsh: there is no such program in PATH", "'sudo apt-get install gmsh' installs it"},
                  [] { require_gmsh(); });
 

@@ -37,7 +37,7 @@ constexpr std::size_t n_sectors = 12;
 constexpr double clear_mean = 55, clear_least = 20, unclear_mean = 30;
 // Four pi times the area over the square of the perimeter: 1 for a disc, 0.6 for an ellipse thrice as long as wide.
 constexpr double least_roundness = 0.25;
-// Flat parts that touch make each other unclear if their areas differ by less than this factor. Else the small one is no end.
+// Flat parts that touch make each other unclear if their areas differ by less than this factor. Else only the small one is.
 constexpr double most_apart = 10;
 // A flat part below this share of the largest end, such as the end of a coronary artery, may be a facet of a coarse wall. It is an
 // end if its rim has so many sides, and if the wall is as steep up to this share of the radius.
@@ -146,7 +146,7 @@ class EndFinder {
     return part.area >= least_share * total_ && static_cast<std::int64_t>(part.triangles.size()) >= least_triangles;
   }
 
-  // The plane of least squares would follow the corners. The sum of the area vectors follows the rim, and is exact for a flat part.
+  // The sum of the area vectors follows the rim, and is exact for a flat part. A plane of least squares would follow the corners.
   void fit(FlatPart &part) const {
     Vector area{}, centre{};
     part.area = 0;
