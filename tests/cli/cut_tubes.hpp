@@ -39,8 +39,8 @@ struct CutVessels {
 Triangles surface_of(const std::function<double(const Vector &)> &function, const Vector &lower, double side,
                      int n_cells);
 
-// Cuts off what lies beyond a plane within a ball around a point of the plane. Closes the cut with a cap. Returns the end, which is
-// measured also if it stays open.
+// Cuts off what lies beyond a plane within a ball around a point of the plane. Closes the cut with a cap. Returns the end, which
+// is measured even if it stays open.
 CutEnd cut(Triangles &triangles, const Vector &point, const Vector &outward, double radius, Cap cap,
            random_source &random);
 

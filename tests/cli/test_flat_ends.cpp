@@ -270,7 +270,7 @@ void faults(random_source &random) {
   bad.corners.erase(bad.corners.begin() + 1500, bad.corners.begin() + 1540);
   bad.corners.erase(bad.corners.begin() + 700, bad.corners.begin() + 720);
   write(bad, random);
-  expect_refused({"the surface has 2 holes, one of 22 edges at ", "is off its plane by ", "cut an open end flat"});
+  expect_refused({"the surface has 2 holes, one of 44 edges at ", "is off its plane by ", "cut an open end flat"});
 
   bad = whole;
   append(bad, whole, 0.8, {3, 0, 0});

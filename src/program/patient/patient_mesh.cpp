@@ -295,16 +295,18 @@ class PatientMesher {
     const std::vector<std::string> words{"gmsh", dimension, "-nt",   "1",  "-v", "4", "-log",
                                          log,    "-format", "msh22", "-o", mesh, geo};
     options_.announce(joined_by(words, " "));
-    std::vector<std::string> limited{"timeout", printed("%.0f", seconds)};
+    std::vector<std::string> limited{"timeout", "--foreground", printed("%.0f", seconds)};
     limited.insert(limited.end(), words.begin(), words.end());
     const ProgramEnd end = run_program(limited);
-    constexpr int at_limit = 124;  // the status of timeout
+    constexpr int at_limit = 124, signal_status = 128;  // timeout's status at the limit, and its least after a signal
     if (end.status == at_limit)
       refuse_data("gmsh did not end within " + printed("%.0f", seconds) + " seconds (" + log + "); " + cure);
     if (end.error != 0) refuse_data("gmsh: cannot be run: " + system_text(end.error));
     const std::string log_text = fs::exists(log, ignored) ? text_of_file(log) : "";
     const std::string error = last_error_in(log_text);
-    const std::string why = !error.empty() ? error : end.status < 0 ? "a signal ended it" : end.last_message;
+    const std::string why = !error.empty()                                 ? error
+                            : end.status < 0 || end.status > signal_status ? "a signal ended it"
+                                                                           : end.last_message;
     if (!error.empty() || end.status != 0 || !fs::exists(mesh, ignored))
       refuse_data("gmsh fails: " + (why.empty() ? "it writes no mesh" : why) + " (" + log + "); " + cure);
     made_.written.push_back(log);
