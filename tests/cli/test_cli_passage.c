@@ -360,7 +360,7 @@ TEST(test_closed_area_of_plates) {
   }
 }
 
-/* The plug-in for OpenFOAM takes the area of the leaflets less half of their coaptation within half a half thickness. Here half a
+/* Two leaflets that touch count once: half of their coaptation within half a half thickness does not count. Half a
  * tube around the free edges also counts, 0.467 half thicknesses for each length: the integral of K there over R / eps. */
 TEST(test_closed_area_of_a_coaptation) {
   const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 2.3};
