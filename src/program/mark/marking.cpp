@@ -51,8 +51,10 @@ void combine(riis_mark_stats &all, const riis_mark_stats &stats) {
   all.n_threads = std::max(all.n_threads, stats.n_threads);
 }
 
-// Tells whether the area of the closed valve can be measured: the band lies in the middle of the leaflets.
-bool is_closed(const MovingValve &valve) { return valve.opening() == 0 && valve.options().surface_options.offset == 0; }
+// Tells whether the closed area can be measured: the valve is closed or a surface from a file, and the band lies in its middle.
+bool is_closed(const MovingValve &valve) {
+  return valve.opening().value_or(0) == 0 && valve.options().surface_options.offset == 0;
+}
 
 void report_leak(const MovingValve &valve, FlowReport &flow) {
   const std::optional<double> &R = valve.options().resistance;
