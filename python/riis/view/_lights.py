@@ -379,7 +379,8 @@ def sealed(scene: Scene) -> Light:
     better = rounded_up(1.01 * found.distance)
     cure = None
     if better <= min(LARGEST_HALF_THICKNESS * scene.largest_side, 2.0 * scene.state.half_thickness):
-        advice, cure = f"a half thickness of {scene.length(better)} closes it", (f"Set the half thickness to {scene.length(better)}", "sealed")
+        length = scene.length(better)
+        advice, cure = f"a half thickness of {length} closes it", (f"Set the half thickness to {length}", "sealed")
     return Light("sealed", "bad", f"leaking: {text}", advice, cure, points=points, edges=edges, valve=scene.number, value=better)
 
 

@@ -37,12 +37,18 @@ class Patient(Part):
         state.resistance = rows.shown(valve.resistance, 6)
         state.resistance_unit = "kg/(m s)" if model.unit else "in units of the mesh"
         state.sizes_to_fit = [] if valve.surface is not None else [
-            name for name, known in valve.valve().parameters.items() if known.n_values == 1 and name not in ("opening", "skirt_length")
+            name for name, known in valve.valve().parameters.items()
+            if known.n_values == 1 and name not in ("opening", "skirt_length")
         ]  # fmt: skip
         if state.fit_kind != valve.kind:
             state.fit_kind, state.fit_sizes = valve.kind, model.sizes_to_fit(state.current)
         self.scene.renew_wall()
-        self.scene.show_landmarks(landmarks.points, state.landmark)
+        self._show_landmarks()
+
+    def _show_landmarks(self) -> None:
+        """Draws the landmarks while their panel is unfolded."""
+        is_unfolded = "patient" in self.state.panels
+        self.scene.show_landmarks(self.model.landmarks.points if is_unfolded else {}, self.state.landmark)
 
     # landmarks
 
@@ -52,7 +58,7 @@ class Patient(Part):
         with self.state as state:
             is_chosen = state.tool == PLACING and state.landmark == name
             state.landmark, state.tool, state.message = ("", "look", "") if is_chosen else (name, PLACING, "")
-        self.scene.show_landmarks(self.model.landmarks.points, self.state.landmark)
+        self._show_landmarks()
         self._moved.set()
 
     def _set_landmark_at(self, point: Any) -> None:
