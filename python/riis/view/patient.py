@@ -8,9 +8,11 @@ import functools
 import os
 from typing import Any
 
+from riis._errors import Error
 from riis.view import reading, rows
-from riis.view._lights import rounded_up
 from riis.view._landmark_files import missing, role_of
+from riis.view._lights import rounded_up
+from riis.view._numbers import shown
 from riis.view._part import Part
 
 PLACING = "landmark"  # the tool that sets landmarks
@@ -33,8 +35,8 @@ class Patient(Part):
         state.unit, state.axes = model.unit, landmarks.axes
         state.has_wall = model.wall is not None
         state.skirt_on = valve.skirt > 0.0
-        state.skirt = rows.shown(valve.skirt, 6) if valve.skirt > 0.0 else ""
-        state.resistance = rows.shown(valve.resistance, 6)
+        state.skirt = shown(valve.skirt, 6) if valve.skirt > 0.0 else ""
+        state.resistance = shown(valve.resistance, 6)
         state.resistance_unit = "kg/(m s)" if model.unit else "in units of the mesh"
         state.sizes_to_fit = [] if valve.surface is not None else [
             name for name, known in valve.valve().parameters.items()
@@ -126,7 +128,7 @@ class Patient(Part):
         self._begin_change()
         try:
             self.model.place_by_landmarks(self.state.current, warp=self.state.warp)
-        except reading.Error as error:
+        except Error as error:
             raise reading.Refusal(_said_for_the_page(str(error))) from error
         self._refresh()
         self._look("oblique")

@@ -181,7 +181,7 @@ def read_points(path: str) -> Any:
     if not os.path.isfile(path):
         raise Refusal(f"{path}: there is no such file")
     if ending in (".csv", ".txt", ".xyz"):
-        points = []
+        points: list[list[float]] = []
         with open(path, encoding="utf-8", errors="replace") as file:
             for number, line in enumerate(file, 1):
                 cells = [cell for cell in re.split(r"[,;\s]+", line) if cell]
