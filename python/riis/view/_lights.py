@@ -205,8 +205,8 @@ def half_thickness(scene: Scene) -> Light:
     )
     better = rounded_up(1.01 * leaks.half_thickness)
     if better > LARGEST_HALF_THICKNESS * side:
-        return Light("half_thickness", "bad", text, f"the mesh is too coarse for this valve: a half thickness of {scene.length(better)} "
-                     "would be needed, so refine the mesh near the leaflets", points=ends.mean(axis=1), edges=ends,
+        return Light("half_thickness", "bad", text, f"the mesh is too coarse for this valve: a half thickness of "
+                     f"{scene.length(better)} would be needed, so refine the mesh near the leaflets", points=ends.mean(axis=1), edges=ends,
                      valve=scene.number)
     return Light("half_thickness", "bad", text, f"a half thickness of {scene.length(better)} closes them, or a finer mesh",
                  (f"Set the half thickness to {scene.length(better)}", "half_thickness"), points=ends.mean(axis=1), edges=ends,
@@ -325,7 +325,8 @@ def _ring(scene: Scene, boundary: Surface) -> Light:
     found = boundary.closest_points(ring, side=True, point=False, normal=False, triangle_id=False, leaflet_id=False)
     assert found.side is not None and found.distance is not None
     gap = numpy.where(found.side > 0, -found.distance, found.distance)
-    text = f"the wall is {shown(float(gap.min()))} to {scene.length(float(gap.max()))} from the {'housing' if height else 'annulus'}"
+    least, most = shown(float(gap.min())), scene.length(float(gap.max()))
+    text = f"the wall is {least} to {most} from the {'housing' if height else 'annulus'}"
     # If the wall meets one of the housing's circles at each angle, it seals the valve. The housing's normals point outwards.
     reach = (1.0 + state.offset) * state.half_thickness if height > 0.0 else _beyond_rim(state)
     is_open = (gap.reshape(len(levels), 72) > reach).all(axis=0)
@@ -379,7 +380,8 @@ def sealed(scene: Scene) -> Light:
     better = rounded_up(1.01 * found.distance)
     cure = None
     if better <= min(LARGEST_HALF_THICKNESS * scene.largest_side, 2.0 * scene.state.half_thickness):
-        advice, cure = f"a half thickness of {scene.length(better)} closes it", (f"Set the half thickness to {scene.length(better)}", "sealed")
+        length = scene.length(better)
+        advice, cure = f"a half thickness of {length} closes it", (f"Set the half thickness to {length}", "sealed")
     return Light("sealed", "bad", f"leaking: {text}", advice, cure, points=points, edges=edges, valve=scene.number, value=better)
 
 

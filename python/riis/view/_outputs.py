@@ -156,7 +156,9 @@ def command_of(
         if _times_of_surfaces(states) is not None:  # the case has times, so the program writes a series
             output = os.path.splitext(output)[0] + ".pvd"
         return shlex.join([program, "mark", "--case", case, "--output", output])
-    words = [program, "surface"] if facts.is_wall_alone else [program, "mark", "MESH.vtu" if path is None else os.path.abspath(path)]
+    words = [program, "mark", "MESH.vtu" if path is None else os.path.abspath(path)]
+    if facts.is_wall_alone:
+        words = [program, "surface"]
     if facts.cells_where is not None:
         words.append(f"{OPTION}={facts.cells_where}")
     with_unit = has_unit(states, unit)

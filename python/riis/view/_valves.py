@@ -131,7 +131,9 @@ class WarpState:
             return self
         scale, origin = float(placement["scale"]), numpy.array(placement["translation"])
         matrix = matrix_of((*vector(placement["rotation_axis"]), float(placement["rotation_angle"])))
-        sources, targets = (numpy.ascontiguousarray(scale * points @ matrix.T + origin) for points in (self.sources, self.targets))
+        sources, targets = (
+            numpy.ascontiguousarray(scale * points @ matrix.T + origin) for points in (self.sources, self.targets)
+        )
         return WarpState(sources, targets, scale * self.noise, True)
 
 

@@ -340,7 +340,10 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
             self.scene.close()
         self.model, self.scene, self._grid, self._shown, self._clicks = model, scene, grid, None, []
         if model.wall is not None:
-            self.state.wall = "clear" if model.valves[0].placed is not None else "cut"  # landmarks are picked on the inside
+            is_placed = model.valves[0].placed is not None
+            self.state.wall = "clear" if is_placed else "cut"  # landmarks are picked on the inside
+            if not is_placed or model.landmarks.points:
+                self.state.panels = [*(name for name in self.state.panels if name != "patient"), "patient"]
         self.scene.show_wall(self.state.wall)
         self.scene.show_cells(self.state.cells)
         with self.state:
@@ -510,6 +513,7 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
         self.scene.show_lights([])
         self.scene.show_gap([], [])
         self._show_bump()
+        self._show_landmarks()
         valve = self._valve()
         with self.state as state:
             if state.sliders and state.sliders[0]["name"] == "opening" and self._slider_values[0] != valve.opening:

@@ -26,6 +26,7 @@ WALLS = ("cut", "clear", "none")
 CELLS = ("partly", "marked", "none")
 LOOKS = ("oblique", "top", "side")
 LEAST_SIDE, MOST_SIDE = 64, 4096  # of a picture, in pixels
+_LETTER = 15  # size of the names of landmarks, in pixels
 _HELPERS = ("riis light ", "riis gap", "riis handle", "riis points", "riis bump")  # that a report does not show
 SLOW = 0.12  # seconds; if a picture takes longer while a hand moves, the next picture has fewer pixels
 MANY_MARKED = 400_000  # if more cells are marked, they are drawn only while the hand rests
@@ -354,10 +355,10 @@ class Scene:
         for name in ("riis landmarks", "riis chosen landmark"):
             self._drop(name)
         for label in self._labels:
-            self.plotter.renderer.RemoveActor(label)
+            self.plotter.renderer.RemoveViewProp(label)
         self._labels = [self._label_of(name.replace("_", " "), at) for name, at in landmarks.items()]
         for label in self._labels:
-            self.plotter.renderer.AddActor(label)
+            self.plotter.renderer.AddViewProp(label)
         for name, colour, points in (
             ("riis landmarks", LANDMARK, [at for one, at in landmarks.items() if one != chosen]),
             ("riis chosen landmark", CHOSEN, [at for one, at in landmarks.items() if one == chosen]),
@@ -366,19 +367,19 @@ class Scene:
                 self._put(name, self._pv.PolyData(numpy.array(points, float)), color=colour, point_size=13,
                           render_points_as_spheres=True, lighting=False, pickable=False)
     def _label_of(self, text: str, at: Any) -> Any:
-        """Returns a text that stands beside a point, and faces the camera."""
-        from vtkmodules.vtkRenderingCore import vtkBillboardTextActor3D
+        """Returns a text beside a point, in front of everything."""
+        from vtkmodules.vtkRenderingCore import vtkTextActor
 
-        label = vtkBillboardTextActor3D()
-        label.SetInput(text)
-        label.SetPosition(*(float(x) for x in at))
-        label.SetDisplayOffset(9, 5)
-        label.ForceOpaqueOn()
+        label = vtkTextActor()
+        label.SetInput(f"  {text} ")
+        label.GetPositionCoordinate().SetCoordinateSystemToWorld()
+        label.GetPositionCoordinate().SetValue(*(float(x) for x in at))
         look = label.GetTextProperty()
-        look.SetFontSize(15)
+        look.SetFontSize(_LETTER)
+        look.SetVerticalJustificationToCentered()
         look.SetColor(0.07, 0.07, 0.07)
         look.SetBackgroundColor(1.0, 1.0, 1.0)
-        look.SetBackgroundOpacity(0.65)
+        look.SetBackgroundOpacity(0.6)
         return label
 
     def show_points(self, points: Any) -> None:
@@ -606,22 +607,20 @@ class Scene:
         """During this context, lines, points and letters are larger by a factor."""
         looks = [actor.GetProperty() for actor in self._actors.values() if hasattr(actor, "GetProperty")]
         sizes = [(look, look.GetLineWidth(), look.GetPointSize()) for look in looks]
-        letters = [(label, label.GetTextProperty().GetFontSize(), label.GetDisplayOffset()) for label in self._labels]
+        letters = [label.GetTextProperty() for label in self._labels]
         try:
             for look, width, point_size in sizes:
                 look.SetLineWidth(factor * width)
                 look.SetPointSize(factor * point_size)
-            for label, font, offset in letters:
-                label.GetTextProperty().SetFontSize(max(6, round(factor * font)))
-                label.SetDisplayOffset(*(round(factor * part) for part in offset))
+            for letter in letters:
+                letter.SetFontSize(max(6, round(factor * _LETTER)))
             yield
         finally:
             for look, width, point_size in sizes:
                 look.SetLineWidth(width)
                 look.SetPointSize(point_size)
-            for label, font, offset in letters:
-                label.GetTextProperty().SetFontSize(font)
-                label.SetDisplayOffset(*offset)
+            for letter in letters:
+                letter.SetFontSize(_LETTER)
 
     def close(self) -> None:
         self.plotter.close()
