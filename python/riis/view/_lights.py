@@ -205,9 +205,11 @@ def half_thickness(scene: Scene) -> Light:
     )
     better = rounded_up(1.01 * leaks.half_thickness)
     if better > LARGEST_HALF_THICKNESS * side:
-        return Light("half_thickness", "bad", text, f"the mesh is too coarse for this valve: a half thickness of "
-                     f"{scene.length(better)} would be needed, so refine the mesh near the leaflets", points=ends.mean(axis=1), edges=ends,
-                     valve=scene.number)
+        advice = (
+            f"the mesh is too coarse for this valve: a half thickness of {scene.length(better)} would be needed, so refine the mesh "
+            "near the leaflets"
+        )
+        return Light("half_thickness", "bad", text, advice, points=ends.mean(axis=1), edges=ends, valve=scene.number)
     return Light("half_thickness", "bad", text, f"a half thickness of {scene.length(better)} closes them, or a finer mesh",
                  (f"Set the half thickness to {scene.length(better)}", "half_thickness"), points=ends.mean(axis=1), edges=ends,
                  valve=scene.number, value=better)
