@@ -301,8 +301,9 @@ std::array<double, 4> parse_background(const std::string &text, const std::strin
 void declare_style(Command &command, PictureStyle &style) {
   command.parsed("--picture-size", "WIDTHxHEIGHT", "Pixels of pictures and movies (default 1600x800)", style.size,
                  parse_size);
-  command.parsed("--picture-background", "COLOUR", "white (default), black, transparent, or as f4f1ea: riis help pictures",
-                 style.background, parse_background);
+  command.parsed("--picture-background", "COLOUR",
+                 "white (default), black, transparent, or as f4f1ea: riis help pictures", style.background,
+                 parse_background);
   command.choice("--picture-captions", "all (default), scale (only the scale bar) or none", caption_names,
                  style.captions, "WHICH");
   command.choice("--picture-panels", "both (default), valve or marks", panel_names, style.panels, "WHICH");
