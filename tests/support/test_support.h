@@ -80,8 +80,8 @@ static inline int is_long_test(void) {
  * least one. A sanitizer checks memory and undefined operations, and few further trials take another path. */
 static inline int trials(int n, int n_long) { return is_long_test() ? n_long : is_sanitized() ? (n + 19) / 20 : n; }
 
-/* Returns how many of n random trials to make: all with RIIS_TEST_LONG=1, usually a third. */
-static inline int trials_of(int n) { return trials((n + 2) / 3, n); }
+/* Returns how many of n random trials to make: all with RIIS_TEST_LONG=1, usually a fifth. */
+static inline int trials_of(int n) { return trials((n + 4) / 5, n); }
 
 /* Returns the step of a loop over combinations, such as kinds of valves with triangulations. With a sanitizer, every eleventh
  * combination is tried. Few numbers of kinds are multiples of eleven, so the kinds take turns. */
