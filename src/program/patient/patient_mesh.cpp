@@ -626,7 +626,7 @@ std::string require_gmsh() {
         "install gmsh' installs it");
   if (end.error != 0) refuse_data("gmsh: cannot be run: " + system_text(end.error));
   if (end.status != 0)
-    refuse_data("gmsh: 'gmsh --version' fails" + (end.last_message.empty() ? "" : ": " + end.last_message));
+    refuse_data("gmsh: it fails to tell its version" + (end.last_message.empty() ? "" : ": " + end.last_message));
   return version.empty() ? end.last_message : version;
 }
 
