@@ -287,6 +287,19 @@ void failing_programs(random_source &random, const std::string &folder) {
   stand_for_gmsh(folder,
                  words + "printf '$MeshFormat\\n2.2 0 8\\n$EndMeshFormat\\n$Nodes\\n2\\n1 0 0 0\\n2 1' > \"$mesh\"");
   expect_refused({folder + "/gmsh/surface.msh: ", "it is not whole"}, mesh);
+  // A wall that goes through itself: a point near the first end is moved through the wall beyond.
+  PatientWall crossed = wall;
+  const Vector axis = unit_vector(vessels.axes[0]), other = cross(axis, Vector{axis[1], axis[2], axis[0]});
+  for (std::size_t i = 0; i < crossed.xyz.size(); i += 3) {
+    const Vector point{crossed.xyz[i], crossed.xyz[i + 1], crossed.xyz[i + 2]};
+    if (std::abs(dot(point, axis) - 3.5) > 0.2 || dot(point, other) < 0.4 * norm(other)) continue;
+    for (std::size_t k = 0; k < 3; ++k) crossed.xyz[i + k] = (point - 3.0 * unit_vector(other))[k];
+    break;
+  }
+  expect_refused({"gmsh fails: it writes", "the wall goes through itself at ", " of triangles, the deepest at "}, [&] {
+    stand_for_gmsh(folder, "exit 0");
+    mesh_patient(crossed, options);
+  });
   // A surface with a hole, as gmsh makes it from overlapping triangles.
   stand_for_gmsh(folder,
                  words +

@@ -20,7 +20,7 @@
 namespace riis::program {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double half_turn = 3.14159265358979323846;
 
 // Distances from the plane, as shares of the wall's size: within a flat part, and within a part that the user points at.
 constexpr double flat_share = 5e-4, pointed_share = 5e-3;
@@ -35,11 +35,11 @@ constexpr std::size_t n_sectors = 12;
 // The angle between a flat part and the wall beside it, in degrees: a tube that is cut has a mean angle of 90, also if it is cut
 // obliquely. A part between the limits may be a cut, or a flat place of the wall.
 constexpr double clear_mean = 55, clear_least = 20, unclear_mean = 30;
-// Four pi times the area over the square of the perimeter: 1 for a disc, 0.6 for an ellipse thrice as long as wide.
+// Four half_turn times the area over the square of the perimeter: 1 for a disc, 0.6 for an ellipse thrice as long as wide.
 constexpr double least_roundness = 0.25;
 // Flat parts that touch make each other unclear if their areas differ by less than this factor. Else only the small one is.
 constexpr double most_apart = 10;
-// A flat part below this share of the largest end, such as the end of a coronary artery, may be a facet of a coarse wall. It is an
+// A flat part below this share of the largest end may be a facet of a coarse wall, or the end of a coronary artery. It is an
 // end if its rim has so many sides, and if the wall is as steep up to this share of the radius.
 constexpr double small_share = 0.05;
 constexpr std::int64_t least_sides = 12;
@@ -47,10 +47,12 @@ constexpr double wide_band_share = 1.5;
 // A refusal lists so many flat parts.
 constexpr std::size_t most_listed = 6;
 
-double degrees_between(const Vector &a, const Vector &b) { return 180 / pi * std::atan2(norm(cross(a, b)), dot(a, b)); }
+double degrees_between(const Vector &a, const Vector &b) {
+  return 180 / half_turn * std::atan2(norm(cross(a, b)), dot(a, b));
+}
 
 // A plane through a point.
-struct Plane {
+struct FlatPlane {
   Vector normal{}, point{};
   double distance_of(const Vector &of) const { return dot(of - point, normal); }
 };
@@ -58,7 +60,7 @@ struct Plane {
 // A flat part of the surface.
 struct FlatPart {
   std::vector<std::int64_t> triangles;
-  Plane plane;  // through the part's centre
+  FlatPlane plane;  // through the part's centre
   double area = 0;
   double mean_angle = 0, least_angle = 0;  // to the wall beside it, in degrees
   double wide_angle = 0;                   // the mean over the wider band
@@ -73,7 +75,7 @@ struct FlatPart {
   bool is_disc() const { return n_rims == 1 && is_behind && roundness >= least_roundness; }
   bool is_sharp() const { return mean_angle >= clear_mean && least_angle >= clear_least && is_behind; }
   bool is_clear() const { return is_large && is_disc() && is_sharp() && !is_touching && !is_facet; }
-  double radius() const { return std::sqrt(area / pi); }
+  double radius() const { return std::sqrt(area / half_turn); }
 };
 
 class EndFinder {
@@ -158,10 +160,10 @@ class EndFinder {
     if (part.area > 0) part.plane = {unit_vector(area), 1 / part.area * centre};
   }
 
-  bool is_in(const Plane &plane, std::int64_t i, double tolerance) const {
+  bool is_in(const FlatPlane &plane, std::int64_t i, double tolerance) const {
     for (std::size_t k = 0; k < 3; ++k)
       if (!(std::abs(plane.distance_of(all_.corner(i, k))) <= tolerance)) return false;
-    static const double least_cosine = std::cos(most_lean * pi / 180);
+    static const double least_cosine = std::cos(most_lean * half_turn / 180);
     return dot(view(normals_)[i], plane.normal) >= least_cosine || is_thin(i);
   }
 
@@ -255,7 +257,7 @@ class EndFinder {
         rim.emplace_back(view(all_.corners)[i][k], view(all_.corners)[i][(k + 1) % 3]);
         queue.emplace(0, beyond);
       }
-    part.roundness = perimeter > 0 ? 4 * pi * part.area / (perimeter * perimeter) : 0;
+    part.roundness = perimeter > 0 ? 4 * half_turn * part.area / (perimeter * perimeter) : 0;
     part.n_rims = n_lines(rim);
     part.n_sides = static_cast<std::int64_t>(rim.size());
     // Noise cancels in the sum of the area vectors of a sector.
@@ -271,7 +273,7 @@ class EndFinder {
       if (view(stamp_)[i] == stamp) continue;
       view(stamp_)[i] = stamp;
       const Vector off = view(centres_)[i] - part.plane.point;
-      const double turn = std::atan2(dot(off, second), dot(off, first)) / (2 * pi) + 0.5;
+      const double turn = std::atan2(dot(off, second), dot(off, first)) / (2 * half_turn) + 0.5;
       const std::size_t sector = std::min(n_sectors - 1, static_cast<std::size_t>(turn * n_sectors));
       const Vector area = view(areas_)[i] * view(normals_)[i];
       wide_sums[sector] = wide_sums[sector] + area;
@@ -370,9 +372,9 @@ class EndFinder {
 };
 
 // Chooses the ends among the flat parts.
-class Choice {
+class EndChoice {
  public:
-  Choice(const std::string &path, const ClosedSurface &surface, const EndPoints &points)
+  EndChoice(const std::string &path, const ClosedSurface &surface, const EndPoints &points)
       : path_(path), surface_(surface), finder_(surface), parts_(finder_.find()) {
     if (points.inlet) choose("--inlet", *points.inlet, "inlet");
     for (const Vector &outlet : points.outlets) choose("--outlet", outlet, name_of_outlet(n_outlets_++));
@@ -531,7 +533,7 @@ class Choice {
 
 PatientWall read_patient_wall(const std::string &path, const EndPoints &points) {
   const ClosedSurface surface = read_closed_surface(path);
-  return Choice(path, surface, points).result();
+  return EndChoice(path, surface, points).result();
 }
 
 void scale_wall(PatientWall &wall, double factor) {
@@ -547,7 +549,7 @@ void scale_wall(PatientWall &wall, double factor) {
 
 namespace {
 
-Triangles surface_of(const PatientWall &wall) {
+Triangles triangles_in(const PatientWall &wall) {
   Triangles triangles;
   for (std::size_t i = 0; i < wall.xyz.size(); i += 3)
     triangles.points.push_back({wall.xyz[i], wall.xyz[i + 1], wall.xyz[i + 2]});
@@ -557,7 +559,7 @@ Triangles surface_of(const PatientWall &wall) {
 }
 
 // Returns whether the point lies inside: the triangles cover the whole sphere of directions.
-bool is_inside(const Triangles &triangles, const Vector &point) {
+bool is_in_wall(const Triangles &triangles, const Vector &point) {
   double angle = 0;
   for (std::int64_t i = 0; i < triangles.n(); ++i) {
     Vector to[3];
@@ -570,11 +572,11 @@ bool is_inside(const Triangles &triangles, const Vector &point) {
         2 * std::atan2(dot(to[0], cross(to[1], to[2])), far[0] * far[1] * far[2] + dot(to[0], to[1]) * far[2] +
                                                             dot(to[1], to[2]) * far[0] + dot(to[2], to[0]) * far[1]);
   }
-  return angle > 2 * pi;
+  return angle > 2 * half_turn;
 }
 
 // Returns the first triangle on a ray from inside, or -1.
-std::int64_t first_hit(const Triangles &triangles, const Vector &from, const Vector &direction) {
+std::int64_t first_wall_hit(const Triangles &triangles, const Vector &from, const Vector &direction) {
   std::int64_t hit = -1;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::int64_t i = 0; i < triangles.n(); ++i) {
@@ -593,7 +595,7 @@ std::int64_t first_hit(const Triangles &triangles, const Vector &from, const Vec
 }
 
 // Returns the end that is first on the way along the edges from a triangle, among those without a name.
-std::int32_t first_end(const PatientWall &wall, const Triangles &triangles, std::int64_t from) {
+std::int32_t first_end_from(const PatientWall &wall, const Triangles &triangles, std::int64_t from) {
   if (view(wall.end_of)[from] >= 0) return view(wall.end_of)[from];
   std::vector<std::vector<std::int64_t>> beside(triangles.points.size());
   std::vector<std::int32_t> end_at(triangles.points.size(), -1);
@@ -632,13 +634,13 @@ void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std
     return std::any_of(wall.ends.begin(), wall.ends.end(), [&](const FlatEnd &end) { return end.name == name; });
   };
   if (!has_name("inlet")) {
-    const Triangles triangles = surface_of(wall);
-    if (!is_inside(triangles, centre))
+    const Triangles triangles = triangles_in(wall);
+    if (!is_in_wall(triangles, centre))
       refuse_data(
           wall.path + ": the valve's centre, " + point_text(centre, wall.size) +
           ", lies outside the wall; landmarks and wall may have different units or axes, or be of two patients");
-    const std::int64_t hit = first_hit(triangles, centre, -1 * unit_vector(flow));
-    view(wall.ends)[hit < 0 ? 0 : first_end(wall, triangles, hit)].name = "inlet";
+    const std::int64_t hit = first_wall_hit(triangles, centre, -1 * unit_vector(flow));
+    view(wall.ends)[hit < 0 ? 0 : first_end_from(wall, triangles, hit)].name = "inlet";
   }
   int n_outlets = 0;
   for (const FlatEnd &end : wall.ends) n_outlets += !end.name.empty() && end.name != "inlet";
@@ -650,7 +652,7 @@ void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std
 }
 
 void write_wall(const PatientWall &wall, const std::string &path) {
-  const Triangles triangles = surface_of(wall);
+  const Triangles triangles = triangles_in(wall);
   std::string text("riis");
   text.resize(80, ' ');
   const auto add = [&](const auto &number) { text.append(reinterpret_cast<const char *>(&number), sizeof number); };

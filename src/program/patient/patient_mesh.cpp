@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "program/base/handles.hpp"
 #include "program/base/other_program.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
@@ -27,14 +28,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double circle = 3.14159265358979323846;  // its half turn
-
 // An end of the new surface may differ by this share in area: the rim has longer edges than before.
 constexpr double most_area_change = 0.05;
 // The edge length in the middle of an end, as a share of its radius: the rim of the end then has at least sixteen edges.
 constexpr double end_edge_share = 0.35;
 // gmsh gets so many seconds, and so many for each triangle. A surface that it cannot make anew may keep it busy for hours.
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
+// The wall goes through itself if triangles overlap by more than this share of its size.
+constexpr double least_crossing_share = 1e-5;
 // So many triangles of a new patch are compared with the wall.
 constexpr std::size_t n_compared = 9;
 
@@ -149,13 +150,13 @@ class GmshText {
 };
 constexpr int gmsh_line = 1, gmsh_triangle = 2, gmsh_tetrahedron = 4;
 
-std::string data_array(const std::string &type, const std::string &name, const std::string &numbers,
-                       int n_components = 1) {
+std::string vtk_array(const std::string &type, const std::string &name, const std::string &numbers,
+                      int n_components = 1) {
   return "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(n_components) +
          "\" format=\"ascii\">\n" + numbers + "</DataArray>\n";
 }
 
-std::string lines_of(const std::vector<std::int64_t> &numbers) {
+std::string id_lines(const std::vector<std::int64_t> &numbers) {
   std::string text;
   for (const std::int64_t number : numbers) text += std::to_string(number) + "\n";
   return text;
@@ -163,9 +164,9 @@ std::string lines_of(const std::vector<std::int64_t> &numbers) {
 
 // Returns a file of VTK with the arrays that SimVascular's meshes have. Ids count from 1.
 template <class Cell>
-std::string vtk_text(const std::vector<Vector> &points, const std::vector<std::int64_t> &node_ids,
-                     const std::vector<Cell> &cells, const std::vector<std::int64_t> &element_ids,
-                     const std::string &group_array, std::int64_t group) {
+std::string vtk_file_text(const std::vector<Vector> &points, const std::vector<std::int64_t> &node_ids,
+                          const std::vector<Cell> &cells, const std::vector<std::int64_t> &element_ids,
+                          const std::string &group_array, std::int64_t group) {
   const bool is_volume = std::tuple_size_v<Cell> == 4;
   const std::string kind = is_volume ? "UnstructuredGrid" : "PolyData", part = is_volume ? "Cells" : "Polys";
   std::string places, connectivity, offsets, types, groups;
@@ -180,11 +181,11 @@ std::string vtk_text(const std::vector<Vector> &points, const std::vector<std::i
   return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind + "\" version=\"0.1\" byte_order=\"LittleEndian\">\n<" +
          kind + ">\n<Piece NumberOfPoints=\"" + std::to_string(points.size()) + "\" NumberOf" +
          (is_volume ? "Cells" : "Polys") + "=\"" + std::to_string(cells.size()) + "\">\n<PointData>\n" +
-         data_array("Int32", "GlobalNodeID", lines_of(node_ids)) + "</PointData>\n<CellData>\n" +
-         data_array("Int32", "GlobalElementID", lines_of(element_ids)) + data_array("Int32", group_array, groups) +
-         "</CellData>\n<Points>\n" + data_array("Float64", "Points", places, 3) + "</Points>\n<" + part + ">\n" +
-         data_array("Int64", "connectivity", connectivity) + data_array("Int64", "offsets", offsets) +
-         (is_volume ? data_array("UInt8", "types", types) : "") + "</" + part + ">\n</Piece>\n</" + kind +
+         vtk_array("Int32", "GlobalNodeID", id_lines(node_ids)) + "</PointData>\n<CellData>\n" +
+         vtk_array("Int32", "GlobalElementID", id_lines(element_ids)) + vtk_array("Int32", group_array, groups) +
+         "</CellData>\n<Points>\n" + vtk_array("Float64", "Points", places, 3) + "</Points>\n<" + part + ">\n" +
+         vtk_array("Int64", "connectivity", connectivity) + vtk_array("Int64", "offsets", offsets) +
+         (is_volume ? vtk_array("UInt8", "types", types) : "") + "</" + part + ">\n</Piece>\n</" + kind +
          ">\n</VTKFile>\n";
 }
 
@@ -205,17 +206,17 @@ std::string last_error_in(const std::string &log) {
 }
 
 // The names and the physical groups of the boundaries: the inlet, the outlets and the wall.
-struct Group {
+struct BoundaryGroup {
   std::string name;
   std::int32_t end;  // the position of the end, or -1 for the wall
 };
 
-std::vector<Group> groups_of(const PatientWall &wall) {
-  std::vector<Group> groups;
+std::vector<BoundaryGroup> boundary_groups(const PatientWall &wall) {
+  std::vector<BoundaryGroup> groups;
   for (std::size_t i = 0; i < wall.ends.size(); ++i)
     groups.push_back({wall.ends[i].name, static_cast<std::int32_t>(i)});
   // The inlet comes first, then outlet, outlet_2 and so on.
-  std::sort(groups.begin(), groups.end(), [](const Group &a, const Group &b) {
+  std::sort(groups.begin(), groups.end(), [](const BoundaryGroup &a, const BoundaryGroup &b) {
     return std::make_pair(a.name.size(), a.name) < std::make_pair(b.name.size(), b.name);
   });
   groups.push_back({"wall", -1});
@@ -225,7 +226,7 @@ std::vector<Group> groups_of(const PatientWall &wall) {
 class PatientMesher {
  public:
   PatientMesher(const PatientWall &wall, const PatientMeshOptions &options)
-      : wall_(wall), options_(options), groups_(groups_of(wall)), gmsh_folder_(options.folder + "/gmsh") {
+      : wall_(wall), options_(options), groups_(boundary_groups(wall)), gmsh_folder_(options.folder + "/gmsh") {
     for (std::size_t i = 0; i < wall.xyz.size(); i += 3)
       old_.points.push_back({wall.xyz[i], wall.xyz[i + 1], wall.xyz[i + 2]});
     for (std::size_t i = 0; i < wall.corners.size(); i += 3)
@@ -264,7 +265,7 @@ class PatientMesher {
     // The edges at a small end are shorter than elsewhere, and grow with the distance from it.
     int n_fields = 1;
     for (const FlatEnd &end : wall_.ends) {
-      const double radius = std::sqrt(end.area / circle), edge = end_edge_share * radius;
+      const double radius = std::sqrt(end.area / 3.14159265358979323846), edge = end_edge_share * radius;
       if (edge >= options_.largest_edge) continue;
       const std::string field_text = "Field[" + std::to_string(++n_fields) + "]";
       std::string squares;
@@ -300,7 +301,8 @@ class PatientMesher {
     const ProgramEnd end = run_program(limited);
     constexpr int at_limit = 124, signal_status = 128;  // timeout's status at the limit, and its least after a signal
     if (end.status == at_limit)
-      refuse_data("gmsh did not end within " + printed("%.0f", seconds) + " seconds (" + log + "); " + cure);
+      refuse_data("gmsh did not end within " + printed("%.0f", seconds) + " seconds (" + log + "); " + crossing_text() +
+                  cure);
     if (end.error != 0) refuse_data("gmsh: cannot be run: " + system_text(end.error));
     const std::string log_text = fs::exists(log, ignored) ? text_of_file(log) : "";
     const std::string error = last_error_in(log_text);
@@ -308,7 +310,8 @@ class PatientMesher {
                             : end.status < 0 || end.status > signal_status ? "a signal ended it"
                                                                            : end.last_message;
     if (!error.empty() || end.status != 0 || !fs::exists(mesh, ignored))
-      refuse_data("gmsh fails: " + (why.empty() ? "it writes no mesh" : why) + " (" + log + "); " + cure);
+      refuse_data("gmsh fails: " + (why.empty() ? "it writes no mesh" : why) + " (" + log + "); " + crossing_text() +
+                  cure);
     made_.written.push_back(log);
     return GmshReader(mesh).read();
   }
@@ -333,6 +336,33 @@ class PatientMesher {
   std::string cure_of_surface() const {
     return "look for overlapping triangles in " + wall_.path +
            ", and repair or smooth it, as by Surface Toolbox of 3D Slicer";
+  }
+
+  // Says where the wall goes through itself, or "". This is what gmsh fails at most often.
+  std::string crossing_text() const {
+    auto arrays = defaults<riis_surface_arrays>();
+    arrays.n_vertices = static_cast<std::int64_t>(old_.points.size());
+    arrays.x = wall_.xyz.data();
+    arrays.y = wall_.xyz.data() + 1;
+    arrays.z = wall_.xyz.data() + 2;
+    arrays.stride = 3;
+    arrays.real_bits = 64;
+    arrays.n_faces = old_.n();
+    arrays.vertex_ids = wall_.corners.data();
+    arrays.id_bits = 64;
+    auto how = defaults<riis_surface_options>();
+    how.half_thickness = least_crossing_share * wall_.size;
+    how.zero_area = RIIS_ZERO_AREA_SKIP;
+    auto depth = defaults<riis_crossing_options>();
+    depth.depth = 1;
+    const auto surface = create_for<Surface>(wall_.path, riis_surface_create_from_arrays, &arrays, &how);
+    const auto crossings = create<Crossings>(riis_crossings_create);
+    check(riis_find_crossings(surface, &depth, crossings));
+    const auto found = get<riis_crossing_list>(riis_crossings_get_list, crossings);
+    if (found.n_pairs == 0) return "";
+    const Vector deepest{found.deepest_point[0], found.deepest_point[1], found.deepest_point[2]};
+    return "the wall goes through itself at " + counted(found.n_pairs, "pair") + " of triangles, the deepest at " +
+           point_text(deepest, wall_.size) + " in the mesh's unit; ";
   }
 
   std::string text_of_wall() const {
@@ -432,8 +462,7 @@ class PatientMesher {
                    ") = {1};\n// Delaunay keeps close to the size field.\nMesh.Algorithm3D = 1;\n"
                    "Mesh.Binary = 0;\n" +
                    size_lines());
-    mesh_ = run_gmsh(24 * 3600, "-3", in_gmsh("volume.geo"), in_gmsh("volume.msh"),
-                     "the wall may go through itself: look at " + wall_.path + " there, and repair or smooth it");
+    mesh_ = run_gmsh(24 * 3600, "-3", in_gmsh("volume.geo"), in_gmsh("volume.msh"), cure_of_surface());
     if (mesh_.cells.empty())
       refuse_data("gmsh made no tetrahedra (" + in_gmsh("volume.log") + "); " + cure_of_surface());
     measure_cells();
@@ -533,7 +562,7 @@ class PatientMesher {
     std::vector<std::int64_t> node_ids, element_ids;
     for (std::int64_t i = 1; i <= made_.n_nodes; ++i) node_ids.push_back(i);
     for (std::int64_t i = 1; i <= made_.n_cells; ++i) element_ids.push_back(i);
-    write_file("mesh.vtu", vtk_text(mesh_.points, node_ids, mesh_.cells, element_ids, "ModelRegionID", 1));
+    write_file("mesh.vtu", vtk_file_text(mesh_.points, node_ids, mesh_.cells, element_ids, "ModelRegionID", 1));
   }
 
   void write_boundary(std::size_t i) {
@@ -566,7 +595,7 @@ class PatientMesher {
     boundary.centre = 1 / boundary.area * boundary.centre;
     if (groups_[i].end >= 0) boundary.outward = unit_vector(sum);
     write_file("faces/" + boundary.name + ".vtp",
-               vtk_text(points, node_ids, corners, element_ids, "ModelFaceID", boundary.group));
+               vtk_file_text(points, node_ids, corners, element_ids, "ModelFaceID", boundary.group));
     made_.boundaries.push_back(boundary);
   }
 
@@ -577,7 +606,7 @@ class PatientMesher {
 
   const PatientWall &wall_;
   const PatientMeshOptions &options_;
-  const std::vector<Group> groups_;
+  const std::vector<BoundaryGroup> groups_;
   const std::string gmsh_folder_;
   Triangles old_;
   GmshMesh surface_, mesh_;
@@ -597,7 +626,7 @@ std::string require_gmsh() {
         "install gmsh' installs it");
   if (end.error != 0) refuse_data("gmsh: cannot be run: " + system_text(end.error));
   if (end.status != 0)
-    refuse_data("gmsh: 'gmsh --version' fails" + (end.last_message.empty() ? "" : ": " + end.last_message));
+    refuse_data("gmsh: it fails to tell its version" + (end.last_message.empty() ? "" : ": " + end.last_message));
   return version.empty() ? end.last_message : version;
 }
 

@@ -31,25 +31,25 @@ constexpr double flat_hole_share = 0.02;
 constexpr double thin_share = 2e-6, short_in_heights = 10;
 constexpr int most_thin_rounds = 20;
 
-constexpr const char *close_it = "close it, as by the filter Close Holes of MeshLab";
+constexpr const char *how_to_close = "close it, as by the filter Close Holes of MeshLab";
 
 // A side of a triangle, between two vertices a < b.
-struct Side {
+struct WallSide {
   std::int64_t a, b, triangle;
   std::size_t k;    // which side of the triangle
   bool is_forward;  // whether the triangle goes from a to b
 };
 
 // Returns the sides in the order of their edges, so that sides of one edge follow each other.
-std::vector<Side> sorted_sides(const std::vector<Corners> &corners) {
-  std::vector<Side> sides;
+std::vector<WallSide> sorted_wall_sides(const std::vector<Corners> &corners) {
+  std::vector<WallSide> sides;
   sides.reserve(3 * corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int64_t from = corners[i][k], to = corners[i][(k + 1) % 3];
       sides.push_back({std::min(from, to), std::max(from, to), static_cast<std::int64_t>(i), k, from < to});
     }
-  std::sort(sides.begin(), sides.end(), [](const Side &s, const Side &t) {
+  std::sort(sides.begin(), sides.end(), [](const WallSide &s, const WallSide &t) {
     return std::tie(s.a, s.b, s.triangle) < std::tie(t.a, t.b, t.triangle);
   });
   return sides;
@@ -57,7 +57,7 @@ std::vector<Side> sorted_sides(const std::vector<Corners> &corners) {
 
 // Calls `visit` with the first side and the number of sides of each edge.
 template <class Visit>
-void for_each_edge(const std::vector<Side> &sides, const Visit &visit) {
+void for_each_wall_edge(const std::vector<WallSide> &sides, const Visit &visit) {
   for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
     while (end < sides.size() && sides[end].a == sides[i].a && sides[end].b == sides[i].b) ++end;
     visit(&sides[i], end - i);
@@ -65,9 +65,9 @@ void for_each_edge(const std::vector<Side> &sides, const Visit &visit) {
 }
 
 // Repairs a surface step by step.
-class Repair {
+class WallRepair {
  public:
-  explicit Repair(const std::string &path) : path_(path) {
+  explicit WallRepair(const std::string &path) : path_(path) {
     read();
     join_equal_points();
     join_near_points();
@@ -161,7 +161,7 @@ class Repair {
   // Joins vertices of open sides that are so near that only rounding parts them.
   void join_near_points() {
     std::vector<std::int64_t> open;
-    for_each_edge(sorted_sides(corners()), [&](const Side *side, std::size_t n) {
+    for_each_wall_edge(sorted_wall_sides(corners()), [&](const WallSide *side, std::size_t n) {
       if (n == 1) open.insert(open.end(), {side->a, side->b});
     });
     std::sort(open.begin(), open.end());
@@ -191,7 +191,7 @@ class Repair {
   void keep_one_piece() {
     const std::int64_t n = made_.triangles.n();
     DisjointSets sets(n);
-    for_each_edge(sorted_sides(corners()), [&](const Side *side, std::size_t n_sides) {
+    for_each_wall_edge(sorted_wall_sides(corners()), [&](const WallSide *side, std::size_t n_sides) {
       for (std::size_t i = 1; i < n_sides; ++i) sets.unite(side[0].triangle, side[i].triangle);
     });
     struct Piece {
@@ -240,7 +240,7 @@ class Repair {
   void refuse_forks() const {
     std::int64_t n_forks = 0, n_most = 0;
     Vector place{};
-    for_each_edge(sorted_sides(made_.triangles.corners), [&](const Side *side, std::size_t n) {
+    for_each_wall_edge(sorted_wall_sides(made_.triangles.corners), [&](const WallSide *side, std::size_t n) {
       if (n <= 2) return;
       if (++n_forks == 1) {
         n_most = static_cast<std::int64_t>(n);
@@ -261,7 +261,7 @@ class Repair {
       bool is_turned;
     };
     std::vector<std::array<Neighbour, 3>> beyond(corners().size(), {{{-1, false}, {-1, false}, {-1, false}}});
-    for_each_edge(sorted_sides(corners()), [&](const Side *side, std::size_t n_sides) {
+    for_each_wall_edge(sorted_wall_sides(corners()), [&](const WallSide *side, std::size_t n_sides) {
       if (n_sides != 2) return;
       const bool is_turned = side[0].is_forward == side[1].is_forward;
       view(beyond)[side[0].triangle][side[0].k] = {side[1].triangle, is_turned};
@@ -412,17 +412,17 @@ class Repair {
   }
 
   // A line of open sides that ends where it begins. The triangles are on its left.
-  using Loop = std::vector<std::int64_t>;
+  using RimLoop = std::vector<std::int64_t>;
 
-  std::vector<Loop> open_loops() const {
+  std::vector<RimLoop> open_loops() const {
     std::multimap<std::int64_t, std::int64_t> next;
-    for_each_edge(sorted_sides(made_.triangles.corners), [&](const Side *side, std::size_t n) {
+    for_each_wall_edge(sorted_wall_sides(made_.triangles.corners), [&](const WallSide *side, std::size_t n) {
       if (n != 1) return;
       next.emplace(side->is_forward ? side->a : side->b, side->is_forward ? side->b : side->a);
     });
-    std::vector<Loop> loops;
+    std::vector<RimLoop> loops;
     while (!next.empty()) {
-      Loop loop;
+      RimLoop loop;
       for (auto found = next.begin(); found != next.end(); found = next.find(loop.back())) {
         if (loop.empty()) loop.push_back(found->first);
         loop.push_back(found->second);
@@ -437,8 +437,8 @@ class Repair {
 
   // Closes holes whose rims are flat. Whether these are ends is decided later. Refuses other holes.
   void close_holes() {
-    const std::vector<Loop> loops = open_loops();
-    for (const Loop &loop : loops) {
+    const std::vector<RimLoop> loops = open_loops();
+    for (const RimLoop &loop : loops) {
       Vector centre{}, area{};
       double length = 0, off = 0, width = 0;
       for_each_side(loop, [&](const Vector &p, const Vector &q) {
@@ -465,29 +465,29 @@ class Repair {
   }
 
   template <class Visit>
-  void for_each_side(const Loop &loop, const Visit &visit) const {
+  void for_each_side(const RimLoop &loop, const Visit &visit) const {
     const auto &all = made_.triangles.points;
     for (std::size_t i = 0; i < loop.size(); ++i) visit(view(all)[loop[i]], view(all)[loop[(i + 1) % loop.size()]]);
   }
 
-  [[noreturn]] void refuse_hole(std::size_t n_holes, const Loop &loop, const Vector &centre, bool is_flat,
+  [[noreturn]] void refuse_hole(std::size_t n_holes, const RimLoop &loop, const Vector &centre, bool is_flat,
                                 double off) const {
     refuse("the surface has " + counted(static_cast<std::int64_t>(n_holes), "hole") + ", one of " +
            counted(static_cast<std::int64_t>(loop.size()), "edge") + " at " + at(centre) +
            (is_flat ? ", whose rim is too wavy to be closed here: "
                     : ", whose rim is off its plane by " + shortest_of(off) + ": ") +
-           close_it + "; cut an open end flat, as by Plane Cut in the Dynamic Modeler of 3D Slicer");
+           how_to_close + "; cut an open end flat, as by Plane Cut in the Dynamic Modeler of 3D Slicer");
   }
 
   // Refuses vertices at which two parts of the surface touch.
   void refuse_touching_points() const {
     const auto &all = made_.triangles.corners;
     DisjointSets fans(3 * made_.triangles.n());  // the corners of triangles
-    const auto slot = [&](const Side &side, std::int64_t vertex) {
+    const auto slot = [&](const WallSide &side, std::int64_t vertex) {
       const Corners &of = view(all)[side.triangle];
       return 3 * side.triangle + (of[0] == vertex ? 0 : of[1] == vertex ? 1 : 2);
     };
-    for_each_edge(sorted_sides(all), [&](const Side *side, std::size_t n) {
+    for_each_wall_edge(sorted_wall_sides(all), [&](const WallSide *side, std::size_t n) {
       for (std::size_t i = 1; i < n; ++i) {
         fans.unite(slot(side[0], side->a), slot(side[i], side->a));
         fans.unite(slot(side[0], side->b), slot(side[i], side->b));
@@ -573,14 +573,14 @@ double Triangles::volume() const {
 
 std::vector<Corners> neighbours_of(const Triangles &triangles) {
   std::vector<Corners> beyond(triangles.corners.size());
-  for_each_edge(sorted_sides(triangles.corners), [&](const Side *side, std::size_t) {
+  for_each_wall_edge(sorted_wall_sides(triangles.corners), [&](const WallSide *side, std::size_t) {
     view(beyond)[side[0].triangle][side[0].k] = side[1].triangle;
     view(beyond)[side[1].triangle][side[1].k] = side[0].triangle;
   });
   return beyond;
 }
 
-ClosedSurface read_closed_surface(const std::string &path) { return Repair(path).result(); }
+ClosedSurface read_closed_surface(const std::string &path) { return WallRepair(path).result(); }
 
 std::string point_text(const Vector &point, double size) {
   const int n_digits = std::clamp(static_cast<int>(std::ceil(3 - std::log10(std::max(size, 1e-300)))), 0, 17);
