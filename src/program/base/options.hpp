@@ -71,7 +71,7 @@ struct PictureSize {
 
 // How all pictures of a run and its movie look.
 struct PictureStyle {
-  std::optional<PictureSize> size;  // not set if the user gave none
+  std::optional<PictureSize> size;                  // not set if the user gave none
   std::array<double, 4> background = {1, 1, 1, 1};  // red, green, blue and opacity
   std::int32_t captions = RIIS_VTK_CAPTIONS_ALL;
   std::int32_t panels = RIIS_VTK_PANELS_BOTH;
@@ -205,11 +205,11 @@ struct PlaceOptions : ValveOptions {
 
 // The options of riis patient. `wall` is the file of the wall. Points have its unit, and so have lengths without a unit.
 struct PatientOptions : ValveOptions {
-  std::string landmarks, folder;    // a file, and the folder for the results
-  bool has_valve = false;           // whether the user named the kind
-  std::string solver = "none";      // one of solver_names
-  std::optional<Unit> wall_unit;    // of the wall's file; nothing: found by the landmarks
-  std::string axes;                 // of the wall: "LPS" or "RAS"; "": found by the landmarks
+  std::string landmarks, folder;             // a file, and the folder for the results
+  bool has_valve = false;                    // whether the user named the kind
+  std::string solver = "none";               // one of solver_names
+  std::optional<Unit> wall_unit;             // of the wall's file; nothing: found by the landmarks
+  std::string axes;                          // of the wall: "LPS" or "RAS"; "": found by the landmarks
   std::int32_t warp_choice = smoothed_warp;  // a LandmarkWarp
   std::optional<Amount> noise;               // of the landmarks
   std::optional<std::vector<double>> flow;   // in the wall's axes
