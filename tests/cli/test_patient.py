@@ -261,7 +261,7 @@ class Patient(unittest.TestCase):
         self.assertFalse((self.folder / "case").exists(), done.stderr)
         self.refused(2, "--valve: the aortic valve does not close: write --valve coapting", "--valve", "aortic")
         self.refused(2, "--valve: riis patient takes .* not bileaflet", "--valve", "bileaflet")
-        self.refused(2, "--output is required", output="", wall="root.stl")
+        self.assertIn("--output is required", self.run_riis("patient", "root.stl", "landmarks.json").stderr)
 
     def test_refused_folders(self):
         self.files()

@@ -22,6 +22,7 @@ def comparable(text, same_gmsh):
     lines = []
     for line in text.splitlines():
         line = re.sub(r"\d+ threads?", "# threads", line)
+        line = re.sub(r"\b\d+(\.\d)? s\b", "# s", line)
         if line.startswith("seconds") or not same_gmsh:
             line = re.sub("-?" + NUMBER, "#", line)
         lines.append(line.rstrip() if same_gmsh else " ".join(line.split()[:2]))

@@ -205,11 +205,11 @@ struct PlaceOptions : ValveOptions {
 
 // The options of riis patient. `wall` is the file of the wall. Points have its unit, and so have lengths without a unit.
 struct PatientOptions : ValveOptions {
-  std::string landmarks, folder;    // a file, and the folder for the results
-  bool has_valve = false;           // whether the user named the kind
-  std::string solver = "none";      // one of solver_names
-  std::optional<Unit> wall_unit;    // of the wall's file; nothing: found by the landmarks
-  std::string axes;                 // of the wall: "LPS" or "RAS"; "": found by the landmarks
+  std::string landmarks, folder;             // a file, and the folder for the results
+  bool has_valve = false;                    // whether the user named the kind
+  std::string solver = "none";               // one of solver_names
+  std::optional<Unit> wall_unit;             // of the wall's file; nothing: found by the landmarks
+  std::string axes;                          // of the wall: "LPS" or "RAS"; "": found by the landmarks
   std::int32_t warp_choice = smoothed_warp;  // a LandmarkWarp
   std::optional<Amount> noise;               // of the landmarks
   std::optional<std::vector<double>> flow;   // in the wall's axes

@@ -19,9 +19,9 @@ using TemporaryFile = std::unique_ptr<std::FILE, CloseFile>;
 TemporaryFile temporary_file();
 
 struct ProgramEnd {
-  int error = 0;               // why the program could not be run, as errno has it, or 0
-  int status = -1;             // its exit status, or -1 if a signal ended it
-  std::string last_message{};  // the last line on its stderr
+  int error = 0;                        // why the program could not be run, as errno has it, or 0
+  int status = -1;                      // its exit status, or -1 if a signal ended it
+  std::string last_message{};           // the last line on its stderr
   std::vector<std::string> messages{};  // all these lines
 };
 // Runs the words as a program and waits for its end. A first word without a slash is looked for in PATH. The program reads

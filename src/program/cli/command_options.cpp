@@ -646,13 +646,20 @@ void declare_place(Command command, PlaceOptions &options) {
 }
 
 void declare_patient(Command command, PatientOptions &options) {
-  command.text("WALL", "FILE", "The wall: a closed surface around the blood (.stl, .vtp, ...), or a volume mesh", options.wall)
+  command
+      .text("WALL", "FILE", "The wall: a closed surface around the blood (.stl, .vtp, ...), or a volume mesh",
+            options.wall)
       ->required();
-  command.text("LANDMARKS", "FILE.json|.csv|.fcsv", "The landmarks of the valve, as riis place reads them", options.landmarks)
+  command
+      .text("LANDMARKS", "FILE.json|.csv|.fcsv", "The landmarks of the valve, as riis place reads them",
+            options.landmarks)
       ->required();
-  command.text("--output", "FOLDER", "A new or empty folder for the mesh, the valve, pictures and reports", options.folder)
+  command
+      .text("--output", "FOLDER", "A new or empty folder for the mesh, the valve, pictures and reports", options.folder)
       ->required();
-  command.text("--solver", "NAME", "Also write a case: openfoam, svmultiphysics, fenicsx or none (default)", options.solver)
+  command
+      .text("--solver", "NAME", "Also write a case: openfoam, svmultiphysics, fenicsx or none (default)",
+            options.solver)
       ->check(CLI::IsMember(solver_names));
   command.flag("--replace", "Replace the files that an earlier riis patient wrote to FOLDER", options.replace);
   declare_loudness(command, options);
@@ -660,11 +667,12 @@ void declare_patient(Command command, PatientOptions &options) {
   declare_unit_of(command, "--wall-unit", "Unit of WALL (default found: landmarks lie at the wall)", options.wall_unit);
   command.text("--axes", "LPS|RAS", "Axes of WALL (default found in the same way)", options.axes)
       ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
-  declare_unit_of(command, "--unit", "Unit of the files in FOLDER (default the solver's, else that of WALL)", options.unit);
-  command.choice("--warp", "Warp the valve to the landmarks: none, exact, or smoothed by their noise (default)", warp_names,
-                 options.warp_choice);
-  command.parsed("--noise", "L", "Standard deviation of each coordinate of the landmarks (default 0.3 mm)", options.noise,
-                 amount_of(a_length));
+  declare_unit_of(command, "--unit", "Unit of the files in FOLDER (default the solver's, else that of WALL)",
+                  options.unit);
+  command.choice("--warp", "Warp the valve to the landmarks: none, exact, or smoothed by their noise (default)",
+                 warp_names, options.warp_choice);
+  command.parsed("--noise", "L", "Standard deviation of each coordinate of the landmarks (default 0.3 mm)",
+                 options.noise, amount_of(a_length));
   command.value("--flow", "X,Y,Z", "Direction of flow through the valve, in the axes of WALL",
                 [&options](const std::string &text) { options.flow = parse_list(text, "--flow", 3, "X,Y,Z"); });
   command.value("--inlet", "X,Y,Z", "A point near the flat end that the blood comes from (default found by the valve)",
@@ -672,7 +680,8 @@ void declare_patient(Command command, PatientOptions &options) {
   command
       .values("--outlet", "X,Y,Z", "A point near an end that the blood leaves by; may be repeated (default all others)",
               [&options](const std::vector<std::string> &texts) {
-                for (const std::string &text : texts) options.outlets.push_back(parse_list(text, "--outlet", 3, "X,Y,Z"));
+                for (const std::string &text : texts)
+                  options.outlets.push_back(parse_list(text, "--outlet", 3, "X,Y,Z"));
               })
       ->allow_extra_args(false);
   command.group("Valve");
@@ -680,8 +689,8 @@ void declare_patient(Command command, PatientOptions &options) {
                options.valve);
   command.text("--params", "FILE.json", "Parameters of the valve that serves as the template", options.params);
   declare_settings(command, "Set and keep one parameter, in cm; may be repeated", options);
-  command.parsed("--skirt", "L", "The longest skirt from the valve to the wall to accept (default 6 mm)", options.given_skirt,
-                 positive_amount_of(a_length));
+  command.parsed("--skirt", "L", "The longest skirt from the valve to the wall to accept (default 6 mm)",
+                 options.given_skirt, positive_amount_of(a_length));
   command.group("Mesh and flow");
   command.parsed("--half-thickness", "L", "Half thickness of the band (default 1 mm, and 1.5 mm for a mitral valve)",
                  options.given_half_thickness, positive_amount_of(a_length));

@@ -54,7 +54,8 @@ struct Beat {
   const char *text, *times;
 };
 constexpr Beat aortic_beat{"time,opening\n0.00,0\n0.06,1\n0.17,0.79\n0.21,0\n", "0:0.22:0.02"};
-constexpr Beat mitral_beat{"time,opening\n0.00,0\n0.22,0\n0.29,1\n0.40,0.62\n0.50,0.55\n0.57,0.85\n0.66,0\n", "0.2:0.68:0.04"};
+constexpr Beat mitral_beat{"time,opening\n0.00,0\n0.22,0\n0.29,1\n0.40,0.62\n0.50,0.55\n0.57,0.85\n0.66,0\n",
+                           "0.2:0.68:0.04"};
 const char *const shown_period = "0.72";
 
 bool is_mitral_kind(const std::string &kind) { return kind == "mitral" || kind == "mitral_coapting"; }
@@ -68,9 +69,11 @@ std::string kind_of_roles(const LandmarkFile &landmarks) {
 }
 
 void check_kind(const std::string &kind) {
-  static const std::set<std::string> kinds = {"coapting", "trileaflet", "bicuspid", "quadricuspid", "mitral", "mitral_coapting"};
+  static const std::set<std::string> kinds = {"coapting",     "trileaflet", "bicuspid",
+                                              "quadricuspid", "mitral",     "mitral_coapting"};
   if (kinds.count(kind) > 0) return;
-  if (kind == "aortic") refuse_usage("--valve: the aortic valve does not close: write --valve coapting or --valve trileaflet");
+  if (kind == "aortic")
+    refuse_usage("--valve: the aortic valve does not close: write --valve coapting or --valve trileaflet");
   refuse_usage("--valve: riis patient takes " + one_of({kinds.begin(), kinds.end()}) + ", not " + kind +
                "; docs/patient.md has the single commands, which take every kind");
 }
@@ -117,7 +120,9 @@ class PatientRun {
   void read_landmarks_and_wall() {
     const double begin = steps_.seconds();
     landmarks_ = read_landmarks(options_.landmarks, text_of_file(options_.landmarks));
-    const std::string given = options_.has_valve ? options_.valve : landmarks_.valve.empty() ? kind_of_roles(landmarks_) : "";
+    const std::string given = options_.has_valve         ? options_.valve
+                              : landmarks_.valve.empty() ? kind_of_roles(landmarks_)
+                                                         : "";
     kind_ = kind_of(landmarks_, given, Reader::program);
     check_kind(kind_);
     is_mitral_ = is_mitral_kind(kind_);
@@ -129,21 +134,27 @@ class PatientRun {
     frame_ = frame_of_wall(wall_, landmarks_, options_.wall_unit, options_.axes);
     unit_ = options_.unit.value_or(frame_.unit);
     millimetre_ = factor_between(Unit::millimetre, unit_);
-    half_thickness_ = length_of(options_.given_half_thickness, is_mitral_ ? mitral_half_thickness : aortic_half_thickness,
-                                least_half_thickness_mm, most_half_thickness_mm);
+    half_thickness_ =
+        length_of(options_.given_half_thickness, is_mitral_ ? mitral_half_thickness : aortic_half_thickness,
+                  least_half_thickness_mm, most_half_thickness_mm);
     skirt_ = length_of(options_.given_skirt, usual_skirt, 0, most_skirt_mm);
-    largest_edge_ = length_of(options_.given_largest_edge, usual_largest_edge * half_thickness_ / millimetre_, 0, most_skirt_mm);
+    largest_edge_ =
+        length_of(options_.given_largest_edge, usual_largest_edge * half_thickness_ / millimetre_, 0, most_skirt_mm);
     band_edge_ = options_.band_edge.value_or(options_.solver == "svmultiphysics" ? uris_band_edge : usual_band_edge);
     resistance_ = options_.given_resistance ? options_.given_resistance->number : usual_resistance;
     steps_.say("patient", "a " + kind_ + " valve by " + counted(view(landmarks_.names).size(), "landmark") + " of " +
-                              options_.landmarks + (options_.has_valve || !landmarks_.valve.empty() ? "" : " (--valve names another)"));
+                              options_.landmarks +
+                              (options_.has_valve || !landmarks_.valve.empty() ? "" : " (--valve names another)"));
     for (const std::string &remark : wall_.remarks) steps_.say("wall", remark);
-    steps_.say("wall", options_.wall + ": " + counted(view(wall_.corners).size() / 3, "triangle") + ", " +
-                           counted(view(wall_.ends).size(), "flat end") + ", in " + name_of(frame_.unit) +
-                           (frame_.axes == "mesh" ? "" : " and " + frame_.axes) + ": the landmarks are " +
-                           printed("%.2g", frame_.away) + " mm from it on average, at most " + printed("%.2g", frame_.worst) +
-                           " mm, " + frame_.farthest, steps_.seconds() - begin);
-    steps_.say("folder", options_.folder + ", where lengths are in " + name_of(unit_) + ". The next commands run there");
+    steps_.say("wall",
+               options_.wall + ": " + counted(view(wall_.corners).size() / 3, "triangle") + ", " +
+                   counted(view(wall_.ends).size(), "flat end") + ", in " + name_of(frame_.unit) +
+                   (frame_.axes == "mesh" ? "" : " and " + frame_.axes) + ": the landmarks are " +
+                   printed("%.2g", frame_.away) + " mm from it on average, at most " + printed("%.2g", frame_.worst) +
+                   " mm, " + frame_.farthest,
+               steps_.seconds() - begin);
+    steps_.say("folder",
+               options_.folder + ", where lengths are in " + name_of(unit_) + ". The next commands run there");
     std::error_code error;
     inputs_ = {fs::absolute(options_.wall, error).string(), fs::absolute(options_.landmarks, error).string()};
     if (!options_.params.empty()) inputs_.push_back(fs::absolute(options_.params, error).string());
@@ -154,9 +165,10 @@ class PatientRun {
     if (!given) return usual_mm * millimetre_;
     const double mm = given->number * (given->has_unit ? 1000 : factor_between(frame_.unit, Unit::millimetre));
     if (mm < least_mm || mm > most_mm)
-      refuse_usage(given->subject + ": " + given->text + (given->has_unit ? "" : std::string(" ") + name_of(frame_.unit)) +
-                   " is not from " + shown(least_mm) + " to " + shown(most_mm) + " mm" +
-                   (given->has_unit ? "" : ": write " + given->subject + " '" + given->text + " mm' if millimetres are meant"));
+      refuse_usage(
+          given->subject + ": " + given->text + (given->has_unit ? "" : std::string(" ") + name_of(frame_.unit)) +
+          " is not from " + shown(least_mm) + " to " + shown(most_mm) + " mm" +
+          (given->has_unit ? "" : ": write " + given->subject + " '" + given->text + " mm' if millimetres are meant"));
     return mm * millimetre_;
   }
 
@@ -182,8 +194,8 @@ class PatientRun {
   // ---- The valve ----
 
   Words place_words(const Words &more) const {
-    Words words = {"place", landmarks_name_, "--valve", options_.disease.empty() ? kind_ : options_.disease, "--unit",
-                   name_of(unit_)};
+    Words words = {"place",  landmarks_name_, "--valve", options_.disease.empty() ? kind_ : options_.disease,
+                   "--unit", name_of(unit_)};
     if (frame_.axes != "mesh") words.insert(words.end(), {"--axes", frame_.axes});
     if (options_.flow) words.insert(words.end(), {"--flow", numbers_text(options_.flow->data(), 3, ",")});
     if (!options_.params.empty()) words.insert(words.end(), {"--params", "params.json"});
@@ -220,7 +232,8 @@ class PatientRun {
 
   // Returns the valve's z axis times a sign. Mitral valves have their atrium towards z.
   static std::array<double, 3> axis_of(const riis_surface_options &where, double sign) {
-    const Vector k = unit_vector({where.rotation_axis[0], where.rotation_axis[1], where.rotation_axis[2]}), z = {0, 0, 1};
+    const Vector k = unit_vector({where.rotation_axis[0], where.rotation_axis[1], where.rotation_axis[2]}),
+                 z = {0, 0, 1};
     const double angle = where.rotation_angle * std::acos(-1.0) / 180, c = std::cos(angle), s = std::sin(angle);
     return sign * (c * z + s * cross(k, z) + ((1 - c) * dot(k, z)) * k);
   }
@@ -239,9 +252,7 @@ class PatientRun {
     return ". --warp none places the valve without a warp";
   }
 
-  Words valve_words() const {
-    return {"--valve", "placed.json", "--skirt", shortest(skirt_), "--wall", "wall.stl"};
-  }
+  Words valve_words() const { return {"--valve", "placed.json", "--skirt", shortest(skirt_), "--wall", "wall.stl"}; }
   Words with_valve(const Words &begin, const Words &end = {}) const {
     Words words = begin;
     const Words valve = valve_words();
@@ -260,8 +271,10 @@ class PatientRun {
     show_warnings(end);
     const Json gap = stats_of("crossings")["gap"];
     report_["gap"] = gap;
-    steps_.say("skirt", "to the wall, which is " + in_mm(gap["least"]) + " to " + in_mm(gap["most"]) +
-                            " away; no leaflets go through each other at 101 openings", end.seconds);
+    steps_.say("skirt",
+               "to the wall, which is " + in_mm(gap["least"]) + " to " + in_mm(gap["most"]) +
+                   " away; no leaflets go through each other at 101 openings",
+               end.seconds);
   }
 
   // Tries which skirt would reach the wall.
@@ -269,13 +282,15 @@ class PatientRun {
     if (end.reason().find("wall.stl: ") != 0) return "";
     for (const double longest : {8, 10, 12, 15, 20}) {
       if (longest * millimetre_ <= skirt_) continue;
-      const StepEnd trial = steps_.run_silently("skirt_trial", {"surface", "--valve", "placed.json", "--skirt",
-                                                 shortest(longest * millimetre_), "--wall", "wall.stl", "--output", "logs/trial.vtp"});
+      const StepEnd trial = steps_.run_silently(
+          "skirt_trial", {"surface", "--valve", "placed.json", "--skirt", shortest(longest * millimetre_), "--wall",
+                          "wall.stl", "--output", "logs/trial.vtp"});
       if (trial.is_fine())
         return ". If the wall is right there, --skirt " + option_mm(longest * millimetre_) +
                " accepts it; otherwise look at the landmarks near there";
     }
-    return ". No skirt up to 20 mm reaches this wall at all openings: are the landmarks at their places, and of this patient?";
+    return ". No skirt up to 20 mm reaches this wall at all openings: are the landmarks at their places, and of this "
+           "patient?";
   }
 
   void show_warnings(const StepEnd &end) const {
@@ -289,25 +304,31 @@ class PatientRun {
       make_mesh_once();
       const std::int64_t n_leaks = mark_all_openings();
       report_["n_leaking_edges"] = n_leaks;
-      if (n_leaks == 0) return steps_.say("marks", "no edge leaks at " + std::to_string(n_marked_openings) + " openings", marks_seconds_);
+      if (n_leaks == 0)
+        return steps_.say("marks", "no edge leaks at " + std::to_string(n_marked_openings) + " openings",
+                          marks_seconds_);
       const std::string text = counted(n_leaks, "edge") + " leak" + (n_leaks == 1 ? "s" : "") + " at " +
                                std::to_string(n_marked_openings) + " openings";
       if (attempt == 1)
         refuse_data(text + " also in the second mesh, whose edges in the band have " + shown(band_edge_) +
-                    " half thicknesses: --band-edge " + shown(shorter_by * band_edge_) + " makes them shorter, or --half-thickness " +
-                    option_mm(1.1 * half_thickness_) + " thickens the band");
+                    " half thicknesses: --band-edge " + shown(shorter_by * band_edge_) +
+                    " makes them shorter, or --half-thickness " + option_mm(1.1 * half_thickness_) +
+                    " thickens the band");
       band_edge_ *= shorter_by;
-      steps_.say("marks", text + ": the mesh is made once more, with edges of " + shown(band_edge_) + " half thicknesses",
+      steps_.say("marks",
+                 text + ": the mesh is made once more, with edges of " + shown(band_edge_) + " half thicknesses",
                  marks_seconds_);
     }
   }
 
   void make_mesh_once() {
-    const StepEnd end = steps_.run("size_field", with_valve({"size-field", "valve.dat"},
-                                                            {"--band-edge", shown(band_edge_), "--largest-edge", shortest(largest_edge_)}));
+    const StepEnd end = steps_.run(
+        "size_field", with_valve({"size-field", "valve.dat"},
+                                 {"--band-edge", shown(band_edge_), "--largest-edge", shortest(largest_edge_)}));
     if (!end.is_fine()) steps_.refuse("size_field", end);
     show_warnings(end);
-    steps_.say("edges", in_mm(band_edge_ * half_thickness_) + " in the band, " + in_mm(largest_edge_) + " elsewhere", end.seconds);
+    steps_.say("edges", in_mm(band_edge_ * half_thickness_) + " in the band, " + in_mm(largest_edge_) + " elsewhere",
+               end.seconds);
     PatientMeshOptions how;
     how.folder = ".";
     how.field = "valve.dat";
@@ -315,8 +336,10 @@ class PatientRun {
     how.announce = [this](const std::string &command) { steps_.announce(command); };
     const double begin = steps_.seconds();
     mesh_ = mesh_patient(wall_, how);
-    steps_.say("mesh", "mesh.msh: " + grouped(mesh_.n_nodes) + " nodes, " + grouped(mesh_.n_cells) + " tetrahedra; boundaries " +
-                           names_of_boundaries(), steps_.seconds() - begin);
+    steps_.say("mesh",
+               "mesh.msh: " + grouped(mesh_.n_nodes) + " nodes, " + grouped(mesh_.n_cells) +
+                   " tetrahedra; boundaries " + names_of_boundaries(),
+               steps_.seconds() - begin);
     if (mesh_.n_nodes <= many_nodes) return;
     steps_.say("mesh", "more than " + grouped(many_nodes) + " nodes take long to compute: --half-thickness " +
                            option_mm(half_thickness_ * std::cbrt(static_cast<double>(mesh_.n_nodes) / many_nodes)) +
@@ -342,7 +365,8 @@ class PatientRun {
           name, with_valve({"mark", "mesh.msh"}, {"--opening", name.substr(6), "--stats", "logs/" + name + ".json"}));
       if (!end.is_fine()) steps_.refuse(name, end);
       const Json leaks = stats_of(name)["n_leaking_edges"];
-      if (!leaks.is_number()) refuse_data("mesh.msh: leaks are unknown at the opening " + name.substr(6) + ": " + end.reason());
+      if (!leaks.is_number())
+        refuse_data("mesh.msh: leaks are unknown at the opening " + name.substr(6) + ": " + end.reason());
       sum += leaks.get<std::int64_t>();
     }
     marks_seconds_ = steps_.seconds() - begin;
@@ -363,10 +387,12 @@ class PatientRun {
     const double begin = steps_.seconds();
     sides_ = sides_of_valve("mesh.msh", marking, mesh_.boundaries, centre_, flow_, millimetre_);
     check_ends();
-    const std::string from = numbers_text(sides_.upstream.data(), 3, ","), to = numbers_text(sides_.downstream.data(), 3, ",");
+    const std::string from = numbers_text(sides_.upstream.data(), 3, ","),
+                      to = numbers_text(sides_.downstream.data(), 3, ",");
     const auto passage_at = [&](const char *opening, const std::string &name) {
-      const StepEnd end = steps_.run(name, with_valve({"check", "leaks", "mesh.msh"}, {"--opening", opening, "--between=" + from, to,
-                                                                                     "--stats", "logs/" + name + ".json"}));
+      const StepEnd end = steps_.run(
+          name, with_valve({"check", "leaks", "mesh.msh"},
+                           {"--opening", opening, "--between=" + from, to, "--stats", "logs/" + name + ".json"}));
       if (!end.is_fine()) steps_.refuse(name, end);
       return stats_of(name);
     };
@@ -378,16 +404,18 @@ class PatientRun {
                                       [](const std::string &setting) { return setting.rfind("bump_", 0) == 0; });
     if (closed["passage"]["state"] != "closed" && !may_leak) {
       const Json thicker = closed["passage"]["closing_half_thickness"];
-      refuse_data("the closed valve does not seal: the blood passes " + in_mm(closed["passage"]["distance"]) + " from it at " +
-                  point_text(closed["passage"]["point"]) +
-                  (thicker.is_number() ? ". --half-thickness " + option_mm(thicker) + " closes the passage, or look at the landmarks near there"
+      refuse_data("the closed valve does not seal: the blood passes " + in_mm(closed["passage"]["distance"]) +
+                  " from it at " + point_text(closed["passage"]["point"]) +
+                  (thicker.is_number() ? ". --half-thickness " + option_mm(thicker) +
+                                             " closes the passage, or look at the landmarks near there"
                                        : ". Look at the landmarks near there"));
     }
     if (open["passage"]["state"] != "open")
       refuse_data("the open valve lets no blood pass: the widest passage is " + in_mm(open["passage"]["distance"]) +
                   " from it. A smaller --half-thickness leaves more room");
     const double square_cm = factor_between(unit_, Unit::centimetre) * factor_between(unit_, Unit::centimetre);
-    std::string text = closed["passage"]["state"] == "closed" ? "the closed valve seals" : "the closed valve leaves a gap, as it is sick";
+    std::string text = closed["passage"]["state"] == "closed" ? "the closed valve seals"
+                                                              : "the closed valve leaves a gap, as it is sick";
     text += ", and the open valve lets the blood pass";
     if (open.contains("orifice")) {
       text += " through " + printed("%.3g", square_cm * open["orifice"]["effective_area"].get<double>()) + " cm2";
@@ -404,9 +432,10 @@ class PatientRun {
         if ((name == "inlet") == is_before) continue;
         const auto end = std::find_if(mesh_.boundaries.begin(), mesh_.boundaries.end(),
                                       [&](const Boundary &boundary) { return boundary.name == name; });
-        refuse_data("mesh.msh: the end " + name + " at " + point_text(end->centre) + " is " + (is_before ? "before" : "after") +
-                    " the valve: write --inlet X,Y,Z with a point of the end before it" +
-                    (is_before ? ", and --outlet X,Y,Z with a point of each end after it; other flat parts become wall" : ""));
+        refuse_data(
+            "mesh.msh: the end " + name + " at " + point_text(end->centre) + " is " + (is_before ? "before" : "after") +
+            " the valve: write --inlet X,Y,Z with a point of the end before it" +
+            (is_before ? ", and --outlet X,Y,Z with a point of each end after it; other flat parts become wall" : ""));
       }
   }
 
@@ -433,8 +462,8 @@ class PatientRun {
   }
 
   // Runs a command that also draws. If it cannot draw here, says so, and runs the command that does not draw.
-  void run_with_picture(const std::string &name, const Words &with_picture, const Words &words, const std::string &output,
-                        const std::string &picture) {
+  void run_with_picture(const std::string &name, const Words &with_picture, const Words &words,
+                        const std::string &output, const std::string &picture) {
     StepEnd end = steps_.run(name, with_picture);
     std::string missing;
     if (!end.is_fine()) {
@@ -442,7 +471,8 @@ class PatientRun {
       end = steps_.run(name, words);
       if (!end.is_fine()) steps_.refuse(name, end);
     }
-    steps_.say("written", output + (missing.empty() ? ", " + picture : "; without " + picture + ": " + missing), end.seconds);
+    steps_.say("written", output + (missing.empty() ? ", " + picture : "; without " + picture + ": " + missing),
+               end.seconds);
     if (!missing.empty()) report_["missing"][picture] = missing;
   }
 
@@ -450,9 +480,9 @@ class PatientRun {
     const Beat &beat = is_mitral_ ? mitral_beat : aortic_beat;
     write_text("beat.csv", beat.text);
     const Words words = with_valve(
-        {"mark", "mesh.msh"},
-        {"--resistance", shortest(resistance_), "--cycle", "beat.csv", "--period", shown_period, "--interpolation", "cubic", "--times",
-         beat.times, "--output", "beat.pvd", "--surface-output", "leaflets.pvd", "--series-table", "beat_table.csv"});
+        {"mark", "mesh.msh"}, {"--resistance", shortest(resistance_), "--cycle", "beat.csv", "--period", shown_period,
+                               "--interpolation", "cubic", "--times", beat.times, "--output", "beat.pvd",
+                               "--surface-output", "leaflets.pvd", "--series-table", "beat_table.csv"});
     Words with_movie = words;
     with_movie.insert(with_movie.end(), {"--movie", "beat.mp4", "--frame-rate", "6"});
     run_with_picture("beat", with_movie, words, "beat.pvd, leaflets.pvd, beat_table.csv", "beat.mp4");
@@ -494,7 +524,10 @@ class PatientRun {
     Json json = {{"version", riis_version_string()}, {"gmsh", gmsh_}, {"valve", kind_}};
     if (!options_.disease.empty()) json["disease"] = options_.disease;
     json["unit"] = name_of(unit_);
-    json["wall"] = {{"file", options_.wall}, {"unit", name_of(frame_.unit)}, {"axes", frame_.axes}, {"landmarks_away_mm", frame_.away}};
+    json["wall"] = {{"file", options_.wall},
+                    {"unit", name_of(frame_.unit)},
+                    {"axes", frame_.axes},
+                    {"landmarks_away_mm", frame_.away}};
     json["half_thickness"] = half_thickness_;
     json["band_edge"] = band_edge_;
     json["largest_edge"] = largest_edge_;
@@ -503,8 +536,11 @@ class PatientRun {
     json["n_nodes"] = mesh_.n_nodes;
     json["n_cells"] = mesh_.n_cells;
     for (const Boundary &boundary : mesh_.boundaries)
-      json["boundaries"].push_back({{"name", boundary.name}, {"group", boundary.group}, {"centre", boundary.centre},
-                                    {"area", boundary.area}, {"n_faces", boundary.n_faces}});
+      json["boundaries"].push_back({{"name", boundary.name},
+                                    {"group", boundary.group},
+                                    {"centre", boundary.centre},
+                                    {"area", boundary.area},
+                                    {"n_faces", boundary.n_faces}});
     json["centre"] = centre_;
     json["flow"] = flow_;
     json["upstream"] = sides_.upstream;
@@ -519,8 +555,9 @@ class PatientRun {
 
   void print_end() {
     const double finer = std::pow(static_cast<double>(mesh_.n_nodes) / many_nodes, 1 / power_of_nodes);
-    steps_.say("edges", "the mesh has " + grouped(mesh_.n_nodes) + " nodes with --band-edge " + shown(band_edge_) + ", and would have about " +
-                            grouped(many_nodes) + " with " + printed("%.2f", finer * band_edge_));
+    steps_.say("edges", "the mesh has " + grouped(mesh_.n_nodes) + " nodes with --band-edge " + shown(band_edge_) +
+                            ", and would have about " + grouped(many_nodes) + " with " +
+                            printed("%.2f", finer * band_edge_));
     steps_.say("done", "in " + printed("%.0f", steps_.seconds()) + " s. " + options_.folder + " has:");
     const std::pair<std::string, const char *> files[] = {
         {"mesh.msh", "the mesh for gmsh's readers; mesh.vtu for ParaView, and faces/ with its boundaries"},
@@ -533,8 +570,10 @@ class PatientRun {
     for (const auto &[name, what] : files)
       if (exists(name.c_str())) steps_.say("  " + name + std::string(13 - name.size(), ' '), what);
     const std::string path = options_.folder + "/" + options_.solver;
-    if (options_.solver == "fenicsx") steps_.say("run", "python3 " + path + "/run.py, with a Python that has dolfinx");
-    else if (options_.solver != "none") steps_.say("run", path + "/Allrun");
+    if (options_.solver == "fenicsx")
+      steps_.say("run", "python3 " + path + "/run.py, with a Python that has dolfinx");
+    else if (options_.solver != "none")
+      steps_.say("run", path + "/Allrun");
   }
 
   const PatientOptions &options_;

@@ -18,10 +18,12 @@ namespace fs = std::filesystem;
 const char *const marker_file = "UNFINISHED.txt", *const report_file = "patient.json";
 
 // What riis patient writes into the folder. Files with other names stay when the folder is taken over.
-const char *const own_names[] = {report_file,          "wall.stl",   "placed.json",   "params.json", "valve.dat",      "gmsh",
-                                 "mesh.msh",      "mesh.vtu",   "faces",         "closed.vtu",  "open.vtu",       "closed.png",
-                                 "open.png",      "beat.csv",   "beat.pvd",      "beat",        "leaflets.pvd",   "leaflets",
-                                 "beat.mp4",      "logs",       "openfoam",      "fenicsx",     "svmultiphysics", "landmarks.json",
+const char *const own_names[] = {report_file,     "wall.stl",       "placed.json",        "params.json",
+                                 "valve.dat",     "gmsh",           "mesh.msh",           "mesh.vtu",
+                                 "faces",         "closed.vtu",     "open.vtu",           "closed.png",
+                                 "open.png",      "beat.csv",       "beat.pvd",           "beat",
+                                 "leaflets.pvd",  "leaflets",       "beat.mp4",           "logs",
+                                 "openfoam",      "fenicsx",        "svmultiphysics",     "landmarks.json",
                                  "landmarks.csv", "beat_table.csv", "landmarks.mrk.json", "landmarks.fcsv"};
 
 [[noreturn]] void refuse_folder(const std::string &path, const std::string &reason) {
@@ -43,10 +45,12 @@ std::string taken_folder(const std::string &path, bool replace, const std::vecto
   const fs::path folder = fs::absolute(path).lexically_normal();
   if (fs::exists(folder, error)) {
     if (!fs::is_directory(folder, error)) refuse_folder(path, "is a file, not a folder");
-    const bool is_unfinished = fs::exists(folder / marker_file, error), is_own = is_unfinished || fs::exists(folder / report_file, error);
+    const bool is_unfinished = fs::exists(folder / marker_file, error),
+               is_own = is_unfinished || fs::exists(folder / report_file, error);
     const bool is_empty = fs::is_empty(folder, error);
     if (error) refuse_folder(path, "cannot be read: " + error.message());
-    if (!is_empty && !is_own) refuse_folder(path, "the folder is not empty, and riis patient did not make it: name another");
+    if (!is_empty && !is_own)
+      refuse_folder(path, "the folder is not empty, and riis patient did not make it: name another");
     if (!is_empty && !is_unfinished && !replace)
       refuse_folder(path, "the folder has the results of an earlier run: name another, or write --replace");
     check_inputs(folder, path, inputs);
@@ -78,7 +82,9 @@ void PatientFolder::finish() {
 }
 
 std::string command_text(const std::vector<std::string> &words) {
-  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::string("-_=.,/:+%@").find(static_cast<char>(c)) != std::string::npos; };
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || std::string("-_=.,/:+%@").find(static_cast<char>(c)) != std::string::npos;
+  };
   std::vector<std::string> typed;
   for (const std::string &word : words) {
     std::string text;
@@ -137,9 +143,10 @@ StepEnd PatientSteps::run_silently(const std::string &name, const std::vector<st
 }
 
 void PatientSteps::refuse(const std::string &name, const StepEnd &end, const std::string &cure) const {
-  const std::string reason = end.status < 0   ? "a signal ended the command of logs/" + name + ".log"
-                             : end.reason().empty() ? "the command of logs/" + name + ".log ended with status " + std::to_string(end.status)
-                                                    : end.reason();
+  const std::string reason =
+      end.status < 0         ? "a signal ended the command of logs/" + name + ".log"
+      : end.reason().empty() ? "the command of logs/" + name + ".log ended with status " + std::to_string(end.status)
+                             : end.reason();
   throw Refusal{end.status == exit_wrong_usage ? exit_wrong_usage : exit_bad_data, reason + cure};
 }
 

@@ -95,7 +95,8 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
   if (before < 0 || after < 0)
     refuse_data(mesh + ": there is no room for a ball with a radius of 1 mm between the valve and the end " +
                 (before < 0 ? "before it" : "after it") +
-                ", in which its pressure could be read: cut the vessel farther from the valve, or take a smaller --half-thickness");
+                ", in which its pressure could be read: cut the vessel farther from the valve, or take a smaller "
+                "--half-thickness");
   // Short numbers are easier to type.
   const auto rounded = [&](const Vector &point) {
     Vector made;

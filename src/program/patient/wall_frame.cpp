@@ -88,12 +88,13 @@ WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, 
   std::stable_sort(allowed.begin(), allowed.end(), is_nearer);
   const WallFrame &best = allowed[0];
   if (best.away > at_wall) {
-    const std::string text = landmarks.path + ": the landmarks are " + mm_text(best.away) + " from the wall of " + wall.path +
-                             " on average";
+    const std::string text =
+        landmarks.path + ": the landmarks are " + mm_text(best.away) + " from the wall of " + wall.path + " on average";
     if (all[0].away <= at_wall)
       refuse_data(text + "; they are " + mm_text(all[0].away) + " from it with " + options_of(all[0], best));
-    refuse_data(text + ", and farther with other units and axes. On their wall they are nearer than " + mm_text(at_wall) +
-                ": are both files of the same patient and the same image? Load both in 3D Slicer, and set the landmarks anew");
+    refuse_data(
+        text + ", and farther with other units and axes. On their wall they are nearer than " + mm_text(at_wall) +
+        ": are both files of the same patient and the same image? Load both in 3D Slicer, and set the landmarks anew");
   }
   if (allowed.size() > 1 && allowed[1].away <= std::min(at_wall, clearly_farther * best.away))
     refuse_usage(wall.path + ": its " + (allowed[1].unit == best.unit ? "axes are" : "unit is") +

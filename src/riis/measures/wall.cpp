@@ -60,13 +60,14 @@ std::optional<double> distance_along(const Wall &wall, Vec3 point, Vec3 directio
   // The wall is mostly near, and a short line meets few triangles. A line that meets nothing gets longer.
   for (double length = reach / 256;; length = std::min(4 * length, reach)) {
     std::optional<double> nearest;
-    wall.scene.for_each_along(point - length * direction, point + length * direction, found, [&](std::int64_t triangle) {
-      const std::optional<double> here = meets(wall.triangles.corners(triangle), point, direction);
-      if (!here) return;
-      const bool is_nearer =
-          !nearest || std::abs(*here) < std::abs(*nearest) || (std::abs(*here) == std::abs(*nearest) && *here > *nearest);
-      if (is_nearer) nearest = here;
-    });
+    wall.scene.for_each_along(
+        point - length * direction, point + length * direction, found, [&](std::int64_t triangle) {
+          const std::optional<double> here = meets(wall.triangles.corners(triangle), point, direction);
+          if (!here) return;
+          const bool is_nearer = !nearest || std::abs(*here) < std::abs(*nearest) ||
+                                 (std::abs(*here) == std::abs(*nearest) && *here > *nearest);
+          if (is_nearer) nearest = here;
+        });
     if (length >= reach || (nearest && std::abs(*nearest) <= length)) return nearest;
   }
 }
