@@ -81,7 +81,8 @@ demo_openings_picture() {
   n=0
   for valve in "${demo_valves[@]}"; do
     for view in side top; do
-      titles+=",$(demo_title "$valve" 14 "$((50 + n / 5 * 256 + 96))"),$(demo_title "from the $view" 14 "$((50 + n / 5 * 256 + 126))")"
+      row=$((50 + n / 5 * 256 + 96))
+      titles+=",$(demo_title "$valve" 14 "$row"),$(demo_title "from the $view" 14 $((row + 30)))"
       for opening in "${demo_openings[@]}"; do
         inputs+=(-i "out/${valve}_${opening}_$view.png")
         parts+="[$n]crop=iw/2:0.8*ih:iw/2:0.1*ih,scale=320:-1[t$n];"

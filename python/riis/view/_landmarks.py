@@ -23,7 +23,8 @@ from riis.view._history import Snapshot, Valves
 from riis.view._landmark_files import FLOW, LandmarkSet, canonical, missing, next_name, role_of, roles_of
 from riis.view._numbers import in_unit, with_unit
 from riis.view._valves import (
-    PlacedSource, ValveState, WarpState, check_kind, parameters_of, point, refuse, values_that_were_set, vector,
+    PlacedSource, ValveState, WarpState, check_kind, parameters_of, point, refuse, rotation_of, turned,
+    values_that_were_set, vector,
 )
 from riis.view._walls import MOST_BEYOND, Wall, checked_skirt
 
@@ -56,6 +57,17 @@ class LandmarkedValves(Valves):
         """Takes a wall, to which skirts lead. None: no wall, and no skirts to it."""
         states = self.valves if wall is not None else tuple(_changed(state, skirt=0.0) for state in self.valves)
         self._change_to(self._now()._replace(wall=wall, valves=states))
+
+    def stand_in_wall(self, i: int) -> None:
+        """Puts a valve into the middle of the wall, with its axis along the wall's longest side. The axis points upwards."""
+        if self._wall is None:
+            raise refuse("wall: is None; there is no wall in which the valve could stand")
+        points = self._wall.points
+        middle = points.mean(axis=0)
+        along = numpy.linalg.svd((points - middle)[:: 1 + len(points) // 20_000], full_matrices=False)[2][0]
+        state = self._at(i).state
+        axis = along if along[2] >= 0.0 else -along
+        self._replace(i, ("place", i), rotation=rotation_of(turned(state.matrix, axis, None)), origin=vector(middle))
 
     def set_skirt(self, i: int, longest: Any) -> None:
         """Gives a valve a skirt that reaches the wall and no farther, or no skirt for 0.
@@ -211,7 +223,7 @@ class LandmarkedValves(Valves):
         if state.surface is not None:
             raise refuse(f"i: valve {i} is a surface from a file, which has no landmarks")
         if self._unit is None:
-            raise refuse("unit: is None; landmarks need the unit of the mesh")
+            raise refuse("unit: is None; landmarks need the unit of the mesh, so choose mm, cm or m first")
         valve = _changed(state, warp=None, opening=0.0).valve()
         assert valve is not None
         for name in state.sized:  # cusps that an earlier place found unequal begin equal
@@ -354,8 +366,8 @@ def _placed_text(state: ValveState, unit: str, axes: str | None) -> str:
         "valve": state.kind, "unit": unit, "axes": axes or "mesh", "rotate": list(state.rotation), "translate": list(state.origin),
         "parameters": files.nested(state.parameters),
     }  # fmt: skip
-    if state.warp is not None:
-        root["warp"] = warp_object(state.warp)
+    if state.warp is not None:  # in the mesh, as riis place writes it and OpenFOAM takes it
+        root["warp"] = warp_object(state.warp.in_mesh(state.placement))
     return json.dumps(root, indent=2) + "\n"
 
 

@@ -21,6 +21,7 @@ class Hand(Part):
     """The part of a Page that answers sliders, fields, clicks and drags."""
 
     _set_landmark_at: Any
+    _show_landmarks: Any
 
     # sliders and parameters
 
@@ -191,7 +192,7 @@ class Hand(Part):
         if self.scene is not None and self.state.tool != PLACING and self.state.landmark:
             with self.state as state:
                 state.landmark = ""
-            self.scene.show_landmarks(self.model.landmarks.points)
+            self._show_landmarks()
             self._moved.set()
         if self.scene is not None and self.state.tool != "click" and self._clicks:
             self._clicks = []
@@ -244,6 +245,14 @@ class Hand(Part):
         self._need_model()
         self._look(how)
         self._moved.set()
+
+    def _look_at_all(self) -> None:
+        """Looks at the whole mesh or wall, in which the valve is not yet placed."""
+        lower, upper = self.model.bounds if self.model.wall is None else (self.model.wall.lower, self.model.wall.upper)
+        valve = self._valve()
+        reach = 0.45 * float(numpy.linalg.norm(upper - lower))
+        self.scene.look("oblique", 0.5 * (lower + upper), valve.axis, valve.reference, reach)
+        self.scene.cut_here(valve.origin, valve.axis)
 
     def _look(self, how: str) -> None:
         valve = self._valve()

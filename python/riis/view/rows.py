@@ -165,7 +165,8 @@ def landmarks_of(kind: str, points: Any) -> list[dict[str, Any]]:
         done.update(mine)
         if role.is_list:
             is_needed = any(role_of(name, kind) == role for name in needed)
-            rows.append(row(role.name, f"{role.text}: press to add one", role.name, is_needed) | {"label": f"+ {role.name}"})
+            adding = row(role.name, f"{role.text}: press to add one", role.name, is_needed)
+            rows.append(adding | {"label": f"+ {adding['label']}"})
         elif not mine:
             rows.append(row(role.name, role.text, role.name, role.name in needed))
     return rows + [row(name, "this kind of valve has no such landmark", name, False) for name in points if name not in done]

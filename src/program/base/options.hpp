@@ -71,7 +71,7 @@ struct PictureSize {
 
 // How all pictures of a run and its movie look.
 struct PictureStyle {
-  std::optional<PictureSize> size;  // not set if the user gave none
+  std::optional<PictureSize> size;                  // not set if the user gave none
   std::array<double, 4> background = {1, 1, 1, 1};  // red, green, blue and opacity
   std::int32_t captions = RIIS_VTK_CAPTIONS_ALL;
   std::int32_t panels = RIIS_VTK_PANELS_BOTH;

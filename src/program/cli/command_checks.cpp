@@ -127,8 +127,7 @@ void check_style(const Command &command, const MarkOptions &options) {
     if (command.has(name) && options.pictures.empty() && movie.empty())
       refuse_usage(std::string(name) + " has no effect without --picture" +
                    (command.knows("--movie") ? " or --movie" : ""));
-  if (!movie.empty() && style.background[3] == 0)
-    refuse_usage("--picture-background: a movie cannot be transparent");
+  if (!movie.empty() && style.background[3] == 0) refuse_usage("--picture-background: a movie cannot be transparent");
   const bool is_odd = style.size && (style.size->width % 2 != 0 || style.size->height % 2 != 0);
   if (is_odd && has_ending(movie, ".mp4"))
     refuse_usage("--picture-size: both numbers must be even for the movie " + movie);

@@ -270,8 +270,12 @@ void declare_loudness(Command &command, ValveOptions &options) {
 // Reads a text such as 3840x2160.
 PictureSize parse_size(const std::string &text, const std::string &subject) {
   const std::vector<std::string> sides = split(text, "x");
+  const auto is_number = [](const std::string &side) {
+    return !side.empty() && side.size() < 8 && side.find_first_not_of("0123456789") == std::string::npos;
+  };
+  if (sides.size() != 2 || !is_number(sides[0]) || !is_number(sides[1]))
+    refuse_usage(subject + ": " + text + " is not WIDTHxHEIGHT, such as 1920x1080");
   PictureSize size;
-  if (sides.size() != 2) refuse_usage(subject + ": " + text + " is not WIDTHxHEIGHT, such as 1920x1080");
   size.width = parse_integer(sides[0], subject);
   size.height = parse_integer(sides[1], subject);
   for (const std::int32_t side : {size.width, size.height})
@@ -297,8 +301,9 @@ std::array<double, 4> parse_background(const std::string &text, const std::strin
 void declare_style(Command &command, PictureStyle &style) {
   command.parsed("--picture-size", "WIDTHxHEIGHT", "Pixels of pictures and movies (default 1600x800)", style.size,
                  parse_size);
-  command.parsed("--picture-background", "COLOUR", "white (default), black, transparent, or as f4f1ea: riis help pictures",
-                 style.background, parse_background);
+  command.parsed("--picture-background", "COLOUR",
+                 "white (default), black, transparent, or as f4f1ea: riis help pictures", style.background,
+                 parse_background);
   command.choice("--picture-captions", "all (default), scale (only the scale bar) or none", caption_names,
                  style.captions, "WHICH");
   command.choice("--picture-panels", "both (default), valve or marks", panel_names, style.panels, "WHICH");

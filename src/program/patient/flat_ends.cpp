@@ -37,8 +37,13 @@ constexpr std::size_t n_sectors = 12;
 constexpr double clear_mean = 55, clear_least = 20, unclear_mean = 30;
 // Four pi times the area over the square of the perimeter: 1 for a disc, 0.6 for an ellipse thrice as long as wide.
 constexpr double least_roundness = 0.25;
-// Flat parts that touch make each other unclear if their areas differ by less than this factor.
+// Flat parts that touch make each other unclear if their areas differ by less than this factor. Else only the small one is.
 constexpr double most_apart = 10;
+// A flat part below this share of the largest end, such as the end of a coronary artery, may be a facet of a coarse wall. It is an
+// end if its rim has so many sides, and if the wall is as steep up to this share of the radius.
+constexpr double small_share = 0.05;
+constexpr std::int64_t least_sides = 12;
+constexpr double wide_band_share = 1.5;
 // A refusal lists so many flat parts.
 constexpr std::size_t most_listed = 6;
 
@@ -56,16 +61,18 @@ struct FlatPart {
   Plane plane;  // through the part's centre
   double area = 0;
   double mean_angle = 0, least_angle = 0;  // to the wall beside it, in degrees
+  double wide_angle = 0;                   // the mean over the wider band
   double roundness = 0;
-  std::int64_t n_rims = 0;
-  bool is_behind = false;    // the wall beside it lies on the side of the blood
-  bool is_touching = false;  // another flat part begins at its rim
-  bool is_large = false;     // enough not to be noise
+  std::int64_t n_rims = 0, n_sides = 0;  // lines of the rim, and their edges
+  bool is_behind = false;                // the wall beside it lies on the side of the blood
+  bool is_touching = false;              // another flat part begins at its rim
+  bool is_large = false;                 // enough not to be noise
+  bool is_facet = false;  // it is small beside the largest end, and hardly larger than the wall's triangles
   bool was_open = false;
 
   bool is_disc() const { return n_rims == 1 && is_behind && roundness >= least_roundness; }
   bool is_sharp() const { return mean_angle >= clear_mean && least_angle >= clear_least && is_behind; }
-  bool is_clear() const { return is_large && is_disc() && is_sharp() && !is_touching; }
+  bool is_clear() const { return is_large && is_disc() && is_sharp() && !is_touching && !is_facet; }
   double radius() const { return std::sqrt(area / pi); }
 };
 
@@ -101,9 +108,8 @@ class EndFinder {
     for (const std::int64_t seed : seeds) {
       if (view(is_known)[seed] != 0 || view(areas_)[seed] == 0) continue;
       FlatPart part = grown(seed, flat_share * size_);
-      view(is_known)[seed] = 1;
-      for (const std::int64_t i : part.triangles)
-        if (is_well_within(part, i)) view(is_known)[i] = 1;
+      // A triangle of a part is no seed of another part, but may belong to it.
+      for (const std::int64_t i : part.triangles) view(is_known)[i] = 1;
       if (!is_large(part)) continue;
       measure(part);
       if (part.mean_angle < unclear_mean || !part.is_behind) continue;
@@ -111,6 +117,7 @@ class EndFinder {
     }
     std::sort(parts.begin(), parts.end(), [](const FlatPart &a, const FlatPart &b) { return a.area > b.area; });
     mark_touching(parts);
+    mark_facets(parts);
     return parts;
   }
 
@@ -139,7 +146,7 @@ class EndFinder {
     return part.area >= least_share * total_ && static_cast<std::int64_t>(part.triangles.size()) >= least_triangles;
   }
 
-  // The plane of least squares would follow the corners. The sum of the area vectors follows the rim, and is exact for a flat part.
+  // The sum of the area vectors follows the rim, and is exact for a flat part. A plane of least squares would follow the corners.
   void fit(FlatPart &part) const {
     Vector area{}, centre{};
     part.area = 0;
@@ -164,10 +171,6 @@ class EndFinder {
     for (std::size_t k = 0; k < 3; ++k)
       longest = std::max(longest, norm(all_.corner(i, (k + 1) % 3) - all_.corner(i, k)));
     return 2 * view(areas_)[i] <= 1e-6 * size_ * longest;
-  }
-
-  bool is_well_within(const FlatPart &part, std::int64_t i) const {
-    return is_in(part.plane, i, 0.25 * flat_share * size_);
   }
 
   // Returns the connected triangles in the plane around the seed. The plane follows the triangles.
@@ -254,13 +257,14 @@ class EndFinder {
       }
     part.roundness = perimeter > 0 ? 4 * pi * part.area / (perimeter * perimeter) : 0;
     part.n_rims = n_lines(rim);
+    part.n_sides = static_cast<std::int64_t>(rim.size());
     // Noise cancels in the sum of the area vectors of a sector.
     const Vector first =
         unit_vector(cross(part.plane.normal, std::abs(part.plane.normal[0]) < 0.6 ? Vector{1, 0, 0} : Vector{0, 1, 0}));
     const Vector second = cross(part.plane.normal, first);
-    std::array<Vector, n_sectors> sums{};
+    std::array<Vector, n_sectors> sums{}, wide_sums{};
     double depth = 0;
-    const double reach = band_share * part.radius();
+    const double reach = band_share * part.radius(), wide_reach = wide_band_share * part.radius();
     while (!queue.empty()) {
       const auto [distance, i] = queue.top();
       queue.pop();
@@ -269,25 +273,33 @@ class EndFinder {
       const Vector off = view(centres_)[i] - part.plane.point;
       const double turn = std::atan2(dot(off, second), dot(off, first)) / (2 * pi) + 0.5;
       const std::size_t sector = std::min(n_sectors - 1, static_cast<std::size_t>(turn * n_sectors));
-      sums[sector] = sums[sector] + view(areas_)[i] * view(normals_)[i];
-      depth -= view(areas_)[i] * dot(off, part.plane.normal);
+      const Vector area = view(areas_)[i] * view(normals_)[i];
+      wide_sums[sector] = wide_sums[sector] + area;
+      if (distance <= reach) {
+        sums[sector] = sums[sector] + area;
+        depth -= view(areas_)[i] * dot(off, part.plane.normal);
+      }
       for (const std::int64_t beyond : view(neighbours_)[i]) {
         const double further = distance + norm(view(centres_)[beyond] - view(centres_)[i]);
-        if (view(stamp_)[beyond] != stamp && further <= reach) queue.emplace(further, beyond);
+        if (view(stamp_)[beyond] != stamp && further <= wide_reach) queue.emplace(further, beyond);
       }
     }
     part.is_behind = depth > 0;
-    part.least_angle = std::numeric_limits<double>::infinity();
-    double n = 0;
-    part.mean_angle = 0;
+    part.mean_angle = mean_angle_of(sums, part.plane.normal, &part.least_angle);
+    part.wide_angle = mean_angle_of(wide_sums, part.plane.normal, nullptr);
+  }
+
+  static double mean_angle_of(const std::array<Vector, n_sectors> &sums, const Vector &normal, double *least) {
+    double n = 0, total = 0, smallest = 180;
     for (const Vector &sum : sums) {
       if (norm(sum) == 0) continue;
-      const double angle = degrees_between(sum, part.plane.normal);
-      part.mean_angle += angle;
-      part.least_angle = std::min(part.least_angle, angle);
+      const double angle = degrees_between(sum, normal);
+      total += angle;
+      smallest = std::min(smallest, angle);
       n += 1;
     }
-    if (n > 0) part.mean_angle /= n;
+    if (least != nullptr) *least = smallest;
+    return n > 0 ? total / n : 0;
   }
 
   // Returns the number of lines that edges form.
@@ -329,11 +341,22 @@ class EndFinder {
     }
     for (std::size_t i = 0; i < parts.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
-        if (!parts[i].is_sharp() || !parts[j].is_sharp() || parts[j].area > most_apart * parts[i].area) continue;
+        if (!parts[i].is_sharp() || !parts[j].is_sharp()) continue;
         const bool touches = std::any_of(vertices[i].begin(), vertices[i].end(),
                                          [&](std::int64_t id) { return vertices[j].count(id) > 0; });
-        if (touches) parts[i].is_touching = parts[j].is_touching = true;
+        if (!touches) continue;
+        // A small part at the rim of an end is a facet of the wall there.
+        parts[i].is_touching = true;
+        if (parts[j].area <= most_apart * parts[i].area) parts[j].is_touching = true;
       }
+  }
+
+  static void mark_facets(std::vector<FlatPart> &parts) {
+    double largest = 0;
+    for (const FlatPart &part : parts)
+      if (part.is_clear()) largest = std::max(largest, part.area);
+    for (FlatPart &part : parts)
+      part.is_facet = part.area < small_share * largest && (part.n_sides < least_sides || part.wide_angle < clear_mean);
   }
 
   const ClosedSurface &surface_;
@@ -383,6 +406,7 @@ class Choice {
         wall.remarks.push_back(path_ + ": the surface is open at " + place(part) +
                                ", and is closed there by a flat end");
     }
+    remark_unclear(wall);
     return wall;
   }
 
@@ -403,6 +427,19 @@ class Choice {
   static bool overlap(const FlatPart &a, const FlatPart &b) {
     const std::set<std::int64_t> of_a(a.triangles.begin(), a.triangles.end());
     return std::any_of(b.triangles.begin(), b.triangles.end(), [&](std::int64_t i) { return of_a.count(i) > 0; });
+  }
+
+  // Says which flat part would be the next end. The parts are sorted by area.
+  void remark_unclear(PatientWall &wall) const {
+    const auto is_unclear = [&](const FlatPart &part) {
+      return part.is_large && part.is_disc() && !part.is_facet && part.area > small_share * wall.ends[0].area &&
+             !is_chosen(part);
+    };
+    const auto found = std::find_if(parts_.begin(), parts_.end(), is_unclear);
+    if (found == parts_.end()) return;
+    wall.remarks.push_back(path_ + ": the flat part at " + place(*found) + " with area " +
+                           printed("%.3g", found->area) +
+                           " is taken as wall; if it is an end, name all ends by --inlet=X,Y,Z --outlet=X,Y,Z");
   }
 
   // Takes the clear ends that no point chose.

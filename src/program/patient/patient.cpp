@@ -522,7 +522,7 @@ class PatientRun {
     steps_.say("edges", "the mesh has " + grouped(mesh_.n_nodes) + " nodes with --band-edge " + shown(band_edge_) + ", and would have about " +
                             grouped(many_nodes) + " with " + printed("%.2f", finer * band_edge_));
     steps_.say("done", "in " + printed("%.0f", steps_.seconds()) + " s. " + options_.folder + " has:");
-    const std::pair<const char *, const char *> files[] = {
+    const std::pair<std::string, const char *> files[] = {
         {"mesh.msh", "the mesh for gmsh's readers; mesh.vtu for ParaView, and faces/ with its boundaries"},
         {"placed.json", "the valve, for --valve of every command of riis; wall.stl is its wall"},
         {"closed.vtu", "the marked mesh with the closed valve; open.vtu with the open valve"},
@@ -531,7 +531,10 @@ class PatientRun {
         {"beat.mp4", "the beat as a movie"},
         {"patient.json", "all numbers of this run, and its commands; logs/ has what they print"}};
     for (const auto &[name, what] : files)
-      if (exists(name)) steps_.say(std::string("  ") + name, what);
+      if (exists(name.c_str())) steps_.say("  " + name + std::string(13 - name.size(), ' '), what);
+    const std::string path = options_.folder + "/" + options_.solver;
+    if (options_.solver == "fenicsx") steps_.say("run", "python3 " + path + "/run.py, with a Python that has dolfinx");
+    else if (options_.solver != "none") steps_.say("run", path + "/Allrun");
   }
 
   const PatientOptions &options_;

@@ -27,8 +27,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double circle = 3.14159265358979323846;  // its half turn
+
 // An end of the new surface may differ by this share in area: the rim has longer edges than before.
 constexpr double most_area_change = 0.05;
+// The edge length in the middle of an end, as a share of its radius: the rim of the end then has at least sixteen edges.
+constexpr double end_edge_share = 0.35;
+// gmsh gets so many seconds, and so many for each triangle. A surface that it cannot make anew may keep it busy for hours.
+constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
 // So many triangles of a new patch are compared with the wall.
 constexpr std::size_t n_compared = 9;
 
@@ -252,15 +258,35 @@ class PatientMesher {
       refuse_usage(field +
                    ": gmsh does not read a path with a quotation mark, a backslash or a line break: choose "
                    "another folder");
-    return "Field[1] = Structured;\nField[1].FileName = \"" + field +
-           "\";\nField[1].TextFormat = 1;\nField[1].SetOutsideValue = 1;\nField[1].OutsideValue = " +
-           shortest(options_.largest_edge) +
-           ";\nBackground Field = 1;\nMesh.MeshSizeExtendFromBoundary = 0;\nMesh.MeshSizeFromPoints = 0;\n"
+    std::string text = "Field[1] = Structured;\nField[1].FileName = \"" + field +
+                       "\";\nField[1].TextFormat = 1;\nField[1].SetOutsideValue = 1;\nField[1].OutsideValue = " +
+                       shortest(options_.largest_edge) + ";\n";
+    // The edges at a small end are shorter than elsewhere, and grow with the distance from it.
+    int n_fields = 1;
+    for (const FlatEnd &end : wall_.ends) {
+      const double radius = std::sqrt(end.area / circle), edge = end_edge_share * radius;
+      if (edge >= options_.largest_edge) continue;
+      const std::string field_text = "Field[" + std::to_string(++n_fields) + "]";
+      std::string squares;
+      for (std::size_t k = 0; k < 3; ++k)
+        squares += std::string(k == 0 ? "" : " + ") + "(" + "xyz"[k] + " - (" + shortest(end.centre[k]) + "))^2";
+      text += "// " + end.name + "\n" + field_text + " = MathEval;\n" + field_text + ".F = \"" + shortest(edge) +
+              " * (1 + (" + squares + ")^1.5 / " + shortest(std::pow(2 * radius, 3)) + ")\";\n";
+    }
+    if (n_fields > 1) {
+      text += "Field[" + std::to_string(n_fields + 1) + "] = Min;\nField[" + std::to_string(n_fields + 1) +
+              "].FieldsList = {";
+      for (int i = 1; i <= n_fields; ++i) text += (i == 1 ? "" : ", ") + std::to_string(i);
+      text += "};\n";
+      ++n_fields;
+    }
+    return text + "Background Field = " + std::to_string(n_fields) +
+           ";\nMesh.MeshSizeExtendFromBoundary = 0;\nMesh.MeshSizeFromPoints = 0;\n"
            "Mesh.MeshSizeFromCurvature = 0;\n";
   }
 
   // Runs gmsh on a .geo file. Refuses with its last error if it does not write the mesh. `cure` follows that error.
-  GmshMesh run_gmsh(const std::string &dimension, const std::string &geo, const std::string &mesh,
+  GmshMesh run_gmsh(double seconds, const std::string &dimension, const std::string &geo, const std::string &mesh,
                     const std::string &cure) {
     const std::string log = in_gmsh(fs::path(geo).stem().string() + ".log");
     std::error_code ignored;
@@ -269,11 +295,18 @@ class PatientMesher {
     const std::vector<std::string> words{"gmsh", dimension, "-nt",   "1",  "-v", "4", "-log",
                                          log,    "-format", "msh22", "-o", mesh, geo};
     options_.announce(joined_by(words, " "));
-    const ProgramEnd end = run_program(words);
+    std::vector<std::string> limited{"timeout", "--foreground", printed("%.0f", seconds)};
+    limited.insert(limited.end(), words.begin(), words.end());
+    const ProgramEnd end = run_program(limited);
+    constexpr int at_limit = 124, signal_status = 128;  // timeout's status at the limit, and its least after a signal
+    if (end.status == at_limit)
+      refuse_data("gmsh did not end within " + printed("%.0f", seconds) + " seconds (" + log + "); " + cure);
     if (end.error != 0) refuse_data("gmsh: cannot be run: " + system_text(end.error));
     const std::string log_text = fs::exists(log, ignored) ? text_of_file(log) : "";
     const std::string error = last_error_in(log_text);
-    const std::string why = !error.empty() ? error : end.status < 0 ? "a signal ended it" : end.last_message;
+    const std::string why = !error.empty()                                 ? error
+                            : end.status < 0 || end.status > signal_status ? "a signal ended it"
+                                                                           : end.last_message;
     if (!error.empty() || end.status != 0 || !fs::exists(mesh, ignored))
       refuse_data("gmsh fails: " + (why.empty() ? "it writes no mesh" : why) + " (" + log + "); " + cure);
     made_.written.push_back(log);
@@ -287,7 +320,8 @@ class PatientMesher {
                "// The wall has a surface for each end, and its rims as lines, so no angle is needed.\n"
                "Merge \"wall.msh\";\nClassifySurfaces{Pi, 1, 1, Pi};\nCreateGeometry;\n" +
                    size_lines());
-    surface_ = run_gmsh("-2", in_gmsh("surface.geo"), in_gmsh("surface.msh"), cure_of_surface());
+    surface_ = run_gmsh(least_seconds + seconds_per_triangle * static_cast<double>(old_.n()), "-2",
+                        in_gmsh("surface.geo"), in_gmsh("surface.msh"), cure_of_surface());
     name_patches();
     check_closed(surface_);
     check_ends(surface_);
@@ -398,7 +432,7 @@ class PatientMesher {
                    ") = {1};\n// Delaunay keeps close to the size field.\nMesh.Algorithm3D = 1;\n"
                    "Mesh.Binary = 0;\n" +
                    size_lines());
-    mesh_ = run_gmsh("-3", in_gmsh("volume.geo"), in_gmsh("volume.msh"),
+    mesh_ = run_gmsh(24 * 3600, "-3", in_gmsh("volume.geo"), in_gmsh("volume.msh"),
                      "the wall may go through itself: look at " + wall_.path + " there, and repair or smooth it");
     if (mesh_.cells.empty())
       refuse_data("gmsh made no tetrahedra (" + in_gmsh("volume.log") + "); " + cure_of_surface());

@@ -38,7 +38,7 @@ void check_inputs(const fs::path &folder, const std::string &path, const std::ve
     }
 }
 
-std::string taken(const std::string &path, bool replace, const std::vector<std::string> &inputs) {
+std::string taken_folder(const std::string &path, bool replace, const std::vector<std::string> &inputs) {
   std::error_code error;
   const fs::path folder = fs::absolute(path).lexically_normal();
   if (fs::exists(folder, error)) {
@@ -62,7 +62,7 @@ std::string taken(const std::string &path, bool replace, const std::vector<std::
 }  // namespace
 
 PatientFolder::PatientFolder(const std::string &path, bool replace, const std::vector<std::string> &inputs)
-    : path_(taken(path, replace, inputs)), locks_({(fs::path(path_) / marker_file).string()}) {
+    : path_(taken_folder(path, replace, inputs)), locks_({(fs::path(path_) / marker_file).string()}) {
   std::error_code error;
   fs::current_path(path_, error);
   if (error) refuse_folder(path, "cannot be entered: " + error.message());

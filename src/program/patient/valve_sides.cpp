@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int32_t n_sides_openings = 11;
 // Radii of the balls in millimetres: the largest that there is room for is taken.
-constexpr double radii[] = {4, 3, 2, 1.5, 1};
+constexpr double ball_radii[] = {4, 3, 2, 1.5, 1};
 
 std::vector<double> distances_from(const riis_surface *surface, const std::vector<double> &xyz) {
   const riis_points points = points_of(xyz);
@@ -49,9 +49,17 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
   std::vector<double> away = distances_from(wall_of(marking), xyz);
   std::vector<std::int64_t> region(static_cast<std::size_t>(nodes.n()));
   const double half_thickness = marking.surface_options.half_thickness;
+  const auto along_flow = [&](const Vector &point) { return dot(point - centre, flow); };
+  double first = 0, last = 0;  // the extent of the valve along the flow, at all openings
   for (const double opening : openings_from_0_to_1(n_sides_openings)) {
     check(riis_valve_set_scalar(valve, "opening", opening));
     const auto surface = create<Surface>(riis_surface_create, valve, &marking.surface_options);
+    const riis_triangles triangles = triangles_of(surface);
+    for (std::int64_t i = 0; i < 3 * triangles.n_vertices; i += 3) {
+      const double here = along_flow({triangles.xyz[i], triangles.xyz[i + 1], triangles.xyz[i + 2]});
+      first = std::min(first, here);
+      last = std::max(last, here);
+    }
     const std::vector<double> from_valve = distances_from(surface, xyz);
     for (std::size_t i = 0; i < away.size(); ++i) away[i] = std::min(away[i], from_valve[i] - half_thickness);
     if (opening > 0) continue;
@@ -61,33 +69,42 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
     check(riis_label_open_regions(nodes.mesh(), marks, &how, nodes.n(), region.data(), nullptr));
   }
 
-  // Of the nodes with room for a ball, the nearest to the annulus on each side is the middle of a ball.
+  // Of the nodes with room for a ball, the nearest to the annulus on each side is the middle of a ball. Balls beyond the valve's
+  // extent are not in its jet. A short vessel has room only beside the leaflets.
   ValveSides sides;
   std::int64_t before = -1, after = -1;
-  const auto nearest = [&](double sign, double radius) {
+  const auto nearest = [&](double sign, double radius, double beyond) {
     double least = std::numeric_limits<double>::infinity();
     std::int64_t found = -1;
     for (std::int64_t i = 0; i < nodes.n(); ++i) {
-      const Vector from_centre = at(i) - centre;
-      if (view(away)[i] < radius || view(region)[i] < 0 || sign * dot(from_centre, flow) <= 0 || norm(from_centre) >= least)
-        continue;
-      least = norm(from_centre);
+      const double far = norm(at(i) - centre);
+      if (view(away)[i] < radius || view(region)[i] < 0 || sign * along_flow(at(i)) <= beyond || far >= least) continue;
+      least = far;
       found = i;
     }
     return found;
   };
-  for (const double radius : radii) {
+  for (const double radius : ball_radii) {
     sides.ball_radius = radius * millimetre;
-    before = nearest(-1, sides.ball_radius);
-    after = nearest(1, sides.ball_radius);
+    before = nearest(-1, sides.ball_radius, sides.ball_radius - first);
+    after = nearest(1, sides.ball_radius, sides.ball_radius + last);
+    if (before < 0) before = nearest(-1, sides.ball_radius, 0);
+    if (after < 0) after = nearest(1, sides.ball_radius, 0);
     if (before >= 0 && after >= 0) break;
   }
   if (before < 0 || after < 0)
     refuse_data(mesh + ": there is no room for a ball with a radius of 1 mm between the valve and the end " +
                 (before < 0 ? "before it" : "after it") +
                 ", in which its pressure could be read: cut the vessel farther from the valve, or take a smaller --half-thickness");
-  sides.upstream = at(before);
-  sides.downstream = at(after);
+  // Short numbers are easier to type.
+  const auto rounded = [&](const Vector &point) {
+    Vector made;
+    for (std::size_t k = 0; k < 3; ++k)
+      made[k] = *number_in(printed(millimetre < 0.01 ? "%.5f" : millimetre < 1 ? "%.3f" : "%.2f", point[k]));
+    return made;
+  };
+  sides.upstream = rounded(at(before));
+  sides.downstream = rounded(at(after));
   sides.are_apart = view(region)[before] != view(region)[after];
   if (!sides.are_apart) return sides;
   for (const Boundary &end : boundaries) {

@@ -16,7 +16,7 @@ constexpr double at_wall = 5;
 // Another frame is excluded if its landmarks are so many times farther away.
 constexpr double clearly_farther = 2;
 
-std::string millimetres(double length) { return printed("%.2g", length) + " mm"; }
+std::string mm_text(double length) { return printed("%.2g", length) + " mm"; }
 
 Surface wall_surface_of(const PatientWall &wall) {
   auto arrays = defaults<riis_surface_arrays>();
@@ -88,17 +88,17 @@ WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, 
   std::stable_sort(allowed.begin(), allowed.end(), is_nearer);
   const WallFrame &best = allowed[0];
   if (best.away > at_wall) {
-    const std::string text = landmarks.path + ": the landmarks are " + millimetres(best.away) + " from the wall of " + wall.path +
+    const std::string text = landmarks.path + ": the landmarks are " + mm_text(best.away) + " from the wall of " + wall.path +
                              " on average";
     if (all[0].away <= at_wall)
-      refuse_data(text + "; they are " + millimetres(all[0].away) + " from it with " + options_of(all[0], best));
-    refuse_data(text + ", and farther with other units and axes. On their wall they are nearer than " + millimetres(at_wall) +
+      refuse_data(text + "; they are " + mm_text(all[0].away) + " from it with " + options_of(all[0], best));
+    refuse_data(text + ", and farther with other units and axes. On their wall they are nearer than " + mm_text(at_wall) +
                 ": are both files of the same patient and the same image? Load both in 3D Slicer, and set the landmarks anew");
   }
   if (allowed.size() > 1 && allowed[1].away <= std::min(at_wall, clearly_farther * best.away))
     refuse_usage(wall.path + ": its " + (allowed[1].unit == best.unit ? "axes are" : "unit is") +
-                 " not clear, because the landmarks are " + millimetres(best.away) + " from it with " +
-                 options_of(best, allowed[1]) + ", and " + millimetres(allowed[1].away) + " with " +
+                 " not clear, because the landmarks are " + mm_text(best.away) + " from it with " +
+                 options_of(best, allowed[1]) + ", and " + mm_text(allowed[1].away) + " with " +
                  options_of(allowed[1], best) + ": write one of them");
   return best;
 }

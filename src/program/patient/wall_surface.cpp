@@ -26,6 +26,11 @@ constexpr double island_share = 0.01;
 // A hole is flat if its rim is nearer to a plane than this share of the rim's width.
 constexpr double flat_hole_share = 0.02;
 
+// A triangle is thin if its height is below this share of the size. gmsh would go on for hours with such triangles. A side of a
+// thin triangle is short if it is below some heights.
+constexpr double thin_share = 2e-6, short_in_heights = 10;
+constexpr int most_thin_rounds = 20;
+
 constexpr const char *close_it = "close it, as by the filter Close Holes of MeshLab";
 
 // A side of a triangle, between two vertices a < b.
@@ -69,6 +74,7 @@ class Repair {
     keep_one_piece();
     refuse_forks();
     turn_alike();
+    repair_thin();
     close_holes();
     refuse_touching_points();
     turn_outwards();
@@ -287,6 +293,124 @@ class Repair {
     }
   }
 
+  double height_of(const Corners &corner) const {
+    const auto &all = made_.triangles.points;
+    const Vector &a = view(all)[corner[0]], &b = view(all)[corner[1]], &c = view(all)[corner[2]];
+    const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
+    return longest > 0 ? norm(cross(b - a, c - a)) / longest : 0;
+  }
+
+  // Repairs thin triangles: joins the ends of short sides, and gives the longest side the other diagonal.
+  void repair_thin() {
+    least_height_ = thin_share * made_.triangles.size();
+    std::int64_t n_repaired = 0;
+    for (int round = 0; round < most_thin_rounds; ++round) {
+      const std::int64_t n = repair_some_thin();
+      n_repaired += n;
+      if (n == 0) break;
+    }
+    if (n_repaired > 0)
+      remark(counted(n_repaired, "triangle") + (n_repaired == 1 ? " has" : " have") + " hardly any height, and " +
+             (n_repaired == 1 ? "is" : "are") + " repaired");
+  }
+
+  // Repairs thin triangles that share no vertex with one that was repaired before. Returns how many.
+  std::int64_t repair_some_thin() {
+    std::vector<std::int64_t> thin;
+    for (std::int64_t i = 0; i < made_.triangles.n(); ++i)
+      if (height_of(view(corners())[i]) < least_height_) thin.push_back(i);
+    if (thin.empty()) return 0;
+    of_side_.clear();
+    around_.assign(points().size(), {});
+    is_locked_.assign(points().size(), 0);
+    for (std::int64_t i = 0; i < made_.triangles.n(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Corners &corner = view(corners())[i];
+        of_side_[{corner[k], corner[(k + 1) % 3]}] = i;
+        view(around_)[corner[k]].push_back(i);
+      }
+    std::int64_t n = 0;
+    for (const std::int64_t i : thin) {
+      const Corners corner = view(corners())[i];
+      if (corner[0] < 0 || is_locked(corner)) continue;
+      std::size_t shortest = 0, longest = 0;
+      const auto length = [&](std::size_t k) {
+        return norm(view(points())[corner[(k + 1) % 3]] - view(points())[corner[k]]);
+      };
+      for (std::size_t k = 1; k < 3; ++k) {
+        if (length(k) < length(shortest)) shortest = k;
+        if (length(k) > length(longest)) longest = k;
+      }
+      const bool is_short = length(shortest) < short_in_heights * least_height_;
+      n += is_short && join_side(corner[shortest], corner[(shortest + 1) % 3]);
+      if (!is_short) n += flip_side(i, longest);
+    }
+    std::vector<Corners> kept;
+    std::vector<char> kept_turned;
+    for (std::int64_t i = 0; i < made_.triangles.n(); ++i) {
+      if (view(corners())[i][0] < 0) continue;
+      kept.push_back(view(corners())[i]);
+      kept_turned.push_back(view(is_turned_)[i]);
+    }
+    corners() = std::move(kept);
+    is_turned_ = std::move(kept_turned);
+    leave_out_points();
+    return n;
+  }
+
+  bool is_locked(const Corners &corner) const {
+    return std::any_of(corner.begin(), corner.end(), [&](std::int64_t id) { return view(is_locked_)[id] != 0; });
+  }
+  void lock(const Corners &corner) {
+    for (const std::int64_t id : corner) view(is_locked_)[id] = 1;
+  }
+
+  // Moves the end b of a side to its other end a. Returns whether the surface allows it.
+  bool join_side(std::int64_t a, std::int64_t b) {
+    const auto left = of_side_.find({a, b}), right = of_side_.find({b, a});
+    if (left == of_side_.end() || right == of_side_.end()) return false;
+    std::set<std::int64_t> beside_a, common;
+    for (const std::int64_t i : view(around_)[a])
+      for (const std::int64_t id : view(corners())[i]) beside_a.insert(id);
+    for (const std::int64_t i : view(around_)[b]) {
+      if (is_locked(view(corners())[i])) return false;
+      for (const std::int64_t id : view(corners())[i])
+        if (id != a && id != b && beside_a.count(id) > 0) common.insert(id);
+    }
+    constexpr std::size_t n_common = 2;  // with more, parts of the surface would touch
+    if (common.size() != n_common) return false;
+    for (const std::int64_t i : view(around_)[b]) {
+      lock(view(corners())[i]);
+      for (std::int64_t &id : view(corners())[i])
+        if (id == b) id = a;
+    }
+    for (const std::int64_t i : view(around_)[a])
+      if (i != left->second && i != right->second) lock(view(corners())[i]);
+    view(corners())[left->second] = view(corners())[right->second] = {-1, -1, -1};
+    return true;
+  }
+
+  // Gives the quad on both sides of a side its other diagonal. Returns whether the triangles get higher.
+  bool flip_side(std::int64_t i, std::size_t k) {
+    const Corners corner = view(corners())[i];
+    const std::int64_t a = corner[k], b = corner[(k + 1) % 3], c = corner[(k + 2) % 3];
+    const auto beyond = of_side_.find({b, a});
+    if (beyond == of_side_.end()) return false;
+    const Corners other = view(corners())[beyond->second];
+    if (is_locked(other)) return false;
+    const std::int64_t d = other[0] != a && other[0] != b   ? other[0]
+                           : other[1] != a && other[1] != b ? other[1]
+                                                            : other[2];
+    if (of_side_.count({c, d}) > 0 || of_side_.count({d, c}) > 0) return false;
+    const Corners one{a, d, c}, two{d, b, c};
+    if (std::min(height_of(one), height_of(two)) <= height_of(corner)) return false;
+    view(corners())[i] = one;
+    view(corners())[beyond->second] = two;
+    lock(one);
+    lock(two);
+    return true;
+  }
+
   // A line of open sides that ends where it begins. The triangles are on its left.
   using Loop = std::vector<std::int64_t>;
 
@@ -400,7 +524,12 @@ class Repair {
 
   const std::string &path_;
   ClosedSurface made_;
-  std::vector<char> is_turned_;  // of the file's triangles, without those of holes
+  double least_height_ = 0;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t>
+      of_side_;                                    // the triangle that has the side in this direction
+  std::vector<std::vector<std::int64_t>> around_;  // the triangles of each vertex
+  std::vector<char> is_locked_;                    // vertices beside a repair of this round
+  std::vector<char> is_turned_;                    // of the file's triangles, without those of holes
 };
 
 }  // namespace
@@ -456,8 +585,13 @@ ClosedSurface read_closed_surface(const std::string &path) { return Repair(path)
 std::string point_text(const Vector &point, double size) {
   const int n_digits = std::clamp(static_cast<int>(std::ceil(3 - std::log10(std::max(size, 1e-300)))), 0, 17);
   const std::string format = "%." + std::to_string(n_digits) + "f";
-  return printed(format.c_str(), point[0]) + "," + printed(format.c_str(), point[1]) + "," +
-         printed(format.c_str(), point[2]);
+  const double step = std::pow(10, -n_digits);
+  std::string text;
+  for (const double x : point) {
+    const double shown = std::abs(x) < 0.5 * step ? 0 : x;  // never -0.00
+    text += (text.empty() ? "" : ",") + printed(format.c_str(), shown);
+  }
+  return text;
 }
 
 }  // namespace riis::program
