@@ -189,6 +189,7 @@ frame and unit, the skirt reaches that wall, and no farther. FILE may also be a 
 then the longest skirt to accept. The program prints the gap. A wall that is missed, or farther away at any opening, is refused.
 With --surface FILE, the skirt leads from the points whose point array riis_attached is not 0. Without this array, it leads from
 the closed line of open edges that encloses the largest area. In a case, "skirt" and "wall" are keys of a valve.
+riis place --foam writes a skirt for OpenFOAM, which ends at the patch wall of the mesh. There, --skirt is the longest length.
 )"},
     {"warp", "a valve that meets a patient's landmarks",
      R"(

@@ -49,7 +49,7 @@ std::string foam_valve_of(const std::string &path, const Json &root, double long
       return std::string(parameter.rule) == other.name && values_of(valve, other) == values;
     };
     const std::string name = parameter.name;
-    if (name == "skirt_length" && values[0] == 0)
+    if (name == "skirt_length" && values[0] == 0 && longest > 0)
       skirt = "skirt\n{\n    patch           wall;\n    longest         " + shortest(longest) + ";\n}\n";
     // A parameter that follows another one need not be written. If it does not, its own default tells nothing.
     std::int32_t is_set = 0;

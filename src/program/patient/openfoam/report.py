@@ -65,7 +65,7 @@ def main():
     beat = [step for step in steps if step["time"] > end - BEAT - dt / 2]
     complete = len(beat) * dt > 0.99 * BEAT
     if not complete:
-        print(f"the run has {end:g} s, and a beat has {BEAT:g} s: this table is preliminary")
+        print(f"the tables have {len(beat) * dt:.3g} s of a beat of {BEAT:g} s: what follows is preliminary")
     lines, fine = [], True
 
     def line(text, value, unit, bar=None, shown=None):
