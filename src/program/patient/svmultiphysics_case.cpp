@@ -107,7 +107,7 @@ std::vector<std::string> export_words(const SolverCase &solver, const std::strin
   };
   add("--unit", "cm");
   add("--valve", folder + "/placed.json");
-  add("--half-thickness", shortest(solver.half_thickness));
+  add("--half-thickness", printed("%.9g", solver.half_thickness));
   add("--resistance", shortest(solver.resistance));
   add("--density", shortest(solver.density));
   add("--viscosity", shortest(solver.viscosity));
@@ -118,7 +118,7 @@ std::vector<std::string> export_words(const SolverCase &solver, const std::strin
   add("--name", solver.name);
   add("--starts", solver.starts_closed ? "closed" : "open");
   if (solver.skirt > 0) {
-    add("--skirt", shortest(solver.skirt));
+    add("--skirt", printed("%.9g", solver.skirt));
     add("--wall", folder + "/wall.stl");
   }
   return words;
