@@ -228,9 +228,9 @@ TEST(test_refused_looks) {
   RUN_REFUSED(2, "--picture-captions has no effect without --picture", "surface", "--output", scratch_path("no.vtp"),
               "--picture-captions", "none");
   RUN_REFUSED(2, "--picture-background: a movie cannot be transparent", "mark", scratch_path("in.vtu"), "--times",
-              "0,1", "--movie", scratch_path("no.gif"), "--picture-background", "transparent");
+              "0,1", "--cycle", "no.csv", "--movie", scratch_path("no.gif"), "--picture-background", "transparent");
   RUN_REFUSED(2, "--picture-size: both numbers must be even for the movie ", "mark", scratch_path("in.vtu"), "--times",
-              "0,1", "--movie", scratch_path("no.mp4"), "--picture-size", "101x100");
+              "0,1", "--cycle", "no.csv", "--movie", scratch_path("no.mp4"), "--picture-size", "101x100");
   assert_int_equal(scratch_exists("no.png"), 0);
 }
 
