@@ -223,7 +223,7 @@ def line_of(label: str, times: Any, values: Any, colour: str, unit: str = "", *,
     values = numpy.nan_to_num(numpy.asarray(values, float))
     if top == 0.0:
         top = max(float(values.max()), 1e-300)
-        label += f", at most {float(f'{top:.3g}'):,g} {unit}"
+        label += f", at most {shown(top)} {unit}"
     x, y = 300 * (times - times[0]) / (times[-1] - times[0]), 41 - 38 * values / top
     return {"label": label, "colour": colour, "points": " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True))}
 
