@@ -423,6 +423,7 @@ def test_a_patient_on_the_page(tmp_path, capsys):
             10.0 * page.model.values(0)["annulus"])
         assert tell(page._on_set, "annulus", "25.5") == "" and page.model.values(0)["annulus"] == 2.55 and state.found == {}
         assert "cm" not in {one["unit"] for one in state.sliders if one} | {row["unit"] for row in state.rows}
+        assert tell(page._on_set, "coaptation_height", "90").endswith(" (lengths of parameters in centimetres)")
         assert "no report" in tell(page._on_report)
         assert tell(page._on_undo) == "" and state.found["title"] == "Placed by landmarks"
         assert state.resistance_unit == "kg/(m s)" and tell(page._on_set, "resistance", "2e5 g/(cm s)") == ""

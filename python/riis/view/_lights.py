@@ -131,7 +131,8 @@ def unit(scene: Scene) -> Light:
         advice, label = f"scale the valve by {factor:g}", f"scale the valve by {factor:g}"
     else:
         words = WORDS_OF_UNITS[name]
-        advice, label = f"the {scene.word} looks as if it were in {words}: scale the valve by {factor:g}", f"The {scene.word} is in {words}"
+        advice = f"the {scene.word} looks as if it were in {words}: scale the valve by {factor:g}"
+        label = f"The {scene.word} is in {words}"
     return Light("unit", "warn" if fits else "bad", sizes, advice, (label, "unit"), valve=scene.number, value=factor)
 
 

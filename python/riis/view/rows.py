@@ -63,8 +63,8 @@ def half_thickness_of(valve: Any, unit: str) -> dict[str, Any]:
     value = float(valve.half_thickness)
     middle = 10.0 ** round(math.log10(value))
     return {
-        "name": "half_thickness", "label": "half thickness ε", "unit": unit, "least": 0.0, "greatest": 1e60, "low": 0.05 * middle,
-        "high": 4.0 * middle, "step": 0.005 * middle, "value": value,
+        "name": "half_thickness", "label": "half thickness ε", "unit": unit, "least": 0.0, "greatest": 1e60,
+        "low": 0.05 * middle, "high": 4.0 * middle, "step": 0.005 * middle, "value": value,
         "description": "nodes closer than this to a leaflet are marked; in the mesh's unit",
     }  # fmt: skip
 
