@@ -303,7 +303,7 @@ def write_and_reopen(browser, folder, program):
     browser.write("#slider-opening", "0.9")
     browser.wait(lambda: browser.get("digest") != digest, "another opening gives other marks")
     browser.rest()
-    browser.unfold("Mesh, surface")
+    browser.unfold("Mesh, wall, landmarks")
     browser.write("#open-view", "valve.view.json")
     browser.wait(lambda: "opened" in browser.get("message"), "the saved view opens")
     browser.rest()

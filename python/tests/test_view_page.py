@@ -423,6 +423,7 @@ def test_a_patient_on_the_page(tmp_path, capsys):
             10.0 * page.model.values(0)["annulus"])
         assert tell(page._on_set, "annulus", "25.5") == "" and page.model.values(0)["annulus"] == 2.55 and state.found == {}
         assert "cm" not in {one["unit"] for one in state.sliders if one} | {row["unit"] for row in state.rows}
+        assert tell(page._on_set, "coaptation_height", "90").endswith(" (lengths of parameters in centimetres)")
         assert "no report" in tell(page._on_report)
         assert tell(page._on_undo) == "" and state.found["title"] == "Placed by landmarks"
         assert state.resistance_unit == "kg/(m s)" and tell(page._on_set, "resistance", "2e5 g/(cm s)") == ""
@@ -557,6 +558,11 @@ def test_wrong_words(tmp_path, capsys):
         (["view", "--open", str(tmp_path / "no.json")], "no.json: there is no such file"),
         (["view", "--folder", str(tmp_path / "no")], "--folder: "),
         (["view", "--port", "65536"], "--port: is 65536; it must be from 0 to 65535"),
+        (["view", "--wall", str(tmp_path / "no.stl")], "no.stl: there is no such file"),
+        (["view", "--wall", __file__, "--landmarks", str(tmp_path / "no.csv")], "no.csv: there is no such file"),
+        (["view", "--valve", "mitral", "--wall", __file__], "--valve: mitral is not a placed valve, FILE.json; the page has the"),
+        (["view", "--landmarks", __file__], "--valve and --landmarks need MESH or --wall, in which the valve is shown"),
+        (["view", "--open", __file__, "--wall", __file__], "--open has no effect with --wall, --valve and --landmarks"),
     ):
         assert main(words) == 2
         assert text in capsys.readouterr().err
@@ -598,6 +604,42 @@ def test_files_that_are_no_meshes(tmp_path):
         reading.read_surface(str(tmp_path / "text.vtu"))
     with pytest.raises(reading.Refusal, match="scale: 'wide' is not a number"):
         reading.number_of("wide", "scale")
+
+
+def test_walls_and_points_from_files(tmp_path):
+    """Walls are surfaces, or the boundaries of meshes. Points are surfaces, or rows of numbers. Other files are refused."""
+    ball = pyvista.Sphere(radius=2.0)
+    for name in ("ball.stl", "ball.vtp", "ball.ply"):
+        ball.save(tmp_path / name)
+        found = reading.read_wall(str(tmp_path / name))
+        assert found.path == str(tmp_path / name) and len(found.triangles) == ball.n_cells
+        assert numpy.allclose([found.lower, found.upper], [ball.points.min(axis=0), ball.points.max(axis=0)], atol=1e-5)
+    grid = box(5)
+    grid.save(tmp_path / "box.vtu")
+    found = reading.read_wall(str(tmp_path / "box.vtu"))
+    assert len(found.triangles) == 2 * 6 * 16 and numpy.allclose(found.sides, (4.0, 4.0, 4.0))
+    assert found.surface.closest_points(numpy.array([[0.0, 0.0, 0.5]])).distance[0] == pytest.approx(2.0)
+    (tmp_path / "no.stl").write_text("")
+    (tmp_path / "no.txt").write_text("no")
+    pyvista.PolyData(numpy.eye(3)).save(tmp_path / "points.vtp")
+    for name, text in (
+        ("none.stl", "there is no such file"), ("no.stl", "has no triangles"), ("points.vtp", "has no triangles"),
+        ("no.txt", "a wall is a surface, .stl, .vtp, .obj, .ply, or a mesh, .vtu"),
+    ):  # fmt: skip
+        with pytest.raises(reading.Refusal, match=text) as refused:
+            reading.read_wall(str(tmp_path / name))
+        assert str(tmp_path / name) in str(refused.value)
+    (tmp_path / "some.csv").write_text("x,y,z\n# none\n1,2,3\n\n4;5;6\n")
+    assert reading.read_points(str(tmp_path / "some.csv")).tolist() == [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]
+    assert reading.read_points(str(tmp_path / "ball.stl")).n_points > 100
+    for name, content, text in (
+        ("a.csv", "1,2\n", "line 1 has 2 columns; it must have x, y and z"), ("a.csv", "1,2,b\n", "line 1: 'b' is not a number"),
+        ("a.csv", "# none\n", "has no points"), ("a.msh", "", "points are a surface, .*, or rows of x, y and z"),
+        ("a.stl", "", "has no points"),
+    ):  # fmt: skip
+        (tmp_path / name).write_text(content)
+        with pytest.raises(reading.Refusal, match=text):
+            reading.read_points(str(tmp_path / name))
 
 
 @pytest.mark.parametrize("kinds", [["mitral"], ["coapting", "bileaflet"]])

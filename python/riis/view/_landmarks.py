@@ -85,10 +85,11 @@ class LandmarkedValves(Valves):
             if state.skirt > 0.0 and self._wall is not None:
                 widest = self._wall.widest(state)
                 if widest.is_missed or widest.gap > (1.0 + MOST_BEYOND) * state.skirt:
-                    found = "missed" if widest.is_missed else f"up to {with_unit(widest.gap, self._unit)} away as the valve opens"
+                    longest, gap = with_unit(state.skirt, self._unit), with_unit(widest.gap, self._unit)
+                    found = "missed" if widest.is_missed else f"up to {gap} away as the valve opens"
                     raise refuse(
-                        f"skirt: of the valve {state.name} is {with_unit(state.skirt, self._unit)} at most, and the wall is {found}: "
-                        "take a longer skirt, as the light wall proposes"
+                        f"skirt: of the valve {state.name} is {longest} at most, and the wall is {found}: take a longer skirt, "
+                        "as the light wall proposes"
                     )
 
     def gap_ribbon(self, i: int) -> tuple[Reals, Ids]:
@@ -253,7 +254,8 @@ class LandmarkedValves(Valves):
         others = [name for name in mine.points if role_of(name, kind) is None]
         if others:
             raise refuse(
-                f"landmarks: a {kind} valve has no {others[0]}: choose the kind of valve to which the landmarks belong, or delete it"
+                f"landmarks: a {kind} valve has no {others[0]}: choose the kind of valve to which the landmarks belong, or "
+                "delete it"
             )
         points = {name: at for name, at in mine.points.items() if name not in FLOW}
         ends = [mine.points[name] for name in FLOW if name in mine.points]
@@ -353,8 +355,8 @@ class LandmarkedValves(Valves):
             raise refuse("unit: is None; a placed file states the unit, so choose the unit of the mesh first")
         if state.scale != UNITS[self._unit]:
             raise refuse(
-                f"scale: of valve {i} is {state.scale:.9g}, and a placed file has the scale of its unit, {UNITS[self._unit]:g} for "
-                f"{self._unit}: set the scale to it, and change the sizes instead"
+                f"scale: of valve {i} is {state.scale:.9g}, and a placed file has the scale of its unit, {UNITS[self._unit]:g} "
+                f"for {self._unit}: set the scale to it, and change the sizes instead"
             )
         if isinstance(state.found, PlaceResult):
             return with_parameters(state.found._file, valve)
@@ -363,8 +365,8 @@ class LandmarkedValves(Valves):
 
 def _placed_text(state: ValveState, unit: str, axes: str | None) -> str:
     root: dict[str, Any] = {
-        "valve": state.kind, "unit": unit, "axes": axes or "mesh", "rotate": list(state.rotation), "translate": list(state.origin),
-        "parameters": files.nested(state.parameters),
+        "valve": state.kind, "unit": unit, "axes": axes or "mesh", "rotate": list(state.rotation),
+        "translate": list(state.origin), "parameters": files.nested(state.parameters),
     }  # fmt: skip
     if state.warp is not None:  # in the mesh, as riis place writes it and OpenFOAM takes it
         root["warp"] = warp_object(state.warp.in_mesh(state.placement))
@@ -396,8 +398,8 @@ def _in_unit(before: Snapshot, unit: str | None) -> Snapshot:
         factor = UNITS[unit] / (state.scale if before.unit is None else UNITS[before.unit])
         warp = None if state.warp is None else state.warp.in_own_frame(state.placement)
         states.append(_changed(
-            state, scale=in_unit(state.scale, factor), half_thickness=in_unit(state.half_thickness, factor), warp=warp, found=None,
-            skirt=in_unit(state.skirt, factor),
+            state, scale=in_unit(state.scale, factor), half_thickness=in_unit(state.half_thickness, factor), warp=warp,
+            found=None, skirt=in_unit(state.skirt, factor),
         ))  # fmt: skip
     landmarks = before.landmarks
     if landmarks.noise is not None and before.unit is not None:

@@ -131,7 +131,8 @@ def unit(scene: Scene) -> Light:
         advice, label = f"scale the valve by {factor:g}", f"scale the valve by {factor:g}"
     else:
         words = WORDS_OF_UNITS[name]
-        advice, label = f"the {scene.word} looks as if it were in {words}: scale the valve by {factor:g}", f"The {scene.word} is in {words}"
+        advice = f"the {scene.word} looks as if it were in {words}: scale the valve by {factor:g}"
+        label = f"The {scene.word} is in {words}"
     return Light("unit", "warn" if fits else "bad", sizes, advice, (label, "unit"), valve=scene.number, value=factor)
 
 
@@ -152,8 +153,8 @@ def inside(scene: Scene) -> Light:
     no_marks = n_marked == 0 and not scene.whole.is_missing
     if no_marks or is_out.all():
         places = (
-            f"the valve is at {scene.place((info.lower + info.upper) / 2)}, the {scene.word} from {scene.place(scene.box.lower)} to "
-            f"{scene.place(scene.box.upper)}"
+            f"the valve is at {scene.place((info.lower + info.upper) / 2)}, the {scene.word} from {scene.place(scene.box.lower)} "
+            f"to {scene.place(scene.box.upper)}"
         )
         return Light("inside", "bad", f"no node is marked: {places}" if no_marks else f"the valve is outside: {places}",
                      "move the valve, or click three points of the annulus", cure, valve=scene.number)
@@ -206,8 +207,8 @@ def half_thickness(scene: Scene) -> Light:
     better = rounded_up(1.01 * leaks.half_thickness)
     if better > LARGEST_HALF_THICKNESS * side:
         advice = (
-            f"the mesh is too coarse for this valve: a half thickness of {scene.length(better)} would be needed, so refine the mesh "
-            "near the leaflets"
+            f"the mesh is too coarse for this valve: a half thickness of {scene.length(better)} would be needed, so refine the "
+            "mesh near the leaflets"
         )
         return Light("half_thickness", "bad", text, advice, points=ends.mean(axis=1), edges=ends, valve=scene.number)
     return Light("half_thickness", "bad", text, f"a half thickness of {scene.length(better)} closes them, or a finer mesh",

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy
 
+from riis._errors import InvalidParameterError
 from riis.view import reading, rows, saving
 from riis.view._numbers import in_unit
 from riis.view._part import Part
@@ -33,7 +34,15 @@ class Hand(Part):
             return
         self._slider_values[k] = value
         own = self._in_own_unit(name, value)
-        self._move(lambda: self.model.set(self.state.current, name, own), ("set", self.state.current, name))
+        self._move(lambda: self._set_own(name, own), ("set", self.state.current, name))
+
+    def _set_own(self, name: str, value: Any) -> None:
+        """Sets a value. A refusal of a parameter's length says that it is in centimetres, if the screen has another unit."""
+        try:
+            self.model.set(self.state.current, name, value)
+        except InvalidParameterError as error:
+            hint = "" if self._valve().scale == 1.0 else " (lengths of parameters in centimetres)"
+            raise reading.Refusal(f"{error}{hint}") from error
 
     def _in_own_unit(self, name: str, value: float) -> float:
         """Returns a number on the screen in the unit of the parameter. On the screen, all lengths have the mesh's unit."""
@@ -81,7 +90,7 @@ class Hand(Part):
             ]
             if not numbers:
                 raise reading.Refusal(f"{name}: is empty; it must be a number")
-            self.model.set(self.state.current, name, numbers if len(numbers) > 1 else numbers[0])
+            self._set_own(name, numbers if len(numbers) > 1 else numbers[0])
         self._renew_all()
 
     def _set_resistance(self, text: str) -> None:

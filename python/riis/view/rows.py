@@ -63,8 +63,8 @@ def half_thickness_of(valve: Any, unit: str) -> dict[str, Any]:
     value = float(valve.half_thickness)
     middle = 10.0 ** round(math.log10(value))
     return {
-        "name": "half_thickness", "label": "half thickness ε", "unit": unit, "least": 0.0, "greatest": 1e60, "low": 0.05 * middle,
-        "high": 4.0 * middle, "step": 0.005 * middle, "value": value,
+        "name": "half_thickness", "label": "half thickness ε", "unit": unit, "least": 0.0, "greatest": 1e60,
+        "low": 0.05 * middle, "high": 4.0 * middle, "step": 0.005 * middle, "value": value,
         "description": "nodes closer than this to a leaflet are marked; in the mesh's unit",
     }  # fmt: skip
 
@@ -223,7 +223,7 @@ def line_of(label: str, times: Any, values: Any, colour: str, unit: str = "", *,
     values = numpy.nan_to_num(numpy.asarray(values, float))
     if top == 0.0:
         top = max(float(values.max()), 1e-300)
-        label += f", at most {float(f'{top:.3g}'):,g} {unit}"
+        label += f", at most {shown(top)} {unit}"
     x, y = 300 * (times - times[0]) / (times[-1] - times[0]), 41 - 38 * values / top
     return {"label": label, "colour": colour, "points": " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True))}
 
