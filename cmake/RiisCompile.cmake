@@ -3,6 +3,8 @@
 add_library(riis_compile INTERFACE)
 target_compile_options(riis_compile INTERFACE
   $<$<COMPILE_LANGUAGE:C,CXX>:-Wall -Wextra -Wshadow -Wconversion>
+  # In C++ gcc's -Wconversion leaves signs out, and clang's does not. With this option both report the same conversions.
+  $<$<COMPILE_LANGUAGE:CXX>:-Wno-sign-conversion>
   # Results are promised bit for bit. So contraction to fused multiply-add and fast-math are off, even if the user's flags request
   # them.
   $<$<COMPILE_LANGUAGE:C,CXX>:-ffp-contract=off -fno-fast-math>

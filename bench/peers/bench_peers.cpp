@@ -44,8 +44,6 @@ constexpr int n_turns = 10, n_slow_turns = 5;
 constexpr double fine = 0.0034;  // the tolerance of the fine triangles of ./run bench marking
 // The width of these points' box, in widths of the cylinder. Their leaves are then larger than the valve.
 constexpr double wide = 40;
-// Sizes of OpenVDB's voxels: 4 and 8 per half thickness.
-constexpr std::pair<const char *, double> voxels[] = {{"0.025", 0.025}, {"0.0125", 0.0125}};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // In each row named "node by node", Embree gets a query for each point, as in the library before it compared leaves with groups.
@@ -342,6 +340,8 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
       "nearest middle of a triangle, a loop", n_slow_turns,
       [&] { distances_to_middles(middles, n, xyz, distance.data()); }, Measures::approximately);
 #if defined(RIIS_WITH_OPENVDB)
+  // Sizes of OpenVDB's voxels: 4 and 8 per half thickness.
+  constexpr std::pair<const char *, double> voxels[] = {{"0.025", 0.025}, {"0.0125", 0.0125}};
   std::vector<std::unique_ptr<OpenVdbBand>> bands;
   for (const auto &[text, voxel] : voxels) {
     OpenVdbBand &band = *bands.emplace_back(std::make_unique<OpenVdbBand>(triangles, voxel, half_thickness));

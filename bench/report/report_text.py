@@ -158,7 +158,8 @@ class figure:
             print("==> matplotlib (python3-matplotlib) is missing: the page is made without plots")
             return None
         matplotlib.use("Agg")
-        matplotlib.rcParams.update({"svg.hashsalt": "riis", "font.size": 8, "axes.prop_cycle": matplotlib.cycler(color=COLOURS)})
+        cycle = matplotlib.cycler(color=COLOURS)
+        matplotlib.rcParams.update({"svg.hashsalt": "riis", "font.size": 9.5, "axes.prop_cycle": cycle})
         import matplotlib.pyplot
 
         return matplotlib.pyplot
@@ -170,24 +171,29 @@ class figure:
     @staticmethod
     def _save(pyplot, plot, path):
         # The program's version is left out, so that the same data gives the same bytes.
-        plot.savefig(path, dpi=110, metadata={"Software": None})
+        plot.savefig(path, dpi=140, metadata={"Software": None})
         pyplot.close(plot)
         return True
 
     @staticmethod
-    def lines(panels, across, up, path, ticks=None, limit=None):
-        """Draws lines. panels: titles and lines. A line is a label, points and a style, and has the same colour in all panels.
-        ticks: values on the horizontal axis, instead of powers of ten. limit: (at, text); the region beyond `at` is shaded and
-        contains the text."""
+    def lines(panels, across, up, path, ticks=None):
+        """Draws lines, with one key below all panels. panels: titles and lines. A line is a label, points and a style. It has the
+        same colour and marker in all panels. ticks: values on the axes, instead of powers of ten."""
         pyplot = figure._pyplot()
         if not pyplot:
             return False
-        plot, ((*axes,),) = pyplot.subplots(1, len(panels), figsize=(8.5, 3.6), sharey=True, squeeze=False, layout="constrained")
+        plot = pyplot.figure(figsize=(7.2, 4.4), layout="constrained")
+        grid = plot.add_gridspec(2, len(panels), height_ratios=(5, 1))
+        axes = [plot.add_subplot(grid[0, 0])]
+        axes += [plot.add_subplot(grid[0, at], sharey=axes[0]) for at in range(1, len(panels))]
+        for axis in axes[1:]:
+            axis.tick_params(labelleft=False)
         for axis, (title, lines) in zip(axes, panels):
             for index, (label, points, style) in enumerate(lines):
                 if not points:
                     continue
-                axis.loglog(*zip(*points), style, marker="o", markersize=3, linewidth=1, color=f"C{index}", label=label)
+                look = {"color": f"C{index}", "marker": "os^Dvp*X"[index % 8]} if style != ":" else {"color": "0.55"}
+                axis.loglog(*zip(*points), style, markersize=4.5, linewidth=1.3, label=label, **look)
             axis.set(title=title, xlabel=across)
             axis.grid(True, which="major", linewidth=0.3)
             if ticks:
@@ -195,15 +201,12 @@ class figure:
                     ruler.set_major_locator(pyplot.FixedLocator(ticks))
                     ruler.set_major_formatter("{x:g}")
                     ruler.set_minor_locator(pyplot.NullLocator())
-            if limit and limit[0] < axis.get_xlim()[1]:
-                end = axis.get_xlim()[1]
-                axis.axvspan(limit[0], end, color="0.9", zorder=0)
-                axis.axvline(limit[0], color="0.5", linewidth=0.8, linestyle=":")
-                axis.text(0.97, 0.03, limit[1], transform=axis.transAxes, ha="right", va="bottom", fontsize=7, color="0.3")
-                axis.set_xlim(right=end)
         axes[0].set_ylabel(up)
-        if axes[-1].get_legend_handles_labels()[1]:
-            axes[-1].legend(fontsize=6, loc="center left", bbox_to_anchor=(1, 0.5))
+        handles, labels = axes[-1].get_legend_handles_labels()
+        if labels:
+            key = plot.add_subplot(grid[1, :])
+            key.set_axis_off()
+            key.legend(handles, labels, ncols=3, loc="center", frameon=False)
         return figure._save(pyplot, plot, path)
 
     @staticmethod
@@ -211,11 +214,13 @@ class figure:
         pyplot = figure._pyplot()
         if not pyplot:
             return False
-        plot, axes = pyplot.subplots(1, len(panels), figsize=(8.5, 2.8), sharey=True, layout="constrained")
+        plot, axes = pyplot.subplots(1, len(panels), figsize=(9, 3.4), sharey=True, layout="constrained")
         for axis, (title, bars) in zip(axes, panels):
             names, values = zip(*bars)
             colors = ["C1" if name.startswith("riis") else "C0" for name in names]
             axis.barh(names, values, color=colors)
             axis.set(title=title, xlabel=across, xscale="log")
+            axis.xaxis.set_major_locator(pyplot.LogLocator())
+            axis.tick_params(axis="y", labelsize=8.5)
             axis.grid(True, axis="x", which="major", linewidth=0.3)
         return figure._save(pyplot, plot, path)

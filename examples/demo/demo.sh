@@ -72,11 +72,17 @@ demo_states() {
 }
 
 # demo_openings_picture: combines the marked cells of all states into one picture, with a row for each valve and view, and a
-# column for each opening.
+# column for each opening. Titles name the rows and columns.
 demo_openings_picture() {
-  local valve view opening inputs=() parts='' tiles='' layout='' n=0 row
+  local valve view opening inputs=() parts='' tiles='' layout='' titles='' n=0 row
+  for opening in "${demo_openings[@]}"; do
+    titles+=",$(demo_title "opening $opening" "$((200 + n++ * 320 + 160))-text_w/2" 14)"
+  done
+  n=0
   for valve in "${demo_valves[@]}"; do
     for view in side top; do
+      row=$((50 + n / 5 * 256 + 96))
+      titles+=",$(demo_title "$valve" 14 "$row"),$(demo_title "from the $view" 14 $((row + 30)))"
       for opening in "${demo_openings[@]}"; do
         inputs+=(-i "out/${valve}_${opening}_$view.png")
         parts+="[$n]crop=iw/2:0.8*ih:iw/2:0.1*ih,scale=320:-1[t$n];"
@@ -87,16 +93,16 @@ demo_openings_picture() {
       done
     done
   done
-  ffmpeg -y -loglevel error "${inputs[@]}" -filter_complex "$parts${tiles}xstack=inputs=$n:layout=${layout:1}" \
-    -frames:v 1 out/openings.png
+  ffmpeg -y -loglevel error "${inputs[@]}" -filter_complex \
+    "$parts${tiles}xstack=inputs=$n:layout=${layout:1},pad=1800:1586:200:50:white$titles" -frames:v 1 out/openings.png
 }
 
-# The command demo runs this command and the next under a virtual display.
-run_demo_pictures() {
-  of_each_valve demo_states && demo_openings_picture
-}
+# demo_title TEXT X Y: prints ffmpeg's filter that writes the text.
+demo_title() { printf "drawtext=text='%s':fontsize=26:fontcolor=0x333333:x=%s:y=%s" "$1" "$2" "$3"; }
 
-run_demo_beats() { of_each_valve demo_beat; }
+demo_pictures() { of_each_valve demo_states && demo_openings_picture; }
+
+demo_beats() { of_each_valve demo_beat; }
 
 # demo_beat VALVE: makes a movie of one heartbeat with 24 frames, its first picture, the moving surface, and the orifice over
 # time.
@@ -212,9 +218,9 @@ run_demo() {
   packages=("${demo_packages[@]}")
   install_missing
   step "compile the program, mesh an aortic root and a mitral tube meanwhile" demo_parts
-  # Pictures are drawn through X. On a temporary virtual screen they are the same everywhere.
-  step "mark and draw the valves at five openings" xvfb-run -a -s "-screen 0 1600x1200x24" ./run demo-pictures
-  step "move the valves through a heartbeat, for movies" xvfb-run -a -s "-screen 0 1600x1200x24" ./run demo-beats
+  # On a virtual display, which an empty DISPLAY demands, pictures are the same everywhere.
+  DISPLAY='' step "mark and draw the valves at five openings" demo_pictures
+  DISPLAY='' step "move the valves through a heartbeat, for movies" demo_beats
   step "time the steps of a moving valve" "$build/bin/riis" mark "$build/demo/mitral_tube.vtk" --valve mitral \
     --opening 0 --threads 1 --steps 200 --stats "$build/demo/mitral_steps.json"
   demo_story

@@ -4,8 +4,8 @@
 
 make_patient.py FOLDER [--seed N] [--random] [--noise MM] [--attachment N] [--measure FILE.vtp]
 
-Writes three files into FOLDER. root.stl is a closed surface in millimetres with flat ends. landmarks.mrk.json has three
-commissures and three nadirs, as 3D Slicer writes them. sides.txt has a point before the valve and a point after it. Axes are LPS:
+Writes two files into FOLDER. root.stl is a closed surface in millimetres with flat ends. landmarks.mrk.json has three
+commissures and three nadirs, as 3D Slicer writes them. Axes are LPS:
 x to the left, y to the back, z upwards. The root lies obliquely, and no cusp is like another. The seed determines the landmarks'
 noise and the waves of the wall. With --random the seed also determines everything else. With --attachment there are also
 landmarks along the attachment. This root contains no curves of riis, so it tests whether a valve of riis fits. With --measure the
@@ -232,14 +232,8 @@ def write_landmarks(path, root, rng, noise, n_attachment=0):
         file.write("\n")
 
 
-def write_sides(path, root):
-    with open(path, "w", encoding="utf-8") as file:
-        for z in BOTTOM / 2, 0.75 * TOP:
-            file.write(",".join(f"{x:.1f}" for x in root.placed(0, 0, z)) + "\n")
-
-
 def main():
-    arguments = argparse.ArgumentParser(description="makes a synthetic patient: root.stl, landmarks.mrk.json and sides.txt")
+    arguments = argparse.ArgumentParser(description="makes a synthetic patient: root.stl and landmarks.mrk.json")
     arguments.add_argument("folder")
     arguments.add_argument("--seed", type=int, default=1)
     arguments.add_argument("--random", action="store_true", help="draw the root and its place also")
@@ -254,7 +248,6 @@ def main():
         print(f"{off[math.ceil(0.95 * len(off)) - 1]:.3f}")
         return
     os.makedirs(options.folder, exist_ok=True)
-    write_sides(os.path.join(options.folder, "sides.txt"), root)
     write_stl(os.path.join(options.folder, "root.stl"), wall_triangles(root, waves(rng)))
     write_landmarks(os.path.join(options.folder, "landmarks.mrk.json"), root, rng, options.noise,
                     options.attachment)

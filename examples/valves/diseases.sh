@@ -10,12 +10,12 @@ run_diseases() {
   packages=("${demo_packages[@]}")
   install_missing
   step "compile the program" build_demo
-  step "draw the diseases" xvfb-run -a -s "-screen 0 1600x1200x24" ./run diseases-sheet
+  step "draw the diseases" diseases_sheet
   say "wrote out/diseases.png"
 }
 
-# run_diseases calls this command under a virtual display. The sheet has four diseases in a row.
-run_diseases_sheet() {
+# diseases_sheet: draws the sheet, with four diseases in a row.
+diseases_sheet() {
   local name second state opening view picture n=0 row inputs=() parts='' tiles='' layout=''
   mkdir -p out/diseases
   for name in $("$build/bin/riis" help diseases | grep -oE '^[a-z]+_[[:alnum:]_]+ '); do
@@ -27,9 +27,10 @@ run_diseases_sheet() {
     for state in "0 top" "$second"; do
       read -r opening view <<<"$state"
       picture=out/diseases/${name}_${opening}_$view.png
-      "$build/bin/riis" surface --valve "$name" --opening "$opening" --quiet --view "$view" --picture "$picture" || return
+      "$build/bin/riis" surface --valve "$name" --opening "$opening" --quiet --view "$view" --picture "$picture" \
+        --picture-size 656x476 --picture-captions none || return
       inputs+=(-i "$picture")
-      parts+="[$n]crop=0.58*iw:0.84*ih:0.21*iw:0.06*ih,scale=164:-1[p$n];"
+      parts+="[$n]scale=164:-1[p$n];"
       n=$((n + 1))
     done
     parts+="[p$((n - 2))][p$((n - 1))]hstack,pad=328:137:0:18:white,drawtext=text='$name':x=6:y=2:fontsize=14[t$n];"

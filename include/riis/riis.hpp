@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// riis.hpp - riis.h for C++17: handles that destroy themselves, errors as exceptions, structs with their defaults, spans.
+// riis.hpp - riis.h for C++14 and later: handles that destroy themselves, errors as exceptions, structs with their defaults,
+// spans.
 //
 // All calls are the functions of riis.h. Pass a handle as the pointer to an object, and its out() as the address of a
 // pointer:

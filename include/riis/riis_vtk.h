@@ -380,12 +380,26 @@ enum {
   RIIS_VTK_VIEW_VALVE_THREE = 7    /* as RIIS_VTK_VIEW_THREE, by the axes of the valve */
 };
 
+/* The texts of a picture. */
+enum {
+  RIIS_VTK_CAPTIONS_ALL = 0,   /* captions, the key of the colours, axes and a scale bar */
+  RIIS_VTK_CAPTIONS_SCALE = 1, /* only the scale bar */
+  RIIS_VTK_CAPTIONS_NONE = 2   /* no text, axes or bar */
+};
+
+/* The panels of a picture. */
+enum {
+  RIIS_VTK_PANELS_BOTH = 0,  /* the surface, and with a mesh the marked cells */
+  RIIS_VTK_PANELS_VALVE = 1, /* only the surface */
+  RIIS_VTK_PANELS_MARKS = 2  /* only the marked cells. The picture must have a mesh */
+};
+
 /* The contents and the view of a picture. Texts are in ASCII. Characters outside ASCII are drawn as "?". */
 typedef struct riis_vtk_picture_options {
   int64_t struct_size;    /* set by the init function */
-  const char *title;      /* precedes the number of triangles. Default NULL: "Surface" */
-  const char *unit;       /* follows the number at the scale bar, such as "mm". NULL, the default, and "" stand for
-                             "mesh units", or for "units" without a mesh */
+  const char *title;      /* the caption of the surface, which may have one line break. Default NULL: "Surface" */
+  const char *unit;       /* follows the number at the scale bar, such as "mm". A bar below 0.1 "m" is given in mm. NULL,
+                             the default, and "" stand for "mesh units", or for "units" without a mesh or a wall */
   int64_t n_leaflet_names;/* >= 0, default 0 */
   const char *const *leaflet_names; /* (n_leaflet_names): the names by leaflet_id, for the key of the colours. Default
                                        NULL: "leaflet 0", ..., as for leaflets without a name here */
@@ -399,6 +413,13 @@ typedef struct riis_vtk_picture_options {
   double rotation_axis[3]; /* of the valve's placement, for RIIS_VTK_VIEW_VALVE_*; ranges as in
                               riis_surface_options. Default (0, 0, 1) */
   double rotation_angle;  /* degrees. Default 0: the valve has the mesh's axes */
+  const riis_surface *wall; /* the wall around a surface without a mesh. It is ignored with a mesh, whose boundary is the
+                               wall. Default NULL: none */
+  double background[4];   /* red, green and blue, 0 to 1, then the opacity, 0 or 1. Texts are dark on a bright colour, and
+                             bright on a dark one. 0 makes a transparent picture, with the texts that fit the colour.
+                             Default (1, 1, 1, 1): white */
+  int32_t captions;       /* RIIS_VTK_CAPTIONS_*. Default RIIS_VTK_CAPTIONS_ALL */
+  int32_t panels;         /* RIIS_VTK_PANELS_*. Default RIIS_VTK_PANELS_BOTH */
 } riis_vtk_picture_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
@@ -407,10 +428,12 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  * - The left panel shows the surface with a colour for each leaflet. Six colours are used in turn. The key
  *   below it names as many leaflets as fit, and dots replace the others. Leaflets seen edge-on appear as
  *   lines.
- * - The right panel shows marked cells in the faint outline of the mesh. A cell with all nodes marked has the
- *   colour of the leaflet nearest to one of them. Other cells with a marked node show only their far side, in
- *   a pale colour.
- * - Captions count nodes and cells. If the mesh has volume cells, flat cells are neither drawn nor counted.
+ * - The right panel shows marked cells. A cell with all nodes marked has the colour of the leaflet nearest to
+ *   one of them. Other cells with a marked node show only their far side, in a pale colour. If the mesh has
+ *   volume cells, flat cells are not drawn.
+ * - The wall is a translucent shell in both panels. Its flat ends are open: flat parts with a sharp rim, such as
+ *   an inlet, are left out. A wall of flat parts alone, such as a box, is whole.
+ * - Captions name the half thickness and count the marked nodes.
  * - Axes and a scale bar are below the panels. If a mesh is much longer than the surface, the picture cuts
  *   it at dashed lines. Pictures lower than 120 pixels have no texts, axes or bar.
  * - RIIS_VTK_VIEW_THREE and RIIS_VTK_VIEW_VALVE_THREE draw one column for each view, with the panels above each
@@ -419,7 +442,7 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  *   mesh  must have marks set. NULL draws the surface alone, in one panel
  *   path  ends in .png
  * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for
- * leaking_edges without a mesh, or with nodes that the mesh lacks. */
+ * leaking_edges without a mesh, or with nodes that the mesh lacks, and for RIIS_VTK_PANELS_MARKS without a mesh. */
 RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_mesh *mesh,
                                    const riis_vtk_picture_options *options, const char *path);
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""python -m riis view MESH: a valve in a mesh, in a browser (docs/view.md)."""
+"""python -m riis view MESH: a valve in a mesh or in a wall, in a browser (docs/view.md)."""
 
 from __future__ import annotations
 
@@ -15,6 +15,9 @@ def _parser() -> argparse.ArgumentParser:
         "view", help="show a valve in a mesh, in a browser", description="Shows a valve in a mesh, in a browser on this machine."
     )
     view.add_argument("mesh", nargs="?", metavar="MESH", help="a mesh: .vtu, .vtk, .pvtu, .msh, .xdmf; or the page opens one")
+    view.add_argument("--wall", metavar="FILE", help="the wall around the valve, such as root.stl, in the mesh's unit and axes")
+    view.add_argument("--valve", metavar="FILE.json", help="a placed valve, as riis place --output writes it")
+    view.add_argument("--landmarks", metavar="FILE", help="landmarks: .mrk.json or .fcsv of 3D Slicer, .json or .csv")
     view.add_argument("--open", metavar="FILE", dest="saved", help="a saved view; it names its mesh, unless MESH is given")
     view.add_argument("--unit", choices=("mm", "cm", "m"), help="the unit of the mesh; not known unless given")
     view.add_argument(
@@ -41,7 +44,17 @@ def _say_missing(error: ImportError) -> int:
 def main(words: list[str] | None = None) -> int:
     """Runs a command. Returns the exit status: 0, 1 if the command failed, 2 for wrong usage."""
     options = _parser().parse_args(words)
-    for path in (options.mesh, options.saved):
+    if options.valve is not None and not options.valve.endswith(".json"):
+        print(f"riis view: --valve: {options.valve} is not a placed valve, FILE.json; the page has the kinds of valves",
+              file=sys.stderr)
+        return 2
+    if (options.valve or options.landmarks) and not (options.mesh or options.wall or options.saved):
+        print("riis view: --valve and --landmarks need MESH or --wall, in which the valve is shown", file=sys.stderr)
+        return 2
+    if options.saved is not None and (options.wall or options.valve or options.landmarks):
+        print("riis view: --open has no effect with --wall, --valve and --landmarks: a saved view has its own", file=sys.stderr)
+        return 2
+    for path in (options.mesh, options.saved, options.wall, options.valve, options.landmarks):
         if path is not None and not os.path.exists(path):
             print(f"riis view: {path}: there is no such file", file=sys.stderr)
             return 2
@@ -56,9 +69,14 @@ def main(words: list[str] | None = None) -> int:
     except ImportError as error:
         return _say_missing(error)
     try:
-        path = None if options.mesh is None else os.path.abspath(options.mesh)
-        saved = None if options.saved is None else os.path.abspath(options.saved)
-        page = Page(path, saved=saved, unit=options.unit, folder=options.folder, cells_where=options.cells_where)
+        names = ("mesh", "saved", "wall", "valve", "landmarks")
+        path, saved, wall, placed, landmarks = (
+            None if getattr(options, name) is None else os.path.abspath(getattr(options, name)) for name in names
+        )
+        page = Page(
+            path, saved=saved, unit=options.unit, folder=options.folder, cells_where=options.cells_where, wall=wall, placed=placed,
+            landmarks=landmarks,
+        )  # fmt: skip
         page.serve(port=options.port, browser=not options.no_browser)
     except (RuntimeError, OSError) as error:
         print(f"riis view: {error}", file=sys.stderr)

@@ -28,6 +28,12 @@ def read_placed(path: str | os.PathLike[str], unit: str | None = None) -> Placed
     Raises InvalidArgumentError naming the file and the fault in it, or the unit; InvalidParameterError for sizes that the valve
     refuses; OSError for a file that cannot be read.
     """
+    file, valve = open_placed(path, unit)
+    return PlacedValve(valve, file.placement, file.unit)
+
+
+def open_placed(path: str | os.PathLike[str], unit: str | None) -> tuple[PlacedFile, Valve]:
+    """Reads a placed valve as read_placed does. Returns the file's content and the valve."""
     name = os.fspath(path)
     file = PlacedFile(name, Path(path).read_text("utf-8", "replace"), unit)
     try:
@@ -41,4 +47,4 @@ def read_placed(path: str | os.PathLike[str], unit: str | None = None) -> Placed
             valve.set_warp(*warps)
     except Error as error:
         raise type(error)(str(error) if str(error).startswith(name) else f"{name}: {error}") from None
-    return PlacedValve(valve, file.placement, file.unit)
+    return file, valve

@@ -192,6 +192,30 @@ nb::dict place_landmarks(const std::string &subject, nb::handle content, nb::han
   return fields;
 }
 
+// Returns the content of a file of landmarks, in this unit and these axes if they are given.
+nb::dict read_landmarks(nb::handle path_, nb::handle content_, nb::handle unit, nb::handle axes) {
+  const std::string path = text(path_, "path"), content = text(content_, "content");
+  const program::PlaceRequest request = request_of(unit, axes, nb::none(), nb::none());
+  program::LandmarkFile file;
+  call_program(path, [&] {
+    file = program::read_landmarks(path, content);
+    program::adapt(file, request);
+  });
+  nb::dict made;
+  nb::list names;
+  for (const std::string &name : file.names) names.append(name);
+  made["names"] = names;
+  made["points"] = points_of(file.xyz);
+  made["flow_ends"] = points_of(file.flow_ends);
+  made["flow"] = file.flow ? copy_of(file.flow->data(), {3}) : nb::object(nb::none());
+  made["noise"] = file.noise ? nb::object(nb::float_(*file.noise)) : nb::object(nb::none());
+  made["valve"] = file.valve;
+  made["unit"] = program::name_of(file.unit);
+  made["axes"] = program::name_of(file.axes);
+  made["parameters"] = file.parameters.is_null() ? std::string("{}") : file.parameters.dump();
+  return made;
+}
+
 std::string with_parameters(const std::string &placed, nb::handle valve_) {
   Valve &valve = object<Valve>(valve_, "valve");
   const Reading reading(valve.usage, "valve");
@@ -344,6 +368,11 @@ Returns whether the sizes fit, and the factor by which the valve's scale would h
               "unit: str | None, axes: str | None, flow: typing.Any, noise: float | None, held: "
               "collections.abc.Iterable[str], warp: str, nodes: typing.Any) -> dict[str, typing.Any]"),
       "Does the work of riis.place, whose result has these fields.");
+  module.def("read_landmarks", &read_landmarks, nb::arg("path").none(), nb::arg("content").none(),
+             nb::arg("unit").none(), nb::arg("axes").none(),
+             nb::sig("def read_landmarks(path: str, content: str, unit: str | None, axes: str | None) -> dict[str, "
+                     "typing.Any]"),
+             "Returns the names and points of a file of landmarks, and what else it states. parameters is JSON.");
   module.def("with_parameters", &with_parameters, nb::arg("placed_file"), nb::arg("valve").none(),
              nb::sig("def with_parameters(placed_file: str, valve: Valve) -> str"),
              "Returns the file of a placed valve with the valve's present parameters.");

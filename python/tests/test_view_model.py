@@ -563,7 +563,7 @@ def test_a_gap_to_the_wall_and_its_skirt(fine):
     wall, sealed = light(model, "wall"), light(model, "sealed")
     assert wall.level == sealed.level == "bad" and wall.cure is not None and len(wall.edges) > 10
     n_sides = 4 * (23 - 1)
-    least, most = (float(text) for text in re.search(r"wall is (\S+) to (\S+) from", wall.text).groups())
+    least, most = (float(text) for text in re.search(r"wall is (\S+) to (\S+) cm from", wall.text).groups())
     assert 1.3 * numpy.cos(numpy.pi / n_sides) - 1.05 - 0.01 <= least and most <= 1.3 - 1.05 + 0.06
     assert numpy.hypot(*sealed.points[0, :2]) > 1.0  # beside the valve
     model.cure("wall")
@@ -613,7 +613,7 @@ def test_an_offset_is_judged_with_its_band(fine):
     assert light(model, "sealed").level == "good"
     model.set(i, "offset", 0.9)
     found = light(model, "sealed")
-    assert found.level == "bad" and re.search("a passage is open at .*, which a half thickness of [0-9.]+ marks", found.text)
+    assert found.level == "bad" and re.search("a passage is open at .*, which a half thickness of [0-9.]+ cm marks", found.text)
     assert found.advice.startswith("bring the offset nearer to 0") or found.cure is not None
     model.unset(i, "gap")
     for name in ("annulus", "stj"):
@@ -1217,7 +1217,7 @@ def test_refused_sessions(tmp_path, small):
     (lambda m: m.place_by_clicks(0, [[90, 0, 0], [0, 90, 0], [-90, 0, 0]]), riis.InvalidArgumentError,
      "are on a circle of radius 90, and that of the valve is 1.25: choose the mesh's unit"),
     (lambda m: m.place_by_landmarks(0, {"nadir": numpy.eye(3)}), riis.InvalidArgumentError, "commissure"),
-    (lambda m: m.place_by_landmarks(0, {}, warp="exact"), riis.InvalidArgumentError, "warp: is 'exact'"),
+    (lambda m: m.place_by_landmarks(0, {}, warp="bent"), riis.InvalidArgumentError, "warp is 'bent'; it must be none, exact"),
     (lambda m: m.add_surface([[0, 0]], [[0, 1, 2]]), riis.InvalidArgumentError, r"vertices: has the shape \(1, 2\)"),
     (lambda m: m.add_surface(numpy.eye(3), [[0, 1, 7]]), riis.InvalidSurfaceError, "7"),
     (lambda m: m.add_surface(numpy.zeros((2, 3, 3)), [[0, 1, 2]]), riis.InvalidArgumentError, "times: has the shape"),

@@ -159,20 +159,17 @@ pointField riisFollow::gathered(const pointField &points) const {
   return order_.empty() ? all : pointField(all, order_);
 }
 
-namespace {
-
 pointField pointsAtRest(const fvMesh &mesh) {
   const pointIOField points(IOobject("points", mesh.time().constant(), polyMesh::meshSubDir, mesh, IOobject::MUST_READ,
                                      IOobject::NO_WRITE, false));
   if (points.size() != mesh.nPoints()) {
     FatalErrorInFunction << "the mesh in " << points.objectPath() << " has " << points.size()
                          << " points, and the present mesh " << mesh.nPoints()
-                         << ": a valve cannot follow a mesh whose points become more or fewer" << exit(FatalError);
+                         << ": the valve is placed in that mesh, whose points must not become more or fewer"
+                         << exit(FatalError);
   }
   return points;
 }
-
-}  // namespace
 
 // Takes points of faces. They are in the order of their coordinates at rest, and points with the same coordinates are one point.
 void riisFollow::readFaces(const labelList &points, const string &place) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "riisValve.H"
 
+#include "ListListOps.H"
 #include "OFstream.H"
 #include "OSspecific.H"
 #include "addToRunTimeSelectionTable.H"
@@ -75,7 +76,7 @@ void riisValve::readAll() {
   refuseOthers(coeffs_,
                {"type",     "active",  "libs",      "selectionMode", "fields",        "U",          "p",         "phi",
                 "rho",      "valve",   "placement", "warp",          "halfThickness", "resistance", "calibrate", "rim",
-                "velocity", "opening", "nThreads",  "writeLeaflets", "offset"});
+                "velocity", "opening", "nThreads",  "writeLeaflets", "offset",        "skirt"});
   rho_.read(coeffs_);
   if (!(rho_.value() > 0)) {
     FatalIOErrorInFunction(coeffs_) << "rho is " << rho_.value() << ", and must be positive" << exit(FatalIOError);
@@ -112,6 +113,7 @@ void riisValve::readAll() {
   // By default the library uses one thread in each rank, as the solver does.
   placementAtRest_.n_threads = coeffs_.getOrDefault<label>("nThreads", 1);
   readWarp(coeffs_.subOrEmptyDict("warp"));
+  readSkirt(coeffs_.subOrEmptyDict("skirt"));
   follow();
   readLaw(coeffs_.subDict("opening"));
   surface_ = made<riis_surface>(
@@ -163,6 +165,82 @@ void riisValve::readWarp(const dictionary &dict) {
     follow_->chooseNearest(targetsAtRest_, dict.subDict("follow"));
   }
   setWarp(targetsAtRest_, &dict);
+}
+
+// Returns the faces of a patch of the mesh at rest as triangles. All ranks get the faces of all ranks.
+riisPtr<riis_surface> riisValve::wallAtRest(const dictionary &dict) const {
+  const word name = dict.get<word>("patch");
+  const label at = mesh_.boundaryMesh().findPatchID(name);
+  if (at < 0) {
+    FatalIOErrorInFunction(dict) << "patch is '" << name << "', and the mesh has no such patch. Its patches are "
+                                 << mesh_.boundaryMesh().names() << exit(FatalIOError);
+  }
+  const pointField points(pointsAtRest(mesh_));
+  DynamicList<point> corners;
+  for (const face &polygon : mesh_.boundaryMesh()[at]) {
+    for (label i = 1; i + 1 < polygon.size(); ++i) {
+      for (const label corner : {0, i, i + 1}) corners.append(points[polygon[corner]]);
+    }
+  }
+  List<pointField> parts(Pstream::nProcs());
+  parts[Pstream::myProcNo()] = pointField(corners);
+  Pstream::gatherList(parts);
+  pointField all;
+  if (Pstream::master()) all = ListListOps::combine<pointField>(parts, accessOp<pointField>());
+  giveToAll(all);
+  if (all.empty()) FatalIOErrorInFunction(dict) << "the patch " << name << " has no faces" << exit(FatalIOError);
+  const labelList ids(identity(all.size()));
+  riis_surface_arrays arrays;
+  check(riis_surface_arrays_init(&arrays, sizeof arrays));
+  arrays.n_vertices = all.size();
+  arrays.x = all[0].cdata();
+  arrays.y = all[0].cdata() + 1;
+  arrays.z = all[0].cdata() + 2;
+  arrays.stride = 3;
+  arrays.n_faces = all.size() / 3;
+  arrays.vertex_ids = ids.cdata();
+  arrays.id_bits = 8 * sizeof(label);
+  arrays.index_base = 0;
+  arrays.real_bits = 8 * sizeof(scalar);
+  riis_surface_options options;
+  check(riis_surface_options_init(&options, sizeof options));
+  options.zero_area = RIIS_ZERO_AREA_SKIP;
+  options.n_threads = placementAtRest_.n_threads;
+  return made<riis_surface>(
+      [&](riis_surface **to) { check(riis_surface_create_from_arrays(&arrays, &options, to), dict); });
+}
+
+// Gives the valve a skirt that ends at a patch of the mesh at rest. Refuses a wall that is farther away than `longest` at an
+// opening, because the attachment may move as the valve opens.
+void riisValve::readSkirt(const dictionary &dict) {
+  if (dict.empty()) return;
+  refuseOthers(dict, {"patch", "longest"});
+  constexpr int nOpenings = 11;
+  constexpr scalar mostBeyond = 0.01;  // the gap is measured at other points than the skirt's length
+  const scalar longest = positive(dict, "longest");
+  const riisPtr<riis_surface> wall = wallAtRest(dict);
+  check(riis_valve_set_skirt_to_wall(valve_.get(), wall.get(), longest, &placementAtRest_), dict);
+  riis_gap widest = {};
+  scalar widestAt = 0;
+  for (int i = 0; i < nOpenings; ++i) {
+    const scalar opening = scalar(i) / (nOpenings - 1);
+    check(riis_valve_set_scalar(valve_.get(), "opening", opening));
+    const riisPtr<riis_surface> surface = made<riis_surface>(
+        [&](riis_surface **to) { check(riis_surface_create(valve_.get(), &placementAtRest_, to), coeffs_); });
+    riis_gap gap;
+    check(riis_surface_get_gap(surface.get(), wall.get(), nullptr, &gap, sizeof gap), dict);
+    if (i > 0 && gap.most <= widest.most) continue;
+    widest = gap;
+    widestAt = opening;
+  }
+  if (widest.most > (1 + mostBeyond) * longest) {
+    FatalIOErrorInFunction(dict) << "valve " << name_ << ": at the opening " << widestAt << " the gap to patch "
+                                 << dict.get<word>("patch") << " is " << widest.most << " m at ("
+                                 << widest.widest_point[0] << ' ' << widest.widest_point[1] << ' '
+                                 << widest.widest_point[2] << "), and longest is " << longest << exit(FatalIOError);
+  }
+  Info << "riis " << name_ << ": the skirt ends at patch " << dict.get<word>("patch") << ", up to " << widest.most
+       << " m away, at the opening " << widestAt << endl;
 }
 
 riis_points riisValve::pointsOf(const pointField &list) const {

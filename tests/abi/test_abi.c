@@ -591,7 +591,7 @@ TEST(test_structs) {
   FIELD(riis_vtk_sharing, n_cells_left_out, 16, 8);
   FIELD(riis_vtk_sharing, has_global_ids, 24, 4);
   FIELD(riis_vtk_sharing, reserved, 28, 4);
-  SIZE(riis_vtk_picture_options, 104);
+  SIZE(riis_vtk_picture_options, 152);
   FIELD(riis_vtk_picture_options, struct_size, 0, 8);
   FIELD(riis_vtk_picture_options, title, 8, 8);
   FIELD(riis_vtk_picture_options, unit, 16, 8);
@@ -605,6 +605,10 @@ TEST(test_structs) {
   FIELD(riis_vtk_picture_options, reserved, 68, 4);
   FIELD(riis_vtk_picture_options, rotation_axis, 72, 24);
   FIELD(riis_vtk_picture_options, rotation_angle, 96, 8);
+  FIELD(riis_vtk_picture_options, wall, 104, 8);
+  FIELD(riis_vtk_picture_options, background, 112, 32);
+  FIELD(riis_vtk_picture_options, captions, 144, 4);
+  FIELD(riis_vtk_picture_options, panels, 148, 4);
 }
 
 TEST(test_constants) {
@@ -705,6 +709,12 @@ TEST(test_constants) {
   assert_int_equal(RIIS_VTK_VIEW_VALVE_TOP, 5);
   assert_int_equal(RIIS_VTK_VIEW_VALVE_OBLIQUE, 6);
   assert_int_equal(RIIS_VTK_VIEW_VALVE_THREE, 7);
+  assert_int_equal(RIIS_VTK_CAPTIONS_ALL, 0);
+  assert_int_equal(RIIS_VTK_CAPTIONS_SCALE, 1);
+  assert_int_equal(RIIS_VTK_CAPTIONS_NONE, 2);
+  assert_int_equal(RIIS_VTK_PANELS_BOTH, 0);
+  assert_int_equal(RIIS_VTK_PANELS_VALVE, 1);
+  assert_int_equal(RIIS_VTK_PANELS_MARKS, 2);
   assert_true(RIIS_AUTO == -1.0);
   assert_true(RIIS_FAR_DISTANCE == 1.0e30);
 }

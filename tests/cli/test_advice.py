@@ -8,7 +8,6 @@ import os
 import pathlib
 import re
 import shlex
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -147,15 +146,6 @@ class Advice(unittest.TestCase):
         self.box(scale=M, centre=(6.0, 0.0, 0.0))
         refused = self.riis(*command, status=1)
         self.riis(*command, *self.advised(refused, r": give (--unit m)$"))
-
-    @unittest.skipUnless(shutil.which("xvfb-run"), "there is no xvfb-run")
-    def test_pictures_without_a_display(self):
-        command = ("surface", "--picture", "valve.png")
-        refused = self.riis(*command, status=1, DISPLAY="")
-        advice = self.advised(refused, r"run the program by: (xvfb-run -a PROGRAM)")
-        done = self.run_words(*("riis" if word == "PROGRAM" else word for word in advice), *command, DISPLAY="")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertTrue((self.folder / "valve.png").stat().st_size > 1000)
 
     def test_the_package_of_the_view(self):
         """The advised commands need the network. So only their words are checked: the sources have the extra `view`."""

@@ -486,6 +486,30 @@ TEST(test_refusals) {
   expect_no_folder();
 }
 
+/* Shorter edges are advised beside a thicker band. In a uniform mesh both have the same ratio, and the nodes follow the edges. */
+TEST(test_finer_edges) {
+  need_scipy();
+  double side[3][3] = {{2, 0, 0}, {0, 2, 0}, {0, 0, 4.8}}, corner[3] = {-1, -1, -2.5};
+  const int n[3] = {10, 10, 24};
+  mesh tube = make_mesh(&elements[2], n, corner, side);
+  write_mesh(&tube, "uniform.vtk");
+  const double eps = 0.25, edge = 0.2;
+  run_program("export", scratch_path("finer"), scratch_path("uniform.vtk"), RAMPS, "--valve", scratch_path("flap.json"),
+              "--half-thickness", "0.25", "--largest-edge", "0.1", NULL);
+  assert_int_equal(program_exit_code, 0);
+  const double thicker = number_after(program_err, "a drop of 0.9 needs a half thickness of ");
+  assert_true(thicker > eps && thicker <= 2 * eps);
+  const double shorter = number_after(program_err, ", or edges of ");
+  assert_true(fabs(shorter / edge * thicker / eps - 1) < 0.01);
+  assert_true(fabs(number_after(program_err, " in the band, which are ") - shorter / eps) < 0.01 * shorter / eps);
+  assert_true(fabs(number_after(program_err, " half thicknesses and now are ") - edge / eps) < 0.01 * edge / eps);
+  const double n_nodes = number_after(program_err, ", in about "), expected = tube.n_nodes * pow(thicker / eps, 3);
+  /* Two digits are printed, with commas. */
+  const char *comma = strstr(strstr(program_err, ", in about ") + 11, ",");
+  assert_true(fabs((comma ? n_nodes * 1000 + strtod(comma + 1, NULL) : n_nodes) / expected - 1) < 0.08);
+  free_mesh(&tube);
+}
+
 /* A valve that leaves a gap in its mesh, and a valve whose drop is too small. Both are exported, with a warning. */
 TEST(test_warnings) {
   need_scipy();
@@ -494,8 +518,8 @@ TEST(test_warnings) {
               "--half-thickness", "0.35", "--largest-edge", "0.1", NULL);
   assert_int_equal(program_exit_code, 0);
   assert_non_null(strstr(program_err, "svMultiPhysics will drop 0."));
-  const char *needs = strstr(program_err, "a drop of 0.95 needs a half thickness of ");
-  if (!needs) needs = strstr(program_err, "even a half thickness of 0.7 does not drop 0.95");
+  const char *needs = strstr(program_err, "a drop of 0.9 needs a half thickness of ");
+  if (!needs) needs = strstr(program_err, "even a half thickness of 0.7 does not drop 0.9");
   assert_non_null(needs);
   run_program("export", scratch_path("metres"), scratch_path("coarse.vtk"), RAMPS, "--valve", scratch_path("flap.json"),
               "--half-thickness", "0.6", "--density", "1060", "--largest-edge", "0.2", NULL);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --picture without a display ends with one line and exit code 1. With a display, each --picture writes one file with its own
- * view. */
+ * --picture without a display, and without a program that makes one, ends with one line and exit code 1. With a display, each
+ * --picture writes one file with its own view. */
 #include <riis/riis_vtk.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,31 +13,33 @@
 #include "virtual_display.h"
 #include "vtk_shim.h"
 
+/* test_virtual_display.py covers displays that the program makes. Here the PATH has no program for that. */
 TEST(test_without_display) {
-  char display[64] = "";
-  const char *before = getenv("DISPLAY");
-  if (before) strncpy(display, before, sizeof display - 1);
+  const char *const before[2] = {getenv("DISPLAY"), getenv("PATH")};
+  char kept[2][4096] = {"", ""};
+  for (int i = 0; i < 2; ++i)
+    if (before[i]) snprintf(kept[i], sizeof kept[i], "%s", before[i]);
   unsetenv("DISPLAY");
-  RUN_REFUSED(1, "DISPLAY is not set", "mark", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
+  setenv("PATH", "/nowhere", 1);
+  RUN_REFUSED(
+      1,
+      "DISPLAY is not set, and Xvfb, which makes one without a screen, is not on the PATH; on Debian the package "
+      "xvfb has it",
+      "mark", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
   assert_int_equal(scratch_exists("none.png"), 0);
   /* The refusal comes before any work. The mesh is also missing, but the message does not name it. */
   RUN_REFUSED(1, "DISPLAY is not set", "mark", scratch_path("missing.vtu"), "--picture", scratch_path("none.png"));
   setenv("DISPLAY", ":7654", 1);
-  RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", "mark", scratch_path("in.vtu"), "--picture",
-              scratch_path("none.png"));
-  assert_int_equal(scratch_exists("none.png"), 0);
   /* The run has marked nodes before it fails, so the other requested files are written. */
-  RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", "mark", scratch_path("in.vtu"), "--picture",
+  RUN_REFUSED(1, "DISPLAY :7654 cannot be used, and Xvfb", "mark", scratch_path("in.vtu"), "--picture",
               scratch_path("none.png"), "--output", scratch_path("out.vtu"), "--stats", scratch_path("stats.json"));
+  assert_int_equal(scratch_exists("none.png"), 0);
   assert_true(scratch_exists("out.vtu"));
   char *json = scratch_read(scratch_path("stats.json"), NULL);
   assert_true(json_number(json, "n_nodes") == n_box);
   free(json);
-  if (before) {
-    setenv("DISPLAY", display, 1);
-  } else {
-    unsetenv("DISPLAY");
-  }
+  before[0] ? setenv("DISPLAY", kept[0], 1) : unsetenv("DISPLAY");
+  before[1] ? setenv("PATH", kept[1], 1) : unsetenv("PATH");
 }
 
 static void expect_picture(const char *name) {
@@ -68,6 +71,18 @@ TEST(test_pictures) {
   assert_true(scratch_is_same("3.png", "5.png"));
 }
 
+/* Returns the title with the orifice and the half thickness of a surface in centimetres, as captions give them. */
+static const char *with_sizes(const char *title, const riis_surface *surface) {
+  static char text[256];
+  riis_orifice orifice;
+  riis_surface_info info;
+  expect_fine(riis_surface_get_orifice(surface, NULL, &orifice, sizeof orifice));
+  expect_fine(riis_surface_get_info(surface, &info, sizeof info));
+  snprintf(text, sizeof text, "%s, orifice %.2f cm2\nhalf thickness %.3g mm", title, orifice.area,
+           10 * info.half_thickness);
+  return text;
+}
+
 /* Compares a picture of the program with a picture that the C interface draws with the expected title. */
 static void expect_title(const char *title, const char *setting, const char *value) {
   riis_valve *valve = NULL;
@@ -83,7 +98,7 @@ static void expect_title(const char *title, const char *setting, const char *val
   expect_fine(riis_valve_set_scalar(valve, name, strtod(number, NULL)));
   expect_fine(riis_surface_create(valve, NULL, &surface));
   expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
-  options.title = title;
+  options.title = with_sizes(title, surface);
   options.leaflet_names = names;
   options.n_leaflet_names = 3;
   options.unit = "cm";
@@ -93,16 +108,25 @@ static void expect_title(const char *title, const char *setting, const char *val
   riis_valve_destroy(&valve);
 }
 
-/* Draws an oblique valve of 10 times the size. */
+/* Draws a placed mitral valve. The unit of its mesh may be NULL, and `scale` leads to it from centimetres. */
 static void draw_by_c(const riis_surface_options *placement, const char *unit, int32_t view) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
+  riis_orifice orifice;
+  riis_surface_info info;
+  char title[256];
   riis_vtk_picture_options options;
   expect_fine(riis_valve_create("mitral", &valve));
   expect_fine(riis_valve_set_scalar(valve, "opening", 0.5));
   expect_fine(riis_surface_create(valve, placement, &surface));
   expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
-  options.title = "Mitral valve, opening 0.5";
+  expect_fine(riis_surface_get_orifice(surface, NULL, &orifice, sizeof orifice));
+  expect_fine(riis_surface_get_info(surface, &info, sizeof info));
+  const double scale = unit ? placement->scale : 1;
+  snprintf(title, sizeof title, unit ? "%s %.2f cm2\nhalf thickness %.3g mm" : "%s %.3g\nhalf thickness %.3g",
+           "Mitral valve, opening 0.5, orifice", orifice.area / (scale * scale),
+           (unit ? 10 : 1) * info.half_thickness / scale);
+  options.title = title;
   options.leaflet_names = (const char *const[]){"anterior", "posterior"};
   options.n_leaflet_names = 2;
   options.unit = unit;
@@ -149,6 +173,65 @@ TEST(test_unit) {
            scratch_path("by_program.png"));
   draw_by_c(&placement, "mm", RIIS_VTK_VIEW_OBLIQUE);
   assert_true(scratch_is_same("by_program.png", "by_c.png"));
+}
+
+/* Each option changes the picture as the same field of the C interface does. */
+TEST(test_looks) {
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_vtk_picture_options options;
+  RUN_FINE("surface", "--valve", "aortic", "--picture", scratch_path("by_program.png"), "--picture-size", "300x500",
+           "--picture-background", "336699", "--picture-captions", "none", "--picture-panels", "valve");
+  expect_fine(riis_valve_create("aortic", &valve));
+  expect_fine(riis_surface_create(valve, NULL, &surface));
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.width = 300;
+  options.height = 500;
+  memcpy(options.background, (const double[4]){0x33 / 255.0, 0x66 / 255.0, 0x99 / 255.0, 1}, sizeof options.background);
+  options.captions = RIIS_VTK_CAPTIONS_NONE;
+  options.panels = RIIS_VTK_PANELS_VALVE;
+  expect_fine(riis_vtk_draw(surface, NULL, &options, scratch_path("by_c.png")));
+  assert_true(scratch_is_same("by_program.png", "by_c.png"));
+  memcpy(options.background, (const double[4]){1, 1, 1, 0}, sizeof options.background);
+  options.captions = RIIS_VTK_CAPTIONS_SCALE;
+  options.unit = "cm";
+  expect_fine(riis_vtk_draw(surface, NULL, &options, scratch_path("by_c.png")));
+  RUN_FINE("surface", "--valve", "aortic", "--picture", scratch_path("by_program.png"), "--picture-size", "300x500",
+           "--picture-background", "transparent", "--picture-captions", "scale");
+  assert_true(scratch_is_same("by_program.png", "by_c.png"));
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+}
+
+TEST(test_refused_looks) {
+  static const struct {
+    const char *option, *value, *text;
+  } bad[] = {{"--picture-size", "1600", "--picture-size: 1600 is not WIDTHxHEIGHT, such as 1920x1080"},
+             {"--picture-size", "1600x", "--picture-size: 1600x is not WIDTHxHEIGHT"},
+             {"--picture-size", "wide", "--picture-size: wide is not WIDTHxHEIGHT"},
+             {"--picture-size", "1600x99999", "--picture-size: 1600x99999: 99999 is not from 64 to 8192 pixels"},
+             {"--picture-size", "63x64", "--picture-size: 63x64: 63 is not from 64 to 8192 pixels"},
+             {"--picture-size", "1e3x800", "--picture-size: 1e3x800 is not WIDTHxHEIGHT"},
+             {"--picture-size", "-64x64", "--picture-size: -64x64 is not WIDTHxHEIGHT"},
+             {"--picture-background", "red",
+              "--picture-background: red is not white, black, transparent, or six hexadecimal digits"},
+             {"--picture-background", "12345g", "--picture-background: 12345g is not"},
+             {"--picture-background", "", "--picture-background: "},
+             {"--picture-captions", "some", "--picture-captions: some not in {all,scale,none}"},
+             {"--picture-panels", "left", "--picture-panels: left not in {both,valve,marks}"},
+             {"--picture-panels", "marks", "--picture-panels marks: riis surface has no mesh, and marks nothing"}};
+  for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i)
+    RUN_REFUSED(2, bad[i].text, "surface", "--valve", "aortic", "--picture", scratch_path("no.png"), bad[i].option,
+                bad[i].value);
+  RUN_REFUSED(2, "--picture-size has no effect without --picture or --movie", "mark", scratch_path("in.vtu"),
+              "--picture-size", "100x100");
+  RUN_REFUSED(2, "--picture-captions has no effect without --picture", "surface", "--output", scratch_path("no.vtp"),
+              "--picture-captions", "none");
+  RUN_REFUSED(2, "--picture-background: a movie cannot be transparent", "mark", scratch_path("in.vtu"), "--times",
+              "0,1", "--movie", scratch_path("no.gif"), "--picture-background", "transparent");
+  RUN_REFUSED(2, "--picture-size: both numbers must be even for the movie ", "mark", scratch_path("in.vtu"), "--times",
+              "0,1", "--movie", scratch_path("no.mp4"), "--picture-size", "101x100");
+  assert_int_equal(scratch_exists("no.png"), 0);
 }
 
 /* Returns whether two pictures are the same in a part of 800 pixels to the right of x0, and 40 pixels upwards from y0. */

@@ -97,7 +97,7 @@ class TheList(unittest.TestCase):
 def main(scratch, programs):
     if not unittest.TextTestRunner().run(unittest.defaultTestLoader.loadTestsFromTestCase(TheList)).wasSuccessful():
         return 1
-    for program in "gmsh", "xvfb-run":
+    for program in "gmsh", "Xvfb":
         if not shutil.which(program):
             print(f"skipped: there is no {program}")
             return 77
@@ -120,10 +120,8 @@ def main(scratch, programs):
                 given = snippets.run_commands(GIVEN.get(document, ":"), folder, environment)
                 if given.returncode != 0:
                     return f"what {document} expects of its reader: {given.stdout}"
-            # The reader's terminal has a display.
-            display = ["xvfb-run", "-a"] if "--picture" in one.text and "xvfb-run" not in one.text else []
             begin = os.times()
-            done = snippets.run_commands(one.text, folder, environment, *display)
+            done = snippets.run_commands(one.text, folder, environment)
             n_run += 1
             end = os.times()
             print(f"{end.children_user - begin.children_user:6.1f} s of the processor  {document}, line {one.line}", flush=True)

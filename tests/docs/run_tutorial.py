@@ -29,7 +29,7 @@ def comparable(text, same_gmsh):
 
 
 def main(mode, tutorial, scratch, programs, riis):
-    for program in "gmsh", "xvfb-run":
+    for program in "gmsh", "Xvfb":
         if not shutil.which(program):
             print(f"skipped: there is no {program}")
             return 77

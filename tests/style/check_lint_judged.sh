@@ -16,7 +16,7 @@ plant() {
   cp "$sources/.clang-format" "$sources/.clang-tidy" .
   printf -v long '%0150d' 0
   printf '#include <string>\n\nstd::string twice(const std::string &text) { return text + text; }\n' >src/twice.cpp
-  printf '[{"directory": "%s",\n  "command": "c++ -std=c++17 -c src/twice.cpp",\n  "file": "%s/src/twice.cpp"\n}]\n' \
+  printf '[{"directory": "%s",\n  "command": "c++ -std=c++17 -Wall -Wextra -c src/twice.cpp",\n  "file": "%s/src/twice.cpp"\n}]\n' \
     "$PWD" "$PWD" >build-lint/compile_commands.json
   echo "#include \"$PWD/src/twice.cpp\"" >build-lint/src/riis/CMakeFiles/riis_objects.dir/Unity/unity_0_cxx.cxx
   # shellcheck disable=SC2016 # the planted scripts' own variables
@@ -87,6 +87,8 @@ echo 'std::vector<int> numbers;' >>src/twice.cpp
 refuses includes "'vector' in namespace 'std' does not name a template type"
 printf '\nstd::string lost(std::string text) {\n  std::string kept = std::move(text);\n  return kept + text;\n}\n' >>src/twice.cpp
 refuses tidy bugprone-use-after-move
+printf '\nclass Idle {\n  int unused_ = 0;\n};\n' >>src/twice.cpp
+refuses tidy clang-diagnostic-unused-private-field
 mkdir -p src/riis/api
 printf 'using std::string;\nusing std::move;\nvoid keep(string);\n' >src/riis/api/moved.cpp
 refuses tidy 'src/riis/api/moved.cpp: the name move of a using-declaration is not used'

@@ -233,7 +233,7 @@ static half half_of(const double *closed, const double *open, double t) {
         {x, 0}, {x, reach}, {e * c * v[RC] + s * reach, e * s * v[RC] - c * reach}, {e * c * v[RC], e * s * v[RC]}};
     const double slack[4] = {1, 1, 1.0 / 3, 0};
     memcpy(scalars[k], k ? of_open : of_closed, sizeof of_open);
-    memcpy(plan[k], k ? wide : shut, sizeof wide);
+    memcpy(plan[k], k ? &wide[0][0] : &shut[0][0], sizeof wide);
     memcpy(sag[k], k ? slack : hang, sizeof slack);
     top[k][0] = (k ? e : 1) * c * v[RC], top[k][1] = (k ? e : 1) * s * v[RC], top[k][2] = v[H];
   }

@@ -36,7 +36,7 @@ static riis_valve *valve_of_patches(void) {
         double control[4][3];
         for (int k = 0; k < 4; ++k) {
           const double angle = 2 * acos(-1) / 3 * (i + k / 3.2), is_inner = k == 1 || k == 2;
-          const double r = (level ? 0.4 + 0.3 * state : 1) * (is_inner ? 1.3 : 1 + 0.03 * i);
+          const double r = (level ? 0.4 + 0.3 * state : 1) * (is_inner > 0 ? 1.3 : 1 + 0.03 * i);
           control[k][0] = r * cos(angle), control[k][1] = r * sin(angle);
           control[k][2] = level ? 0.8 : is_inner * 0.3 * (1 + 0.2 * i);
         }

@@ -42,7 +42,7 @@ static shape cone(double radius, double rise, double mouth) {
       double control[4][3];
       for (int k = 0; k < 4; ++k) {
         const double angle = third * (i + k / 3.0), is_inner = k == 1 || k == 2;
-        const double r = (level ? mouth : 1) * radius * (is_inner ? 1.3 : 1);
+        const double r = (level ? mouth : 1) * radius * (is_inner > 0 ? 1.3 : 1);
         control[k][0] = r * cos(angle), control[k][1] = r * sin(angle);
         control[k][2] = level ? 0.8 * radius : is_inner * rise * (1 + 0.2 * i);
       }

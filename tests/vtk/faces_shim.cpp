@@ -4,18 +4,21 @@
 #include <iterator>
 #include <vector>
 
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkIdList.h>
 #include <vtkIntArray.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkThreshold.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include "riis_vtk/mesh/flat_ends.hpp"
 #include "riis_vtk/mesh/outside_faces.hpp"
 #include "vtk_shim.h"
 
@@ -111,4 +114,22 @@ int64_t shim_compare_outside(const char *path, int64_t *n_faces, int64_t *n_inwa
   std::vector<Polygon> different;
   std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(different));
   return static_cast<int64_t>(different.size());
+}
+
+int shim_flat_ends(int64_t n_points, const double *xyz, int64_t n_triangles, const int64_t *corners,
+                   unsigned char *is_end) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int64_t i = 0; i < n_points; ++i) points->InsertNextPoint(xyz + 3 * i);
+  vtkNew<vtkCellArray> triangles;
+  for (int64_t i = 0; i < n_triangles; ++i) {
+    const vtkIdType ids[3] = {corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]};
+    triangles->InsertNextCell(3, ids);
+  }
+  vtkNew<vtkPolyData> faces;
+  faces->SetPoints(points);
+  faces->SetPolys(triangles);
+  const riis::vtk::FlatParts parts = riis::vtk::flat_ends(faces);
+  std::copy(parts.is_end.begin(), parts.is_end.end(), is_end);
+  return parts.are_all;
 }

@@ -31,11 +31,10 @@ static void run(const char *format, ...) {
 
 static const char *const file_names[] = {"points", "faces", "owner", "neighbour"};
 static const char *const contents[] = {
-    "FoamFile\n{\n  version 2.0;\n  format ascii;\n  class vectorField;\n  object points;\n}\n// * * //\n4\n(\n(0 0 "
-    "0)\n"
-    "(1 0 0)\n(0 1 0)\n(0 0 1)\n)\n",
-    "FoamFile { version 2.0; format ascii; class faceList; object faces; }\n4\n(\n3(0 2 1)\n3(0 1 3)\n3(1 2 3)\n3(0 3 "
-    "2)\n)\n",
+    ("FoamFile\n{\n  version 2.0;\n  format ascii;\n  class vectorField;\n  object points;\n}\n// * * //\n4\n(\n"
+     "(0 0 0)\n(1 0 0)\n(0 1 0)\n(0 0 1)\n)\n"),
+    ("FoamFile { version 2.0; format ascii; class faceList; object faces; }\n4\n(\n3(0 2 1)\n3(0 1 3)\n3(1 2 3)\n"
+     "3(0 3 2)\n)\n"),
     "FoamFile { version 2.0; format ascii; class labelList; note \"nPoints:4  nCells:1\"; }\n4{0}\n",
     "FoamFile { version 2.0; format ascii; class labelList; }\n0()\n"};
 

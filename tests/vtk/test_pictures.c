@@ -109,7 +109,9 @@ TEST(test_texts) {
   assert_false(scratch_is_same("plain.png", "names.png"));
   draw_texts("more.png", NULL, names, 3);
   assert_true(scratch_is_same("names.png", "more.png"));
-  draw_texts("odd.png", "a\nb \xff\xc3 $x^2$ | 7", (const char *const[]){"\xe4", "", "$"}, 3);
+  draw_texts("two.png", "Surface\nhalf thickness", NULL, 0);
+  assert_false(scratch_is_same("plain.png", "two.png"));
+  draw_texts("odd.png", "a\tb \xff\xc3 $x^2$ | 7", (const char *const[]){"\xe4", "", "$"}, 3);
   draw_texts("marked.png", "a?b ?? $x^2$ | 7", (const char *const[]){"?", "", "$"}, 3);
   assert_true(scratch_is_same("odd.png", "marked.png"));
 }
@@ -407,11 +409,10 @@ TEST(test_scale_and_bands) {
 }
 
 /* Flat leaflets are seen edge on: closed ones from the side, and open ones from above. They appear as lines that fill 1/1.08
- * of the panel, because the camera fits the leaflets with this margin. The upper band of text takes another 20 rows of the
- * panel. */
+ * of the panel, because the camera fits the leaflets with this margin. */
 TEST(test_edge_on) {
   const int32_t views[2] = {RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_TOP};
-  const double expected[2] = {800 / 1.08, 626 / 1.08 + 26};
+  const double expected[2] = {800 / 1.08, (800 - upper_band - lower_band) / 1.08};
   riis_surface *const kept = surface;
   riis_valve *valve = NULL;
   expect_fine(riis_valve_create("bileaflet", &valve));
@@ -599,6 +600,151 @@ TEST(test_three_views) {
   int width = 0, height = 0, n_colours = 0, n_coloured[2];
   assert_int_equal(shim_read_png(scratch_path("small.png"), &width, &height, &n_colours, n_coloured), 1);
   assert_true(width == 64 && height == 64 && n_colours > 1);
+}
+
+/* ---- Looks ---- */
+
+static riis_vtk_picture_options looks(double red, double green, double blue, double opacity, int32_t captions) {
+  const double background[4] = {red, green, blue, opacity};
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.width = 640;
+  options.height = 320;
+  memcpy(options.background, background, sizeof background);
+  options.captions = captions;
+  return options;
+}
+
+static void expect_corners(const char *name, int red, int green, int blue) {
+  pixels picture = read_pixels(name);
+  for (int i = 0; i < 4; ++i) {
+    const unsigned char *const rgb = pixel_at(&picture, i % 2 ? picture.width - 1 : 0, i / 2 ? picture.height - 1 : 0);
+    assert_true(rgb[0] == red && rgb[1] == green && rgb[2] == blue);
+  }
+  free(picture.rgb);
+}
+
+/* The background has the colour of the options. A transparent picture, laid on white and on black, equals the pictures that are
+ * drawn on these colours, up to the rounding of each layer. */
+TEST(test_backgrounds) {
+  static const char *const on[2] = {"white.png", "black.png"};
+  riis_vtk_picture_options options = looks(0.2, 0.4, 0.6, 1, RIIS_VTK_CAPTIONS_ALL);
+  draw_by(&options, "blue.png", mesh);
+  expect_corners("blue.png", 51, 102, 153);
+  options = looks(1, 1, 1, 1, RIIS_VTK_CAPTIONS_NONE);
+  draw_by(&options, on[0], mesh);
+  expect_corners(on[0], 255, 255, 255);
+  options = looks(0, 0, 0, 1, RIIS_VTK_CAPTIONS_NONE);
+  draw_by(&options, on[1], mesh);
+  expect_corners(on[1], 0, 0, 0);
+  int width = 0, height = 0;
+  assert_null(shim_read_clear_pixels(scratch_path(on[0]), &width, &height));
+  /* The lines of the wall have the brightness that fits the colour of the options, so that a clear picture has two kinds. */
+  for (int i = 0; i < 2; ++i) {
+    options = looks(1 - i, 1 - i, 1 - i, 0, RIIS_VTK_CAPTIONS_NONE);
+    draw_by(&options, "clear.png", mesh);
+    unsigned char *const clear = shim_read_clear_pixels(scratch_path("clear.png"), &width, &height);
+    assert_non_null(clear);
+    assert_true(width == 640 && height == 320);
+    pixels drawn = read_pixels(on[i]);
+    int n_of[3] = {0, 0, 0};
+    for (int at = 0; at < width * height; ++at) {
+      const unsigned char *const rgba = clear + 4 * at;
+      ++n_of[rgba[3] == 0 ? 0 : rgba[3] == 255 ? 2 : 1];
+      for (int k = 0; k < 3; ++k) {
+        const double laid = (rgba[3] * rgba[k] + (255 - rgba[3]) * (i == 0 ? 255 : 0)) / 255.0;
+        if (fabs(laid - drawn.rgb[3 * at + k]) > 4.0) fail_msg("pixel %d: %g for %d", at, laid, drawn.rgb[3 * at + k]);
+      }
+    }
+    assert_true(n_of[0] > 30000 && n_of[1] > 10000 && n_of[2] > 10000);
+    free(drawn.rgb);
+    free(clear);
+  }
+}
+
+/* Returns how many pixels of rows from..to differ from white. */
+static int count_drawn(const char *name, int from, int to) {
+  pixels picture = read_pixels(name);
+  int n = 0;
+  for (int y = from; y < to; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const unsigned char *const rgb = pixel_at(&picture, x, y);
+      n += rgb[0] < 250 || rgb[1] < 250 || rgb[2] < 250;
+    }
+  free(picture.rgb);
+  return n;
+}
+
+/* Without captions the panels fill the picture. With the scale alone, only the bar and its text are below them. */
+TEST(test_captions) {
+  static const char *const names[3] = {"all.png", "scale.png", "none.png"};
+  int n_above[3], n_below[3], n_all[3];
+  for (int32_t captions = 0; captions < 3; ++captions) {
+    riis_vtk_picture_options options = looks(1, 1, 1, 1, captions);
+    draw_by(&options, names[captions], mesh);
+    n_above[captions] = count_drawn(names[captions], 320 - 10, 320);
+    n_below[captions] = count_drawn(names[captions], 0, 14);
+    n_all[captions] = count_drawn(names[captions], 0, 320);
+  }
+  assert_true(n_above[0] > 20 && n_above[1] == 0 && n_above[2] == 0);
+  assert_true(n_below[0] > 60 && n_below[1] > 60 && n_below[2] < 20);
+  assert_true(n_all[1] > 1.1 * n_all[0] && n_all[2] > 1.02 * n_all[1]);
+}
+
+/* One panel fills the picture. Without a mesh, a wall surrounds the surface as the boundary of a mesh does. */
+TEST(test_panels_and_wall) {
+  riis_vtk_picture_options options = looks(1, 1, 1, 1, RIIS_VTK_CAPTIONS_NONE);
+  riis_vtk_surface *boundary = NULL;
+  riis_surface *wall = NULL;
+  riis_surface_arrays arrays;
+  expect_fine(riis_vtk_mesh_get_boundary(mesh, &boundary));
+  expect_fine(riis_surface_arrays_init(&arrays, sizeof arrays));
+  expect_fine(riis_vtk_surface_get_arrays(boundary, &arrays, sizeof arrays));
+  expect_fine(riis_surface_create_from_arrays(&arrays, NULL, &wall));
+  options.width = 320;
+  options.panels = RIIS_VTK_PANELS_VALVE;
+  draw_by(&options, "valve.png", mesh);
+  options.panels = RIIS_VTK_PANELS_MARKS;
+  draw_by(&options, "marks.png", mesh);
+  assert_false(scratch_is_same("valve.png", "marks.png"));
+  options.panels = RIIS_VTK_PANELS_BOTH;
+  draw_by(&options, "alone.png", NULL);
+  options.wall = wall;
+  draw_by(&options, "walled.png", NULL);
+  assert_false(scratch_is_same("alone.png", "walled.png"));
+  const pixels pictures[2] = {read_pixels("valve.png"), read_pixels("walled.png")};
+  int n = 0;
+  for (int i = 0; i < 3 * 320 * 320; ++i) n += abs(pictures[0].rgb[i] - pictures[1].rgb[i]) > 8;
+  assert_true(n < 3 * 320 * 320 / 100);
+  free(pictures[0].rgb);
+  free(pictures[1].rgb);
+  riis_surface_destroy(&wall);
+  riis_vtk_surface_destroy(&boundary);
+}
+
+/* A picture of twice the size looks the same: letters, lines and panels grow with it. Each pixel of the small picture is near the
+ * mean of four pixels of the large one. */
+TEST(test_sizes) {
+  riis_vtk_picture_options options = looks(1, 1, 1, 1, RIIS_VTK_CAPTIONS_ALL);
+  options.width = 1920;
+  options.height = 1080;
+  draw_by(&options, "half.png", mesh);
+  options.width = 3840;
+  options.height = 2160;
+  draw_by(&options, "whole.png", mesh);
+  pixels half = read_pixels("half.png"), whole = read_pixels("whole.png");
+  assert_true(whole.width == 3840 && whole.height == 2160);
+  double sum = 0;
+  for (int y = 0; y < 1080; ++y)
+    for (int x = 0; x < 1920; ++x)
+      for (int k = 0; k < 3; ++k) {
+        int mean = 2;
+        for (int i = 0; i < 4; ++i) mean += pixel_at(&whole, 2 * x + i % 2, 2 * y + i / 2)[k];
+        sum += abs(mean / 4 - pixel_at(&half, x, y)[k]);
+      }
+  assert_true(sum / (3.0 * 1920 * 1080) < 1.5);
+  free(half.rgb);
+  free(whole.rgb);
 }
 
 int main(int argc, char **argv) {

@@ -147,7 +147,7 @@ TEST(test_struct_sizes) {
                  "the struct size of arrays is 0; ");
   assert_int_equal(arrays.struct_size, 0);
   riis_vtk_surface_destroy(&file);
-  const int64_t bad_sizes[] = {-8, 0, 4, 40, 52, 63, 112, INT64_MAX};
+  const int64_t bad_sizes[] = {-8, 0, 4, 40, 52, 63, 160, INT64_MAX};
   for (size_t i = 0; i < sizeof bad_sizes / sizeof bad_sizes[0]; ++i) {
     char text[64];
     snprintf(text, sizeof text, "the struct size of options is %lld; ", (long long)bad_sizes[i]);
@@ -227,6 +227,37 @@ TEST(test_picture_options) {
   options.leaflet_names = names;
   expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT,
                  "leaflet_names[1] is NULL");
+}
+
+/* The looks of a picture: the defaults, and values out of range. */
+TEST(test_looks) {
+  riis_vtk_picture_options defaults, options;
+  expect_fine(riis_vtk_picture_options_init(&defaults, sizeof defaults));
+  for (int k = 0; k < 4; ++k) assert_true(defaults.background[k] == 1);
+  assert_true(!defaults.wall && defaults.captions == RIIS_VTK_CAPTIONS_ALL && defaults.panels == RIIS_VTK_PANELS_BOTH);
+  const struct {
+    double blue, opacity;
+    int32_t captions, panels;
+    const char *text;
+  } bad[] = {{1.5, 1, 0, 0, "background[2] is 1.5, not 0 to 1"},
+             {(double)NAN, 1, 0, 0, "background[2] is nan"},
+             {0, 0.5, 0, 0, "background[3] is 0.5, neither 0 nor 1"},
+             {0, 1, 3, 0, "captions is 3, not a RIIS_VTK_CAPTIONS_*"},
+             {0, 1, 0, -1, "panels is -1, not a RIIS_VTK_PANELS_*"},
+             {0, 1, 0, RIIS_VTK_PANELS_MARKS, "panels is RIIS_VTK_PANELS_MARKS, and mesh is NULL"}};
+  for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+    options = defaults;
+    options.background[2] = bad[i].blue;
+    options.background[3] = bad[i].opacity;
+    options.captions = bad[i].captions;
+    options.panels = bad[i].panels;
+    expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, bad[i].text);
+  }
+  /* A caller of an older release, whose struct has no looks, gets the defaults: the next refusal is for another field. */
+  memset(&options, 0xff, sizeof options);
+  expect_fine(riis_vtk_picture_options_init(&options, 104));
+  options.width = 1;
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "width is 1");
 }
 
 static void expect_bad_axes(const char *part_of_text, double x, double y, double z, double angle) {

@@ -424,21 +424,35 @@ int shim_read_png(const char *path, int *width, int *height, int *n_colours, int
   return 1;
 }
 
-unsigned char *shim_read_pixels(const char *path, int *width, int *height) {
+namespace {
+
+// Reads the first channels of a picture. Returns NULL if it has fewer.
+unsigned char *read_channels(const char *path, int n_channels, int *width, int *height) {
   vtkNew<vtkPNGReader> reader;
   if (!reader->CanReadFile(path)) return nullptr;
   reader->SetFileName(path);
   reader->Update();
   vtkImageData *image = reader->GetOutput();
+  if (image->GetNumberOfScalarComponents() < n_channels) return nullptr;
   int size[3];
   image->GetDimensions(size);
   *width = size[0];
   *height = size[1];
-  auto *pixels = static_cast<unsigned char *>(std::malloc(static_cast<std::size_t>(3 * size[0] * size[1])));
+  auto *pixels = static_cast<unsigned char *>(std::malloc(static_cast<std::size_t>(n_channels * size[0] * size[1])));
   for (int i = 0; pixels && i < size[0] * size[1]; ++i)
-    std::copy_n(static_cast<const unsigned char *>(image->GetScalarPointer(i % size[0], i / size[0], 0)), 3,
-                pixels + 3 * i);
+    std::copy_n(static_cast<const unsigned char *>(image->GetScalarPointer(i % size[0], i / size[0], 0)), n_channels,
+                pixels + n_channels * i);
   return pixels;
+}
+
+}  // namespace
+
+unsigned char *shim_read_pixels(const char *path, int *width, int *height) {
+  return read_channels(path, 3, width, height);
+}
+
+unsigned char *shim_read_clear_pixels(const char *path, int *width, int *height) {
+  return read_channels(path, 4, width, height);
 }
 
 void shim_distances(int method, int64_t n_vertices, const double *vertices, int64_t n_triangles, const int64_t *corners,

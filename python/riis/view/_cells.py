@@ -26,6 +26,7 @@ _VOLUMES = {
     _TETRA: (4, 4), _VOXEL: (8, 8), _HEXAHEDRON: (8, 8), _WEDGE: (6, 6), _PYRAMID: (5, 5),
     24: (10, 4), 25: (20, 8), 26: (15, 6), 27: (13, 5), 29: (27, 8), 32: (18, 6), 33: (24, 8),
 }
+VOLUME_TYPES = tuple(_VOLUMES)
 _KIND_OF_SIZE = {4: _TETRA, 5: _PYRAMID, 6: _WEDGE, 8: _HEXAHEDRON}
 _SURFACES = {5: "triangles", 6: "triangle strips", 7: "polygons", 8: "pixels", 9: "quads", 22: "triangles", 23: "quads"}
 # The faces of a cell by its number of corners. A face of three nodes repeats its last node.
@@ -375,13 +376,18 @@ class Region:
 
 
 class WholeMesh:
-    """The caller's mesh, and the region of it in which the view works."""
+    """The caller's mesh, and the region of it in which the view works. Without points there is no mesh, and nothing is marked."""
+
+    lower: Reals
+    upper: Reals
+    sides: tuple[float, float, float]
 
     def __init__(self, points: Any, cells: Any = None, *, offsets: Any = None, types: Any = None, near: bool = False) -> None:
-        array = numpy.asarray(points)
+        self.is_missing = points is None
+        array = numpy.empty((0, 3)) if points is None else numpy.asarray(points)
         if array.ndim != 2 or array.shape[1] != 3:
             raise InvalidArgumentError(f"points: has the shape {array.shape}; it must be (n, 3)")
-        if len(array) == 0:
+        if len(array) == 0 and not self.is_missing:
             raise InvalidMeshError("points: there are none; the mesh must have a node")
         if array.dtype.kind not in "fiu":
             raise InvalidArgumentError(f"points: has the type {array.dtype}; it must have a type of numbers")
@@ -391,8 +397,9 @@ class WholeMesh:
             raise InvalidArgumentError("cells: is None, but offsets or types are given")
         self.blocks = [] if cells is None else blocks_of(cells, len(self.points), offsets, types)
         self.is_near = near
-        self.lower, self.upper = self.points.min(axis=0), self.points.max(axis=0)
-        self.sides = mesh_sides(self.points)
+        if not self.is_missing:
+            self.lower, self.upper = self.points.min(axis=0), self.points.max(axis=0)
+            self.sides = mesh_sides(self.points)
         self._region: Region | None = None
 
     def region(self, lower: Reals, upper: Reals) -> Region:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The valves of a model with their surfaces, and the steps of undo."""
+"""The valves of a model with their surfaces, the landmarks and the wall, and the steps of undo."""
 
 from __future__ import annotations
 
@@ -11,8 +11,10 @@ from typing import Any, NamedTuple
 
 import numpy
 
-from riis._riis import Keyframes, Marks, Surface
+from riis._riis import Keyframes, Marks, Surface, Valve
+from riis.view._landmark_files import LandmarkSet
 from riis.view._valves import ValveState, refuse
+from riis.view._walls import Wall
 
 _MOST_STEPS = 200  # of undo
 
@@ -26,27 +28,42 @@ class Placed:
     keyframes: Keyframes | None
     marks: Marks
     seconds: float  # that the surface took
+    wall: Wall | None  # to which the skirt leads; None without a skirt
+    valve: Valve | None  # with this skirt; None without a skirt
 
     @classmethod
-    def of(cls, state: ValveState, before: Placed | None = None) -> Placed:
+    def of(cls, state: ValveState, before: Placed | None = None, wall: Wall | None = None) -> Placed:
         start = clock.perf_counter()
         same = before is not None and before.state.surface is state.surface
         keyframes = before.keyframes if before is not None and same else state.keyframes()
-        surface = state.made_surface(keyframes)
-        return cls(state, surface, keyframes, before.marks if before is not None else Marks(), clock.perf_counter() - start)
+        valve = None
+        if state.skirt > 0.0:  # the skirt is that of the closed valve, so it stays while the valve opens
+            known = before is not None and before.valve is not None and before.wall is wall and before.state.has_skirt_of(state)
+            valve = before.valve if known and before is not None else state.valve_in(None if wall is None else wall.surface)
+            assert valve is not None
+            valve["opening"] = state.opening
+        surface = state.made_surface(keyframes, valve)
+        marks = before.marks if before is not None else Marks()
+        return cls(state, surface, keyframes, marks, clock.perf_counter() - start, wall if valve is not None else None, valve)
 
 
 class Snapshot(NamedTuple):
+    """What a change can change."""
+
     valves: tuple[ValveState, ...]
     unit: str | None
+    landmarks: LandmarkSet
+    wall: Wall | None
 
 
 class Valves:
-    """Valves that can be changed and undone. A change that is refused changes nothing."""
+    """Valves, landmarks and a wall that can be changed and undone. A change that is refused changes nothing."""
 
     def __init__(self, unit: str | None) -> None:
         self._unit = unit
         self._placed: tuple[Placed, ...] = ()
+        self._landmarks = LandmarkSet()
+        self._wall: Wall | None = None
         self._undo: list[Snapshot] = []
         self._redo: list[Snapshot] = []
         self._drag: tuple[Any, ...] | None = None
@@ -65,32 +82,50 @@ class Valves:
             raise refuse(f"i: is {i!r}; there are {len(self._placed)} valves, from 0")
         return self._placed[int(i)]
 
+    def _now(self) -> Snapshot:
+        return Snapshot(self.valves, self._unit, self._landmarks, self._wall)
+
     def _change(self, states: tuple[ValveState, ...], unit: str | None, key: tuple[Any, ...] | None = None) -> None:
         """Makes the surfaces of new states, and then takes the states and one step of undo."""
-        placed = self._made(states)
+        self._change_to(self._now()._replace(valves=states, unit=unit), key)
+
+    def _change_to(self, after: Snapshot, key: tuple[Any, ...] | None = None) -> None:
+        placed = self._made(after.valves, after.wall)
         if not (self._is_dragging and key is not None and key == self._drag):
-            self._undo.append(Snapshot(self.valves, self._unit))
+            self._undo.append(self._now())
             del self._undo[:-_MOST_STEPS]
         self._drag = key if self._is_dragging else None
         self._redo.clear()
-        self._take(placed, unit)
+        self._take(placed, after)
 
-    def _made(self, states: tuple[ValveState, ...]) -> tuple[Placed, ...]:
+    def _made(self, states: tuple[ValveState, ...], wall: Wall | None) -> tuple[Placed, ...]:
         known = {id(placed.state): placed for placed in self._placed}
         made = []
         for number_of, state in enumerate(states):
             same = known.get(id(state))
             before = self._placed[number_of] if number_of < len(self._placed) else None
-            made.append(same if same is not None else Placed.of(state, before if len(states) == len(self._placed) else None))
+            if same is None or (state.skirt > 0.0 and same.wall is not wall):
+                same = Placed.of(state, before if len(states) == len(self._placed) else None, wall)
+            made.append(same)
         return tuple(made)
 
-    def _take(self, placed: tuple[Placed, ...], unit: str | None) -> None:
-        self._placed, self._unit = placed, unit
+    def _take(self, placed: tuple[Placed, ...], after: Snapshot | None = None) -> None:
+        """Takes surfaces, with what else has changed."""
+        self._placed = placed
+        if after is not None:
+            self._unit, self._landmarks, self._wall = after.unit, after.landmarks, after.wall
         self._forget()
 
     def _replace(self, i: int, key: tuple[Any, ...] | None, **changes: Any) -> None:
-        state = dataclasses.replace(self._at(i).state, **changes)
-        if state == self._at(i).state:
+        before = self._at(i).state
+        if "found" not in changes and {"kind", "parameters", "rotation", "origin", "scale", "warp"} & set(changes):
+            changes["found"] = None
+        if before.warp is not None and "warp" not in changes and {"rotation", "origin", "scale"} & set(changes):
+            moved = dataclasses.replace(before, **changes)
+            if moved.placement != before.placement:
+                changes["warp"] = before.warp.in_own_frame(before.placement)
+        state = dataclasses.replace(before, **changes)
+        if state == before:
             return
         states = tuple(state if number_of == i else other for number_of, other in enumerate(self.valves))
         self._change(states, self._unit, key)
@@ -128,21 +163,21 @@ class Valves:
     def _step(self, from_: list[Snapshot], to: list[Snapshot]) -> bool:
         if not from_:
             return False
-        now = Snapshot(self.valves, self._unit)
-        placed = self._made(from_[-1].valves)
+        now = self._now()
+        placed = self._made(from_[-1].valves, from_[-1].wall)
         to.append(now)
         self._drag = None
-        self._take(placed, from_.pop().unit)
+        self._take(placed, from_.pop())
         return True
 
     @contextmanager
-    def _one_step(self) -> Iterator[None]:
+    def one_step(self) -> Iterator[None]:
         """During this context, all changes are one step of undo. If one is refused, none of them stays."""
-        before, undo, redo = Snapshot(self.valves, self._unit), list(self._undo), list(self._redo)
+        before, undo, redo = self._now(), list(self._undo), list(self._redo)
         try:
             yield
         except BaseException:
-            self._take(self._made(before.valves), before.unit)
+            self._take(self._made(before.valves, before.wall), before)
             self._undo, self._redo = undo, redo
             raise
         self._undo = [*undo, before][-_MOST_STEPS:]

@@ -20,7 +20,9 @@ from riis._riis import (
     find_passage, judge_sizes,
 )
 from riis.view._cells import Region, WholeMesh
+from riis.view._numbers import shown, with_unit
 from riis.view._valves import ValveState
+from riis.view._walls import MOST_BEYOND, Wall
 
 Reals = NDArray[numpy.float64]
 
@@ -59,16 +61,31 @@ class Scene:
     region: Region
     whole: WholeMesh
     unit: str | None
+    given_wall: Wall | None = None  #: from a file. None: the boundary of the cells is the wall
 
     @property
     def largest_side(self) -> float:
         info = self.surface.info
         return float((info.upper - info.lower).max())
 
+    @property
+    def box(self) -> WholeMesh | Wall:
+        """The mesh, or the wall if there is no mesh."""
+        if self.whole.is_missing and self.given_wall is not None:
+            return self.given_wall
+        return self.whole
 
-def shown(length: float) -> str:
-    """Returns a number with three digits."""
-    return f"{length:.3g}"
+    @property
+    def word(self) -> str:
+        """The word for the box."""
+        return "wall" if self.whole.is_missing else "mesh"
+
+    def length(self, value: float) -> str:
+        return with_unit(value, self.unit)
+
+    def place(self, point: Reals) -> str:
+        """Returns a point with the unit of the mesh."""
+        return "(" + ", ".join(shown(float(x)) for x in point) + ")" + (f" {self.unit}" if self.unit else "")
 
 
 def counted(n: int, noun: str) -> str:
@@ -80,10 +97,6 @@ def rounded_up(length: float) -> float:
     """Returns the next larger number with three digits."""
     step = 10.0 ** (math.floor(math.log10(length)) - 2)
     return float(f"{math.ceil(length / step) * step:.12g}")
-
-
-def _place(point: Reals) -> str:
-    return "(" + ", ".join(shown(float(x)) for x in point) + ")"
 
 
 # ---- Sizes ----
@@ -101,13 +114,13 @@ def _edge_of(region: Region) -> float:
 
 def unit(scene: Scene) -> Light:
     """Judges whether mesh and valve have the same unit."""
-    side, mesh = scene.largest_side, float((scene.whole.upper - scene.whole.lower).max())
+    side, mesh = scene.largest_side, float((scene.box.upper - scene.box.lower).max())
     if mesh == 0.0:
-        return Light("unit", "off", "the mesh has no extent", valve=scene.number)
-    sizes = f"the largest side of the mesh is {shown(mesh)}, that of the valve {shown(side)}"
+        return Light("unit", "off", f"the {scene.word} has no extent", valve=scene.number)
+    sizes = f"the largest side of the {scene.word} is {scene.length(mesh)}, that of the valve {scene.length(side)}"
     known = scene.unit is not None and math.isclose(scene.state.scale, UNITS[scene.unit], rel_tol=1e-9)
-    whole, info = scene.whole, scene.surface.info
-    fits, factor = judge_sizes(whole.sides, (info.lower, info.upper), _edge_of(scene.region), scene.state.half_thickness,
+    info = scene.surface.info
+    fits, factor = judge_sizes(scene.box.sides, (info.lower, info.upper), _edge_of(scene.region), scene.state.half_thickness,
                                known)
     if factor is None:
         level, text = ("warn", sizes + ", which no unit explains") if not fits else ("good", sizes)
@@ -118,7 +131,7 @@ def unit(scene: Scene) -> Light:
         advice, label = f"scale the valve by {factor:g}", f"scale the valve by {factor:g}"
     else:
         words = WORDS_OF_UNITS[name]
-        advice, label = f"the mesh looks as if it were in {words}: scale the valve by {factor:g}", f"The mesh is in {words}"
+        advice, label = f"the {scene.word} looks as if it were in {words}: scale the valve by {factor:g}", f"The {scene.word} is in {words}"
     return Light("unit", "warn" if fits else "bad", sizes, advice, (label, "unit"), valve=scene.number, value=factor)
 
 
@@ -126,7 +139,7 @@ def inside(scene: Scene) -> Light:
     """Judges whether the valve lies in the mesh. A skirt may reach beyond the wall."""
     samples, area = area_samples(scene.surface)
     info = scene.surface.info
-    wall = scene.region.wall()
+    wall = scene.given_wall.outward if scene.whole.is_missing and scene.given_wall else scene.region.wall()
     if wall is not None:
         found = wall.closest_points(samples, side=True, point=False, normal=False, triangle_id=False, leaflet_id=False)
         assert found.side is not None and found.distance is not None
@@ -135,26 +148,32 @@ def inside(scene: Scene) -> Light:
         low, high = scene.region.points.min(axis=0, initial=math.inf), scene.region.points.max(axis=0, initial=-math.inf)
         is_out = ((samples < low - info.half_thickness) | (samples > high + info.half_thickness)).any(axis=1)
     share, n_marked = float(area[is_out].sum() / area.sum()), len(scene.marks)
-    cure = ("Move the valve into the mesh", "inside")
-    if n_marked == 0 or is_out.all():
+    cure = (f"Move the valve into the {scene.word}", "inside")
+    no_marks = n_marked == 0 and not scene.whole.is_missing
+    if no_marks or is_out.all():
         places = (
-            f"the valve is at {_place((info.lower + info.upper) / 2)}, the mesh from {_place(scene.whole.lower)} to "
-            f"{_place(scene.whole.upper)}"
+            f"the valve is at {scene.place((info.lower + info.upper) / 2)}, the {scene.word} from {scene.place(scene.box.lower)} to "
+            f"{scene.place(scene.box.upper)}"
         )
-        return Light("inside", "bad", f"no node is marked: {places}" if n_marked == 0 else f"the valve is outside: {places}",
+        return Light("inside", "bad", f"no node is marked: {places}" if no_marks else f"the valve is outside: {places}",
                      "move the valve, or click three points of the annulus", cure, valve=scene.number)
     percent = f"{100 * share:.{1 if share < 0.1 else 0}f} %"
-    outside = f"{percent} of the leaflets' area is farther than the half thickness outside the mesh"
+    outside = f"{percent} of the leaflets' area is farther than the half thickness outside the {scene.word}"
     if share > MOST_OUTSIDE:
         points = samples[is_out]
         return Light("inside", "warn", outside, "move or turn the valve, or make it smaller",
                      points=points[:: 1 + len(points) // _MOST_DRAWN], valve=scene.number)
+    if scene.whole.is_missing:
+        text = "the valve lies inside the wall"
+        return Light("inside", "good", text + (f"; {outside}" if share > 0.0005 else ""), valve=scene.number)
     text = f"{counted(n_marked, 'node')} {'is' if n_marked == 1 else 'are'} marked"
     return Light("inside", "good", text + (f"; {outside}" if share > 0.0005 else ""),
                  valve=scene.number)
 
 
-def _no_edges(scene: Scene) -> str:
+def _no_edges(scene: Scene, what: str) -> str:
+    if scene.whole.is_missing:
+        return f"{what} needs a mesh, and there is only a wall"
     if not scene.region.has_cells:
         return "there are no volume cells near the valve, so the edges of the mesh are unknown"
     return "the mesh has cells of a type whose edges the view does not know"
@@ -165,31 +184,34 @@ def half_thickness(scene: Scene) -> Light:
     half, side = scene.state.half_thickness, scene.largest_side
     if half > LARGEST_HALF_THICKNESS * side:
         better = float(f"{USUAL_HALF_THICKNESS * side:.2g}")
-        return Light("half_thickness", "bad", f"the half thickness is {shown(half)}, the valve's largest side {shown(side)}",
-                     "make it thinner", (f"Set the half thickness to {better:g}", "half_thickness"), valve=scene.number,
-                     value=better)
+        return Light("half_thickness", "bad", f"the half thickness is {scene.length(half)}, the valve's largest side "
+                     f"{scene.length(side)}",
+                     "make it thinner", (f"Set the half thickness to {scene.length(better)}", "half_thickness"),
+                     valve=scene.number, value=better)
     if not scene.region.has_edges:
-        return Light("half_thickness", "off", _no_edges(scene), valve=scene.number)
+        return Light("half_thickness", "off", _no_edges(scene, "the light of the half thickness"), valve=scene.number)
     if len(scene.marks) == 0:
         return Light("half_thickness", "off", "no node is marked", valve=scene.number)
     scene.region.adjacency()
     across = scene.marks.cells_across(scene.region.mesh)
     leaks = find_leaks(scene.surface, scene.region.mesh, scene.marks)
-    text = f"the half thickness is {shown(half)}, and {shown(across.mean)} edges of the mesh lie across the band"
+    text = f"the half thickness is {scene.length(half)}, and {shown(across.mean)} edges of the mesh lie across the band"
     if leaks.n_edges == 0:
         return Light("half_thickness", "good", text, valve=scene.number)
     ends = scene.region.points[leaks.node_id]
     text += (
         f"; {counted(leaks.n_edges, 'edge')} {'crosses' if leaks.n_edges == 1 else 'cross'} the leaflets between unmarked nodes, "
-        f"the longest {shown(leaks.longest_length)}"
+        f"the longest {scene.length(leaks.longest_length)}"
     )
     better = rounded_up(1.01 * leaks.half_thickness)
     if better > LARGEST_HALF_THICKNESS * side:
-        return Light("half_thickness", "bad", text, f"the mesh is too coarse for this valve: a half thickness of {better:g} "
-                     "would be needed, so refine the mesh near the leaflets", points=ends.mean(axis=1), edges=ends,
-                     valve=scene.number)
-    return Light("half_thickness", "bad", text, f"a half thickness of {better:g} closes them, or a finer mesh",
-                 (f"Set the half thickness to {better:g}", "half_thickness"), points=ends.mean(axis=1), edges=ends,
+        advice = (
+            f"the mesh is too coarse for this valve: a half thickness of {scene.length(better)} would be needed, so refine the mesh "
+            "near the leaflets"
+        )
+        return Light("half_thickness", "bad", text, advice, points=ends.mean(axis=1), edges=ends, valve=scene.number)
+    return Light("half_thickness", "bad", text, f"a half thickness of {scene.length(better)} closes them, or a finer mesh",
+                 (f"Set the half thickness to {scene.length(better)}", "half_thickness"), points=ends.mean(axis=1), edges=ends,
                  valve=scene.number, value=better)
 
 
@@ -213,8 +235,8 @@ def crossing(scene: Scene) -> Light:
     names = [int(leaflet) for leaflet in found.deepest_leaflet_id]
     text = (
         f"{counted(found.n_pairs, 'pair')} of triangles {'goes' if found.n_pairs == 1 else 'go'} through each other, up to "
-        f"{shown(found.deepest_depth)} deep, at "
-        f"{_place(found.deepest_point)} (leaflets {names[0]} and {names[1]})"
+        f"{scene.length(found.deepest_depth)} deep, at "
+        f"{scene.place(found.deepest_point)} (leaflets {names[0]} and {names[1]})"
     )
     is_slight = found.deepest_depth < 0.1 * info.half_thickness
     return Light("crossing", "warn" if is_slight else "bad", text, "change the sizes; undo takes the last change back",
@@ -222,47 +244,69 @@ def crossing(scene: Scene) -> Light:
 
 
 def wall(scene: Scene) -> Light:
-    """Judges the gap between the valve's attachment and the mesh's wall."""
-    state = scene.state
-    boundary = scene.region.wall() if scene.region.has_cells else None
-    if boundary is None:
+    """Judges the gap between the valve's attachment and the wall."""
+    state, given = scene.state, scene.given_wall
+    boundary = None if given is not None or not scene.region.has_cells else scene.region.wall()
+    if given is None and boundary is None:
         return Light("wall", "off", "the mesh has no wall near the valve", valve=scene.number)
     if state.kind == "bileaflet":
-        return _ring(scene, boundary)
+        around = boundary if given is None else given.outward
+        assert around is not None
+        return _ring(scene, around)
     if state.surface is not None:
         return Light("wall", "off", "the attachment of a surface from a file is unknown", valve=scene.number)
+    bare = scene.surface if state.skirt == 0.0 else dataclasses.replace(state, skirt=0.0).made_surface()
     try:
-        gap = scene.surface.gap(boundary)
+        gap = given.gap(bare) if boundary is None and given is not None else bare.gap(boundary)  # type: ignore[arg-type]
     except Error as error:
         return Light("wall", "off", str(error), valve=scene.number)
-    attachment = numpy.array(scene.surface.attachment.edges)
+    attachment = numpy.array(bare.attachment.edges)
     missed = gap.distance >= 1e29
     valve = state.valve()
     assert valve is not None
-    skirt = float(valve["skirt_length"]) * state.scale
+    skirt = state.skirt or float(valve["skirt_length"]) * state.scale
     wide = (gap.distance > skirt + _beyond_rim(state)) & ~missed
     drawn = attachment[wide.any(axis=1) | missed.any(axis=1)]
     n_ends = gap.distance.size
     if gap.n_without_wall == n_ends:
         return Light("wall", "bad", "no part of the attachment has a wall beside it", "move or turn the valve", edges=drawn,
                      valve=scene.number)
-    text = f"the wall is {shown(gap.least)} to {shown(gap.most)} from the attachment"
+    text = f"the wall is {shown(gap.least)} to {scene.length(gap.most)} from the attachment"
     if skirt > 0.0:
-        text += f", the skirt is {shown(skirt)} long"
+        at_most = "reaches it, and is at most" if state.skirt > 0.0 else "is"
+        text += f"; the skirt {at_most} {scene.length(skirt)} long"
     if gap.n_without_wall > 0:
         return Light("wall", "warn", f"{text}; {100 * gap.n_without_wall / n_ends:.0f} % of the attachment has no wall beside it",
                      "move or turn the valve", edges=drawn, valve=scene.number)
+    if state.skirt > 0.0:
+        assert given is not None
+        return _reach(scene, text, given)
     if not wide.any():
         return Light("wall", "good", text, valve=scene.number)
     needed = rounded_up(1.02 * gap.most)
+    if given is not None:  # the attachment moves as the valve opens
+        needed = rounded_up(1.02 * given.widest(state).gap)
     advice = "make the annulus larger, or give the valve a skirt to the wall"
     cure = None
     if needed < 0.5 * scene.largest_side:
-        cure = (f"A skirt of {needed:g} to the wall", "wall")
+        cure = (f"A skirt of {scene.length(needed)} to the wall", "wall")
     else:
         advice = "move the valve, or make its annulus larger: the gap is too wide for a skirt"
     return Light("wall", "bad", f"{text}: blood passes beside the valve", advice, cure, points=gap.widest_point[None, :],
-                 edges=drawn, valve=scene.number, value=needed / state.scale)
+                 edges=drawn, valve=scene.number, value=needed if given is not None else needed / state.scale)
+
+
+def _reach(scene: Scene, text: str, given: Wall) -> Light:
+    """Judges whether a skirt to the wall is long enough at all openings, as the program does."""
+    widest, opening, _ = given.widest(scene.state)
+    if widest <= (1.0 + MOST_BEYOND) * scene.state.skirt:
+        return Light("wall", "good", text, valve=scene.number)
+    needed = rounded_up(1.02 * widest)
+    return Light(
+        "wall", "bad", f"{text}; at the opening {shown(opening)} the wall is up to {scene.length(widest)} away",
+        "the attachment moves as the valve opens: take a longer skirt",
+        (f"A skirt of at most {scene.length(needed)}", "wall"), valve=scene.number, value=needed,
+    )  # fmt: skip
 
 
 def _beyond_rim(state: ValveState) -> float:
@@ -283,7 +327,8 @@ def _ring(scene: Scene, boundary: Surface) -> Light:
     found = boundary.closest_points(ring, side=True, point=False, normal=False, triangle_id=False, leaflet_id=False)
     assert found.side is not None and found.distance is not None
     gap = numpy.where(found.side > 0, -found.distance, found.distance)
-    text = f"the wall is {shown(float(gap.min()))} to {shown(float(gap.max()))} from the {'housing' if height else 'annulus'}"
+    least, most = shown(float(gap.min())), scene.length(float(gap.max()))
+    text = f"the wall is {least} to {most} from the {'housing' if height else 'annulus'}"
     # If the wall meets one of the housing's circles at each angle, it seals the valve. The housing's normals point outwards.
     reach = (1.0 + state.offset) * state.half_thickness if height > 0.0 else _beyond_rim(state)
     is_open = (gap.reshape(len(levels), 72) > reach).all(axis=0)
@@ -296,7 +341,7 @@ def _ring(scene: Scene, boundary: Surface) -> Light:
 def sealed(scene: Scene) -> Light:
     """Judges whether unmarked nodes join the two sides of the valve, and shows the way."""
     if not scene.region.has_edges:
-        return Light("sealed", "off", _no_edges(scene), valve=scene.number)
+        return Light("sealed", "off", _no_edges(scene, "whether the valve seals"), valve=scene.number)
     if len(scene.marks) == 0:
         return Light("sealed", "off", "no node is marked", valve=scene.number)
     ends = _sides(scene)
@@ -308,7 +353,7 @@ def sealed(scene: Scene) -> Light:
     if found.state == "none":
         return Light("sealed", "off", "the mesh itself does not join the two sides of the valve", valve=scene.number)
     if found.state == "closed":
-        return Light("sealed", "good", f"sealed: a half thickness down to {shown(found.distance)} would seal it",
+        return Light("sealed", "good", f"sealed: a half thickness down to {scene.length(found.distance)} would seal it",
                      valve=scene.number)
     is_open = numpy.ones(len(region.points), bool)
     is_open[scene.marks.ids] = False
@@ -321,8 +366,8 @@ def sealed(scene: Scene) -> Light:
     edges = numpy.stack([line[:-1], line[1:]], axis=1) if len(line) > 1 else _NO_EDGES
     # With an offset, the passage is as wide as the half thickness that closes it.
     offset = scene.state.offset
-    width = shown(found.distance)
-    text = f"a passage is open at {_place(found.point)}, " + (
+    width = scene.length(found.distance)
+    text = f"a passage is open at {scene.place(found.point)}, " + (
         f"{width} from the leaflets" if offset == 0.0 else f"which a half thickness of {width} marks"
     )
     points = numpy.array(found.point)[None, :]
@@ -337,7 +382,8 @@ def sealed(scene: Scene) -> Light:
     better = rounded_up(1.01 * found.distance)
     cure = None
     if better <= min(LARGEST_HALF_THICKNESS * scene.largest_side, 2.0 * scene.state.half_thickness):
-        advice, cure = f"a half thickness of {better:g} closes it", (f"Set the half thickness to {better:g}", "sealed")
+        length = scene.length(better)
+        advice, cure = f"a half thickness of {length} closes it", (f"Set the half thickness to {length}", "sealed")
     return Light("sealed", "bad", f"leaking: {text}", advice, cure, points=points, edges=edges, valve=scene.number, value=better)
 
 

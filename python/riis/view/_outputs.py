@@ -1,34 +1,35 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The view's files: a case of the program riis, a command, a script, OpenFOAM's dictionary, and the session.
+"""The view's files: a case of the program riis, a command, a script, and OpenFOAM's dictionary.
 
 Numbers are written with all their digits, so each file gives the same marks, to the last bit.
 """
 
 from __future__ import annotations
 
-import base64
 import json
 import math
 import os
 import shlex
-import zlib
 from collections.abc import Iterable, Mapping
-from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
-import numpy
-
-from riis._errors import Error, InvalidArgumentError
 from riis._place import UNITS
 from riis._riis import resistance_units
 from riis.laws import OpeningTable, OpeningTimes
 from riis.view._domains import OPTION
-from riis.view._valves import (
-    KINDS, SURFACE, TRIANGULATIONS, Cycle, SurfaceSource, Value, ValveState, above_zero, at_least_zero, check_valve_name,
-    number, refuse, share,
-)
+from riis.view._landmark_files import nested
+from riis.view._landmarks import warp_object
+from riis.view._valves import KINDS, Value, ValveState, refuse
+from riis.view._walls import Wall
 
-_FORMAT, _VERSION = "riis view", 1
+class Facts(NamedTuple):
+    """What the files say besides the valves."""
+
+    unit: str | None
+    path: str | None  #: of the mesh
+    cells_where: str | None
+    wall: Wall | None
+    is_wall_alone: bool  #: whether there is no mesh
 
 
 def has_unit(states: Iterable[ValveState], unit: str | None) -> bool:
@@ -47,15 +48,13 @@ def _check_paths(states: Iterable[ValveState]) -> None:
             raise refuse(f"valve {k}: its surface has no file, so no other program can read it; add it with a path")
 
 
-def _nested(parameters: Mapping[str, Value]) -> dict[str, Any]:
-    made: dict[str, Any] = {}
-    for name, value in parameters.items():
-        *part, last = name.split(".")
-        (made.setdefault(part[0], {}) if part else made)[last] = list(value) if isinstance(value, tuple) else value
-    return made
+def _wall_path(facts: Facts) -> str:
+    if facts.wall is None or facts.wall.path is None:
+        raise refuse("wall: has no file, so no other program can read it; make it with a path")
+    return os.path.abspath(facts.wall.path)
 
 
-def _law(law: OpeningTable | OpeningTimes) -> dict[str, Any]:
+def law_values(law: OpeningTable | OpeningTimes) -> dict[str, Any]:
     """Returns a law with the keys of a case."""
     if isinstance(law, OpeningTable):
         made: dict[str, Any] = {"times": law.time.tolist(), "openings": law.opening.tolist(), "interpolation": law.interpolation}
@@ -82,10 +81,9 @@ def _times_of_surfaces(states: Iterable[ValveState]) -> list[float] | None:
     return [now, now + (moving[0].surface.period or float(times[-1] - times[0])) / 50.0]
 
 
-def case_of(
-    states: tuple[ValveState, ...], unit: str | None, path: str | None, cells_where: str | None, times: list[float] | None
-) -> str:
+def case_of(states: tuple[ValveState, ...], facts: Facts, times: list[float] | None) -> str:
     """Returns a case. Without times the valves keep their openings, and surfaces keep their time."""
+    unit, path, cells_where = facts.unit, facts.path, facts.cells_where
     _check_paths(states)
     if not states:
         raise refuse("valves: there are none; a case needs one")
@@ -113,14 +111,18 @@ def case_of(
                 valve["surface_unit"] = "cm"
         else:
             valve["valve"] = state.kind
-            valve["parameters"] = _nested(state.parameters)
-            valve["opening"] = state.opening if stays or state.cycle is None else _law(state.cycle.law)
+            valve["parameters"] = nested(state.parameters)
+            valve["opening"] = state.opening if stays or state.cycle is None else law_values(state.cycle.law)
             if state.triangulation != "adapted":
                 valve["triangulation"] = state.triangulation
         if not with_unit:
             valve["scale"] = state.scale
         valve["rotate"] = list(state.rotation)
         valve["translate"] = list(state.origin)
+        if state.warp is not None:
+            valve["warp"] = warp_object(state.warp)
+        if state.skirt > 0.0:
+            valve["skirt"], valve["wall"] = state.skirt, _wall_path(facts)
         valve["half_thickness"] = state.half_thickness
         if state.offset != 0.0:
             valve["offset"] = state.offset
@@ -133,22 +135,34 @@ def _numbers(values: Iterable[float]) -> str:
     return ",".join(repr(float(value)) for value in values)
 
 
+def is_from_its_file(state: ValveState, facts: Facts) -> bool:
+    """Returns whether a command names the file of the placed valve. The valve may have other sizes than there."""
+    source = state.placed
+    return source is not None and has_unit([state], facts.unit) and source.unit == facts.unit and source.places(state)
+
+
 def command_of(
-    states: tuple[ValveState, ...], unit: str | None, path: str | None, cells_where: str | None, case: str, output: str,
-    program: str,
+    states: tuple[ValveState, ...], facts: Facts, case: str, output: str, program: str, warp: str
 ) -> str:
     _check_paths(states)
     if not states:
         raise refuse("valves: there are none; a command needs one")
-    state = states[0]
+    state, unit, path = states[0], facts.unit, facts.path
+    if facts.is_wall_alone:
+        if len(states) > 1:
+            raise refuse(f"valves: there are {len(states)}; without a mesh a command writes the surface of one valve")
+        output = os.path.splitext(output)[0] + ".vtp"
     if len(states) > 1:
         if _times_of_surfaces(states) is not None:  # the case has times, so the program writes a series
             output = os.path.splitext(output)[0] + ".pvd"
         return shlex.join([program, "mark", "--case", case, "--output", output])
-    words = [program, "mark", os.path.abspath(path) if path is not None else "MESH.vtu"]
-    if cells_where is not None:
-        words.append(f"{OPTION}={cells_where}")
+    words = [program, "mark", "MESH.vtu" if path is None else os.path.abspath(path)]
+    if facts.is_wall_alone:
+        words = [program, "surface"]
+    if facts.cells_where is not None:
+        words.append(f"{OPTION}={facts.cells_where}")
     with_unit = has_unit(states, unit)
+    is_placed = is_from_its_file(state, facts)
     if state.surface is not None:
         words.append(f"--surface={os.path.abspath(str(state.surface.path))}")
         if state.surface.moves:
@@ -158,20 +172,32 @@ def command_of(
         if with_unit:
             words.append("--surface-unit=cm")
     else:
-        words.append(f"--valve={state.kind}")
+        known: Mapping[str, Value] = {}
+        if is_placed and state.placed is not None:
+            known = state.placed.parameters
+            words.append(f"--valve={state.placed.path}")
+        else:
+            words.append(f"--valve={state.kind}")
         for name, value in state.parameters.items():
-            words.append(f"--set={name}={_numbers(value if isinstance(value, tuple) else (value,))}")
+            if known.get(name) != value:
+                words.append(f"--set={name}={_numbers(value if isinstance(value, tuple) else (value,))}")
         words.append(f"--opening={state.opening!r}")
         if state.triangulation != "adapted":
             words.append(f"--triangulation={state.triangulation}")
     words.append(f"--unit={unit}" if with_unit else f"--scale={state.scale!r}")
-    words += [f"--rotate={_numbers(state.rotation)}", f"--translate={_numbers(state.origin)}"]
-    resistance = state.resistance if with_unit else _resistance(state, unit)  # without --unit it is in the mesh's units
+    if not is_placed:
+        words += [f"--rotate={_numbers(state.rotation)}", f"--translate={_numbers(state.origin)}"]
+        if state.warp is not None:
+            words.append(f"--warp={warp}")
+    if state.skirt > 0.0:
+        words += [f"--skirt={state.skirt!r}", f"--wall={_wall_path(facts)}"]
     words.append(f"--half-thickness={state.half_thickness!r}")
-    if state.offset != 0.0:
-        words.append(f"--offset={state.offset!r}")
-    words += [f"--resistance={resistance!r}", f"--output={output}"]
-    return shlex.join(words)
+    if not facts.is_wall_alone:
+        if state.offset != 0.0:
+            words.append(f"--offset={state.offset!r}")
+        resistance = state.resistance if with_unit else _resistance(state, unit)  # without --unit it is in the mesh's units
+        words.append(f"--resistance={resistance!r}")
+    return shlex.join([*words, f"--output={output}"])
 
 
 # ---- Python ----
@@ -184,12 +210,14 @@ def _units_of_K(unit: str | None) -> str:
     return f"  # in {of_K}, with R in {of_R}"
 
 
-def python_of(states: tuple[ValveState, ...], unit: str | None, path: str | None, cells_where: str | None) -> str:
+def python_of(states: tuple[ValveState, ...], facts: Facts) -> str:
     _check_paths(states)
+    unit, path, cells_where = facts.unit, facts.path, facts.cells_where
+    has_skirt = any(state.skirt > 0.0 for state in states)
     reads_part = path is not None and cells_where is not None
     uses_files = (path is not None and not reads_part) or any(state.surface is not None for state in states)
     lines = ["import numpy"] + (["import pyvista"] if uses_files else []) + ["import riis"]
-    lines += ["from riis.view import reading", ""] if reads_part else [""]
+    lines += ["from riis.view import reading", ""] if reads_part or has_skirt else [""]
     if path is None:
         lines.append("# points: (n, 3) float64, the nodes of the mesh")
     elif reads_part:
@@ -198,6 +226,8 @@ def python_of(states: tuple[ValveState, ...], unit: str | None, path: str | None
     else:
         lines.append(f"points = numpy.array(pyvista.read({os.path.abspath(path)!r}).points, numpy.float64)")
     lines += ["mesh = riis.Mesh(points)", "K = numpy.zeros(len(mesh))" + _units_of_K(unit), "marks = {}"]
+    if has_skirt:
+        lines.append(f"wall = reading.read_wall({_wall_path(facts)!r}).surface")
     for state in states:
         lines.append("")
         options = ", ".join(f"{key}={value!r}" for key, value in state.options.items())
@@ -208,12 +238,30 @@ def python_of(states: tuple[ValveState, ...], unit: str | None, path: str | None
                 lines += [f"    {name!r}: {value!r}," for name, value in state.parameters.items()]
                 lines.append("})")
             lines.append(f'valve["opening"] = {state.opening!r}')
+            lines += _python_of_warp(state)
+            if state.skirt > 0.0:
+                where = ", ".join(f"{key}={value!r}" for key, value in state.placement.items())
+                lines.append(f"valve.skirt_to_wall(wall, {state.skirt!r}, {where})")
             lines.append(f"surface = riis.Surface(valve, {options})")
         else:
             lines += _python_of_surface(state, options)
         lines.append(f"marks[{state.name!r}] = riis.mark(surface, mesh)")
         lines.append(f"marks[{state.name!r}].add_resistance(K, R={_resistance(state, unit)!r})")
     return "\n".join(lines) + "\n"
+
+
+def _python_of_warp(state: ValveState) -> list[str]:
+    warp = state.warp
+    if warp is None:
+        return []
+    where = ", placement={" + ", ".join(f"{key!r}: {value!r}" for key, value in state.placement.items()) + "}"
+    return [
+        f"sources = numpy.array({warp.sources.tolist()!r})",
+        f"targets = numpy.array({warp.targets.tolist()!r})",
+        f"warp = riis.Warp(sources, noise={warp.noise!r}{where if warp.is_in_mesh else ''})",
+        "warp.set_targets(targets)",
+        "valve.set_warp(warp)",
+    ]
 
 
 def _python_of_surface(state: ValveState, options: str) -> list[str]:
@@ -266,6 +314,16 @@ def _foam_law(state: ValveState) -> list[str]:
     ]
 
 
+def _foam_warp(state: ValveState, metres: float) -> list[str]:
+    if state.warp is None:
+        return []
+    warp, lines = state.warp.in_mesh(state.placement), ["    warp", "    {"]
+    for name, points in (("sources", warp.sources), ("targets", warp.targets)):
+        lines += [f"        {name}", "        ("]
+        lines += [f"            {_foam(metres * x for x in point)}" for point in points.tolist()] + ["        );"]
+    return [*lines, f"        noise {metres * warp.noise!r};", "    }"]
+
+
 def openfoam_of(states: tuple[ValveState, ...], unit: str | None, density: float) -> str:
     if not density > 0.0 or not math.isfinite(density):
         raise refuse(f"density: is {density!r}; it must be above 0")
@@ -284,125 +342,10 @@ def openfoam_of(states: tuple[ValveState, ...], unit: str | None, density: float
                   for name, value in state.parameters.items()]
         lines += ["    }", "    placement", "    {", f"        scale {metres * state.scale!r};",
                   f"        rotationAxis {_foam(state.rotation[:3])};", f"        rotationAngle {state.rotation[3]!r};",
-                  f"        translation {_foam(metres * x for x in state.origin)};", "    }", "    opening", "    {"]
+                  f"        translation {_foam(metres * x for x in state.origin)};", "    }"]
+        lines += _foam_warp(state, metres)
+        if state.skirt > 0.0:  # the wall is a patch of the mesh
+            lines += ["    skirt", "    {", "        patch wall;", f"        longest {metres * state.skirt!r};", "    }"]
+        lines += ["    opening", "    {"]
         lines += [f"        {line}" for line in _foam_law(state)] + ["    }", "}", ""]
     return "\n".join(lines)
-
-
-# ---- Sessions ----
-
-
-def _packed(array: Any) -> dict[str, Any]:
-    array = numpy.ascontiguousarray(array)
-    data = base64.b64encode(zlib.compress(array.tobytes())).decode("ascii")
-    return {"type": array.dtype.str, "shape": list(array.shape), "zlib": data}
-
-
-def _unpacked(value: Any) -> Any:
-    data = zlib.decompress(base64.b64decode(value["zlib"]))
-    return numpy.frombuffer(data, numpy.dtype(value["type"])).reshape(value["shape"]).copy()
-
-
-def session_of(
-    states: tuple[ValveState, ...], unit: str | None, path: str | None, cells_where: str | None, n_nodes: int, time: float,
-    page: Mapping[str, Any] | None,
-) -> str:
-    valves = []
-    for state in states:
-        valve: dict[str, Any] = {
-            "name": state.name, "kind": state.kind, "parameters": _nested(state.parameters), "opening": state.opening,
-            "half_thickness": state.half_thickness, "resistance": state.resistance, "scale": state.scale,
-            "rotate": list(state.rotation), "origin": list(state.origin), "triangulation": state.triangulation,
-            "time": state.time, "offset": state.offset,
-        }
-        if state.cycle is not None:
-            valve["cycle"] = {"source": state.cycle.source, "period": state.cycle.period, "law": _law(state.cycle.law)}
-        if state.surface is not None:
-            source = state.surface
-            valve["surface"] = {
-                "path": source.path, "period": source.period,
-                "vertices": _packed(source.vertices), "faces": _packed(source.faces),
-                "leaflet_id": None if source.leaflet_id is None else _packed(source.leaflet_id),
-                "times": None if source.times is None else _packed(source.times),
-            }
-        valves.append(valve)
-    root: dict[str, Any] = {
-        "format": _FORMAT, "version": _VERSION, "mesh": path, "n_nodes": n_nodes, "unit": unit, "time": time, "valves": valves,
-    }
-    if cells_where is not None:
-        root["cells_where"] = cells_where
-    if page is not None:
-        root["page"] = page
-    return json.dumps(root, indent=2) + "\n"
-
-
-def _law_from(values: Mapping[str, Any]) -> OpeningTable | OpeningTimes:
-    if "times" in values:
-        return OpeningTable(
-            numpy.array(values["times"], numpy.float64), numpy.array(values["openings"], numpy.float64),
-            float(values.get("period", 0.0)), values["interpolation"],
-        )
-    return OpeningTimes(**{key: float(value) for key, value in values.items()})
-
-
-def _state_from(value: Mapping[str, Any]) -> ValveState:
-    parameters: dict[str, Value] = {}
-    for name, inner in value["parameters"].items():
-        for part, size in (inner.items() if isinstance(inner, dict) else (("", inner),)):
-            full = f"{name}.{part}" if part else name
-            parameters[full] = tuple(float(x) for x in size) if isinstance(size, list) else float(size)
-    cycle, surface = value.get("cycle"), value.get("surface")
-    if cycle is not None and not isinstance(cycle["source"], str):
-        raise ValueError(f"source of the cycle is {cycle['source']!r}")
-    if value["kind"] not in (*KINDS, SURFACE) or (value["kind"] == SURFACE) != (surface is not None):
-        raise ValueError(f"kind is {value['kind']!r}")
-    if value["triangulation"] not in TRIANGULATIONS:
-        raise ValueError(f"triangulation is {value['triangulation']!r}")
-    axis_x, axis_y, axis_z, angle = (float(x) for x in value["rotate"])
-    x, y, z = (float(part) for part in value["origin"])
-    return ValveState(
-        name=check_valve_name(value["name"]), kind=value["kind"], opening=share(value["opening"], "opening"),
-        half_thickness=above_zero(value["half_thickness"], "half_thickness"),
-        resistance=at_least_zero(value["resistance"], "resistance"), scale=above_zero(value["scale"], "scale"),
-        rotation=(axis_x, axis_y, axis_z, angle), origin=(x, y, z), parameters=MappingProxyType(parameters),
-        triangulation=value["triangulation"], time=number(value["time"], "time"),
-        offset=number(value.get("offset", 0.0), "offset"),  # sessions of earlier versions have none
-        cycle=None if cycle is None else Cycle(cycle["source"], _law_from(cycle["law"]), above_zero(cycle["period"], "period")),
-        surface=None if surface is None else SurfaceSource(
-            _unpacked(surface["vertices"]), _unpacked(surface["faces"]),
-            None if surface["leaflet_id"] is None else _unpacked(surface["leaflet_id"]),
-            None if surface["times"] is None else _unpacked(surface["times"]), float(surface["period"]), surface["path"],
-        ),
-    )
-
-
-def read_session(path: str) -> tuple[dict[str, Any], tuple[ValveState, ...]]:
-    """Reads a session. Returns the file's root and its valves. The valves' values are checked by making their surfaces."""
-    try:
-        with open(path, encoding="utf-8") as file:
-            root = json.load(file)
-    except (OSError, ValueError, RecursionError) as error:
-        raise refuse(f"path: {path!r} cannot be read as a session: {error}") from None
-    if not isinstance(root, dict) or root.get("format") != _FORMAT:
-        raise refuse(f"path: {path!r} is not a session of the view")
-    if root.get("version") != _VERSION:
-        raise refuse(f"path: {path!r} has the version {root.get('version')!r}; this release reads {_VERSION}")
-    try:
-        if root["mesh"] is not None and not isinstance(root["mesh"], str):
-            raise ValueError(f"mesh is {root['mesh']!r}")
-        if not isinstance(root.setdefault("cells_where", None), (str, type(None))):
-            raise ValueError(f"cells_where is {root['cells_where']!r}")
-        if root["unit"] is not None and root["unit"] not in UNITS:
-            raise ValueError(f"unit is {root['unit']!r}")
-        root["time"], root["n_nodes"] = number(root["time"], "time"), int(root["n_nodes"])
-        states = tuple(_state_from(value) for value in root["valves"])
-        names = [state.name for state in states]
-        if len(set(names)) < len(names):
-            raise ValueError(f"the names of the valves are {', '.join(names)}; they must differ")
-        if not isinstance(root.setdefault("page", {}), dict):
-            raise ValueError(f"page is {root['page']!r}")
-    except Error as error:
-        raise type(error)(f"path: {path!r} is damaged: {error}") from None
-    except (AttributeError, KeyError, TypeError, ValueError, zlib.error) as error:
-        raise InvalidArgumentError(f"path: {path!r} is damaged: {type(error).__name__} {error}") from None
-    return root, states

@@ -28,6 +28,7 @@ class Part:
     _drag: tuple[Any, float] | None
     _drag_stack: ExitStack
     _clicks: list[Any]
+    _renew_wall: Any
     _playing: asyncio.Task[None] | None
     _written: set[Path]
     _text_name: str

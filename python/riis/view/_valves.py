@@ -15,7 +15,7 @@ import numpy
 from numpy.typing import NDArray
 
 from riis._errors import InvalidArgumentError, UnknownParameterError
-from riis._riis import Keyframes, Surface, Valve
+from riis._riis import Keyframes, Surface, Valve, Warp
 from riis.laws import OpeningTable, OpeningTimes
 
 Reals = NDArray[numpy.float64]
@@ -100,6 +100,61 @@ class SurfaceSource:
         return self.times is not None
 
 
+@dataclass(frozen=True, eq=False)
+class WarpState:
+    """Landmarks on the closed valve, and the places in the patient to which the valve is warped."""
+
+    sources: Reals  #: (n, 3)
+    targets: Reals  #: (n, 3)
+    noise: float  #: by which the warp is smoothed
+    is_in_mesh: bool  #: whether both lie in the mesh, where the valve's placement puts it; otherwise in the valve's own frame
+
+    def warp(self, placement: Mapping[str, Any]) -> Warp:
+        made = Warp(self.sources, noise=self.noise, placement=dict(placement) if self.is_in_mesh else None)
+        made.set_targets(self.targets)
+        return made
+
+    def in_own_frame(self, placement: Mapping[str, Any]) -> WarpState:
+        """Returns the same warp in the valve's own frame. A valve that is moved by hand takes its warp along."""
+        if not self.is_in_mesh:
+            return self
+        scale, origin = float(placement["scale"]), numpy.array(placement["translation"])
+        matrix = matrix_of((*vector(placement["rotation_axis"]), float(placement["rotation_angle"])))
+        sources, targets = (
+            numpy.ascontiguousarray((points - origin) @ matrix / scale) for points in (self.sources, self.targets)
+        )
+        return WarpState(sources, targets, self.noise / scale, False)
+
+    def in_mesh(self, placement: Mapping[str, Any]) -> WarpState:
+        """Returns the same warp in the mesh, where a placement puts the valve."""
+        if self.is_in_mesh:
+            return self
+        scale, origin = float(placement["scale"]), numpy.array(placement["translation"])
+        matrix = matrix_of((*vector(placement["rotation_axis"]), float(placement["rotation_angle"])))
+        sources, targets = (
+            numpy.ascontiguousarray(scale * points @ matrix.T + origin) for points in (self.sources, self.targets)
+        )
+        return WarpState(sources, targets, scale * self.noise, True)
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedSource:
+    """The file of a placed valve that was opened, with what it says of the valve."""
+
+    path: str
+    kind: str
+    unit: str  #: of the placement below
+    parameters: Mapping[str, Value]
+    rotation: tuple[float, float, float, float]
+    origin: Vector
+    warp: WarpState | None
+
+    def places(self, state: ValveState) -> bool:
+        """Returns whether the file still gives the valve's placement and warp, so that a command can name it."""
+        mine = (self.kind, self.rotation, self.origin, self.warp)
+        return mine == (state.kind, state.rotation, state.origin, state.warp) and set(self.parameters) <= set(state.parameters)
+
+
 @dataclass(frozen=True)
 class ValveState:
     """A valve in the view. It is a snapshot, because the model makes a new one for each change.
@@ -122,6 +177,11 @@ class ValveState:
     surface: SurfaceSource | None = None
     time: float = 0.0  #: of a surface that moves
     offset: float = 0.0  #: of the band, in half thicknesses along the normals
+    warp: WarpState | None = None
+    skirt: float = 0.0  #: the longest skirt to the wall, mesh units; 0: none
+    placed: PlacedSource | None = None  #: the file from which the valve came
+    sized: tuple[str, ...] = field(default=(), compare=False)  #: the sizes on which the landmarks of the last place bear
+    found: Any = field(default=None, compare=False)  #: the PlaceResult or FitResult that gave the present sizes and placement
 
     @property
     def matrix(self) -> Reals:
@@ -157,12 +217,23 @@ class ValveState:
         return made
 
     def valve(self) -> Valve | None:
-        """Makes the valve. A surface from a file has none."""
+        """Makes the valve, without its skirt to the wall. A surface from a file has none."""
         if self.surface is not None:
             return None
         made = Valve(self.kind)
         made.update(self.parameters)
         made["opening"] = self.opening
+        if self.warp is not None:
+            made.set_warp(self.warp.warp(self.placement))
+        return made
+
+    def valve_in(self, wall: Surface | None) -> Valve | None:
+        """Makes the valve with its skirt to the wall."""
+        made = self.valve()
+        if made is not None and self.skirt > 0.0:
+            if wall is None:
+                raise refuse(f"wall: is None; the valve {self.name} has a skirt to a wall")
+            made.skirt_to_wall(wall, self.skirt, **self.placement)
         return made
 
     def keyframes(self) -> Keyframes | None:
@@ -171,10 +242,15 @@ class ValveState:
             return None
         return Keyframes(source.times, source.vertices, source.faces, leaflet_id=source.leaflet_id, period=source.period)
 
-    def made_surface(self, keyframes: Keyframes | None = None) -> Surface:
-        """Makes the surface."""
+    def has_skirt_of(self, other: ValveState) -> bool:
+        """Returns whether another valve has the same skirt to the same wall."""
+        names = ("kind", "parameters", "rotation", "origin", "scale", "warp", "skirt")
+        return all(getattr(self, name) == getattr(other, name) for name in names)
+
+    def made_surface(self, keyframes: Keyframes | None = None, valve: Valve | None = None) -> Surface:
+        """Makes the surface, of a valve with its skirt if that is given."""
         source = self.surface
-        valve = self.valve()
+        valve = self.valve() if valve is None else valve
         if valve is not None:
             return Surface(valve, **self.options)
         assert source is not None

@@ -52,7 +52,8 @@ class Details(Part):
         parameters = self.model.parameters(valve.kind)
 
         def slider(parameter: Any, label: str) -> dict[str, Any]:
-            return rows.slider_of(parameter, float(values[parameter.name]), parameter.name in valve.parameters, label)
+            value, is_set = float(values[parameter.name]), parameter.name in valve.parameters
+            return rows.slider_of(parameter, value, is_set, valve.scale, self.model.unit or "", label)
 
         sizes = sizes_of(parameters)
         state.sizes = list(sizes)

@@ -12,11 +12,16 @@ from typing import Any
 import numpy
 
 from riis.view import reading, rows, saving
+from riis.view._numbers import in_unit
 from riis.view._part import Part
+from riis.view.patient import PLACING
 
 
 class Hand(Part):
     """The part of a Page that answers sliders, fields, clicks and drags."""
+
+    _set_landmark_at: Any
+    _show_landmarks: Any
 
     # sliders and parameters
 
@@ -27,7 +32,17 @@ class Hand(Part):
         if math.isclose(value, self._slider_values[k], rel_tol=1e-12, abs_tol=1e-12):
             return
         self._slider_values[k] = value
-        self._move(lambda: self.model.set(self.state.current, name, value), ("set", self.state.current, name))
+        own = self._in_own_unit(name, value)
+        self._move(lambda: self.model.set(self.state.current, name, own), ("set", self.state.current, name))
+
+    def _in_own_unit(self, name: str, value: float) -> float:
+        """Returns a number on the screen in the unit of the parameter. On the screen, all lengths have the mesh's unit."""
+        valve = self._valve()
+        if valve.surface is None:
+            for parameter in self.model.parameters(valve.kind):
+                if parameter.name == name:
+                    return in_unit(value, 1.0 / rows.factor_of(parameter, valve.scale))
+        return value
 
     def _move(self, change: Callable[[], Any], what: Any) -> None:
         """Makes a change. Changes of the same thing in one drag, or in quick succession, are one step of undo.
@@ -58,12 +73,24 @@ class Hand(Part):
         self._begin_change()
         if value is None:
             self.model.unset(self.state.current, name)
+        elif name == "resistance":
+            self._set_resistance(str(value).strip())
         else:
-            numbers = [reading.number_of(part, name) for part in str(value).replace(",", " ").split()]
+            numbers = [
+                self._in_own_unit(name, reading.number_of(part, name)) for part in str(value).replace(",", " ").split()
+            ]
             if not numbers:
                 raise reading.Refusal(f"{name}: is empty; it must be a number")
             self.model.set(self.state.current, name, numbers if len(numbers) > 1 else numbers[0])
         self._renew_all()
+
+    def _set_resistance(self, text: str) -> None:
+        """Sets R from a number or from a text with a unit."""
+        try:
+            number: Any = float(text)
+        except ValueError:
+            number = text
+        self.model.set(self.state.current, "resistance", number)
 
     def _changed_kind(self) -> None:
         if self.model is None or self.state.is_surface or self.state.kind == self._valve().kind:
@@ -138,12 +165,15 @@ class Hand(Part):
         self._moved.set()
 
     def _on_click(self, x: float, y: float) -> None:
-        if self.scene is None or self.state.tool != "click":
+        if self.scene is None or self.state.tool not in ("click", PLACING):
             return
         self._need_model()
         point = self.scene.pick(x, y)
         if point is None:
-            raise reading.Refusal("the click met no wall of the mesh; click on the wall where the annulus is")
+            raise reading.Refusal("the click met no wall; click on the wall where the annulus is")
+        if self.state.tool == PLACING:
+            self._set_landmark_at(point)
+            return
         self._clicks.append(point)
         self.scene.show_points(self._clicks)
         with self.state as state:
@@ -159,6 +189,11 @@ class Hand(Part):
         self._moved.set()
 
     def _changed_tool(self) -> None:
+        if self.scene is not None and self.state.tool != PLACING and self.state.landmark:
+            with self.state as state:
+                state.landmark = ""
+            self._show_landmarks()
+            self._moved.set()
         if self.scene is not None and self.state.tool != "click" and self._clicks:
             self._clicks = []
             self.scene.show_points([])
@@ -174,7 +209,7 @@ class Hand(Part):
             self.scene.zoom(dy)
         elif tool == "pan":
             self.scene.move_view(dx, dy)
-        elif tool in ("look", "click"):
+        elif tool in ("look", "click", PLACING):
             self.scene.turn_view(dx, dy)
         else:
             self._held = True
@@ -210,6 +245,14 @@ class Hand(Part):
         self._need_model()
         self._look(how)
         self._moved.set()
+
+    def _look_at_all(self) -> None:
+        """Looks at the whole mesh or wall, in which the valve is not yet placed."""
+        lower, upper = self.model.bounds if self.model.wall is None else (self.model.wall.lower, self.model.wall.upper)
+        valve = self._valve()
+        reach = 0.45 * float(numpy.linalg.norm(upper - lower))
+        self.scene.look("oblique", 0.5 * (lower + upper), valve.axis, valve.reference, reach)
+        self.scene.cut_here(valve.origin, valve.axis)
 
     def _look(self, how: str) -> None:
         valve = self._valve()

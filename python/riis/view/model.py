@@ -15,6 +15,7 @@ one thread at a time.
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
 import os
 import re
@@ -28,15 +29,17 @@ from typing import Any, Literal, NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from riis._place import UNITS, PlaceResult, place
+from riis._place import UNITS
 from riis._riis import Marks, Surface, mark, read_resistance
-from riis.view import _outputs
+from riis.view import _outputs, _sessions
 from riis.view._annulus import annulus_of, placed_by
 from riis.view._bumps import BumpedValves
 from riis.view._cells import Region, WholeMesh
 from riis.view._cycles import CYCLES, cycle_of
-from riis.view._history import Placed
+from riis.view._history import Placed, Snapshot
+from riis.view._landmarks import LandmarkedValves, warp_object
 from riis.view._lights import JUDGES, NAMES, Light, Scene, worst
+from riis.view._walls import Wall
 from riis.view._orifice import outline_of
 from riis.view._valves import (
     KINDS, SURFACE, TRIANGULATIONS, Cycle, Parameter, SurfaceSource, Value, ValveState, above_zero,
@@ -73,16 +76,17 @@ class Shown(NamedTuple):
     milliseconds: float  #: the time of the last change of the surfaces and of these marks
 
 
-class Model(BumpedValves):
+class Model(BumpedValves, LandmarkedValves):
     """A mesh with valves that can be moved, changed, judged and written.
 
-    points   (n, 3): the nodes
+    points   (n, 3): the nodes. None: there is no mesh, only a wall
     cells    volume cells as riis.Adjacency.from_cells takes them: (n, 4, 5, 6 or 8), or flat with offsets. None: nodes only
     offsets  (n_cells + 1,): where each cell begins in cells
     types    (n_cells,): VTK's types of the cells. With types, cells may also be triangles, lines or quadratic
     unit     of the mesh: "mm", "cm" or "m". None: not known
     path     the file of the mesh, for the files and commands that the model writes
     cells_where  NAME=VALUES, if the arrays are only these cells of the file
+    wall     the wall around the valve, to which skirts lead. None: the boundary of the cells is the wall
     """
 
     def __init__(
@@ -95,14 +99,18 @@ class Model(BumpedValves):
         unit: Literal["mm", "cm", "m"] | None = None,
         path: str | os.PathLike[str] | None = None,
         cells_where: str | None = None,
+        wall: Wall | None = None,
         _near: bool = False,
     ) -> None:
+        if points is None and wall is None:
+            raise refuse("points: is None, and so is wall; the view needs a mesh or a wall")
         if unit is not None and unit not in UNITS:
             raise refuse(f"unit: is {unit!r}; it must be {', '.join(UNITS)}")
         self._mesh = WholeMesh(points, cells, offsets=offsets, types=types, near=_near)
         self._path = None if path is None else os.fspath(path)
         self._cells_where = cells_where
         super().__init__(unit)
+        self._wall = wall
         self._time = 0.0
         self._shown: Shown | None = None
         self._lights: list[Light] | None = None
@@ -144,8 +152,9 @@ class Model(BumpedValves):
 
     @property
     def bounds(self) -> tuple[Reals, Reals]:
-        """The least and the largest coordinates of the mesh."""
-        return self._mesh.lower, self._mesh.upper
+        """The least and the largest coordinates of the mesh, or of the wall if there is no mesh."""
+        box = self._wall if self._mesh.is_missing and self._wall is not None else self._mesh
+        return box.lower, box.upper
 
     def parameters(self, kind: str) -> list[Parameter]:
         """Returns the sizes of a kind. The most important sizes come first."""
@@ -229,7 +238,8 @@ class Model(BumpedValves):
             raise refuse(f"i: valve {i} is a surface from a file, which has no kind")
         if check_kind(kind) != state.kind:
             name = self._free_name(kind) if re.fullmatch(state.kind + "(_[0-9]+)?", state.name) else state.name
-            self._replace(i, None, kind=kind, parameters=MappingProxyType({}), name=name)
+            skirt = 0.0 if kind == "bileaflet" else state.skirt  # its housing takes the place of a skirt
+            self._replace(i, None, kind=kind, parameters=MappingProxyType({}), name=name, warp=None, skirt=skirt)
 
     def set(self, i: int, name: str, value: Any) -> None:
         """Sets a parameter of a valve, or "opening", "half_thickness", "offset", "resistance", "scale", "triangulation", "name".
@@ -339,26 +349,8 @@ class Model(BumpedValves):
         state = self._at(i).state
         if state.surface is not None:
             raise refuse(f"i: valve {i} is a surface from a file, which has no annulus")
-        self._replace(i, ("clicks", i), **placed_by(state, points3))
-
-    def place_by_landmarks(self, i: int, landmarks: Mapping[str, Any] | str | os.PathLike[str], **options: Any) -> PlaceResult:
-        """Places and sizes a valve by a patient's landmarks, as riis.place does, with its options. Returns its result."""
-        state = self._at(i).state
-        valve = state.valve()
-        if valve is None:
-            raise refuse(f"i: valve {i} is a surface from a file, which has no landmarks")
-        if self._unit is None:
-            raise refuse("unit: is None; landmarks need the unit of the mesh")
-        if options.get("warp", "none") != "none":
-            raise refuse(f"warp: is {options['warp']!r}; the view has no warped valves")
-        found = place(landmarks, valve, unit=self._unit, **options)  # type: ignore[arg-type]
-        at = found.placement
-        x, y, z = vector(at["rotation_axis"])
-        self._replace(
-            i, ("landmarks", i), parameters=values_that_were_set(found.valve), scale=float(at["scale"]),
-            rotation=(x, y, z, float(at["rotation_angle"])), origin=vector(at["translation"]),
-        )
-        return found
+        bare = dataclasses.replace(state, warp=None)
+        self._replace(i, ("clicks", i), warp=None, **placed_by(bare, points3))
 
     # ---- Marks ----
 
@@ -368,7 +360,7 @@ class Model(BumpedValves):
             box = _box_of_band(placed.surface)
             lower, upper = numpy.minimum(lower, box[0]), numpy.maximum(upper, box[1])
         if not self._placed:
-            lower = upper = (self._mesh.lower + self._mesh.upper) / 2.0
+            lower = upper = (self.bounds[0] + self.bounds[1]) / 2.0
         return self._mesh.region(lower, upper)
 
     def update(self) -> Shown:
@@ -429,7 +421,7 @@ class Model(BumpedValves):
     def _scenes(self) -> list[Scene]:
         region = self._region()
         return [
-            Scene(k, placed.state, placed.surface, placed.marks, region, self._mesh, self._unit)
+            Scene(k, placed.state, placed.surface, placed.marks, region, self._mesh, self._unit, self._wall)
             for k, placed in enumerate(self._placed)
         ]
 
@@ -447,7 +439,7 @@ class Model(BumpedValves):
         light = self._light(name)
         if light.cure is None:
             raise refuse(f"name: the light {name} is {light.level} and offers no cure: {light.text}")
-        with self._one_step():
+        with self.one_step():
             self._cure(light)
 
     def _cure(self, light: Light) -> None:
@@ -455,9 +447,12 @@ class Model(BumpedValves):
         if name == "unit":
             self._rescale(light.value)
         elif name == "inside":
-            self._move_inside(i)
+            self.move_inside(i)
         elif name == "wall":
-            self.set(i, "skirt_length", light.value)
+            if self._wall is not None:
+                self.set_skirt(i, light.value)
+            else:
+                self.set(i, "skirt_length", light.value)
         else:
             # A new half thickness changes the triangles a little, so the light is read again.
             length = light.value
@@ -479,10 +474,11 @@ class Model(BumpedValves):
         unit = next((known for known, size in UNITS.items() if scale == size), None)
         self._change(states, unit if all(state.surface is None for state in states) else self._unit)
 
-    def _move_inside(self, i: int) -> None:
+    def move_inside(self, i: int) -> None:
+        """Moves a valve to the middle of the mesh, or of the wall if there is no mesh."""
         placed = self._at(i)
         info = placed.surface.info
-        nodes = self._mesh.points
+        nodes = self._mesh.points if self._wall is None or not self._mesh.is_missing else self._wall.points
         middle = nodes.mean(axis=0)
         target = nodes[int(numpy.argmin(((nodes - middle) ** 2).sum(axis=1)))]
         origin = numpy.array(placed.state.origin) + target - (info.lower + info.upper) / 2.0
@@ -514,7 +510,7 @@ class Model(BumpedValves):
         """Moves all valves with a cycle, and surfaces that move, to a time. This is not a step of undo."""
         moment = number(time, "time")
         states = tuple(_moved(state, moment) for state in self.valves)
-        self._take(self._made(states), self._unit)
+        self._take(self._made(states, self._wall))
         self._time = moment
 
     @contextmanager
@@ -524,7 +520,7 @@ class Model(BumpedValves):
         try:
             yield
         finally:
-            self._take(self._made(states), self._unit)
+            self._take(self._made(states, self._wall))
             self._time = moment
 
     def beat(self, period: float, *, chosen: str | os.PathLike[str] | None = None, valve: int = 0) -> None:
@@ -534,7 +530,7 @@ class Model(BumpedValves):
                 the built-in cycle of its kind
         """
         self._at(valve)
-        with self._one_step():
+        with self.one_step():
             for k, state in enumerate(self.valves):
                 if state.surface is not None:
                     continue
@@ -589,7 +585,7 @@ class Model(BumpedValves):
                 columns["orifice"].append(known[moved.opening][0])
                 columns["marked"].append(known[moved.opening][1])
                 continue
-            placed = Placed.of(moved, placed)
+            placed = Placed.of(moved, placed, self._wall)
             box = _box_of_band(placed.surface)
             if not region.holds(*box):
                 region = self._mesh.region(*box)
@@ -604,16 +600,36 @@ class Model(BumpedValves):
     def case(self, times: Any = None) -> str:
         """Returns a case file of the program (riis help cases): the valves as they are now, or as they move at ``times``."""
         moments = None if times is None else [number(moment, "times") for moment in numpy.ravel(times)]
-        return _outputs.case_of(self.valves, self._unit, self._path, self._cells_where, moments)
+        self._check_skirts()
+        return _outputs.case_of(self.valves, self._facts(), moments)
 
-    def command(self, *, case: str = "case.json", output: str = "marked.vtu", program: str = "riis") -> str:
-        """Returns the command that gives the present marks. Several valves need the file of ``case()``, under the name case. If
-        one of several valves is a surface that moves, the output is a .pvd file, whose first step has the present marks."""
-        return _outputs.command_of(self.valves, self._unit, self._path, self._cells_where, case, output, program)
+    def command(
+        self, *, case: str = "case.json", output: str = "marked.vtu", program: str = "riis", warp: str = "warp.json"
+    ) -> str:
+        """Returns the command that gives the present marks. It needs the files of ``command_files``, under their names.
+
+        Several valves need a case. A warp that is in no placed file needs a file of its own. If one of several valves is a
+        surface that moves, the output is a .pvd file, whose first step has the present marks. Without a mesh the command writes
+        the surface that is seen, as .vtp.
+        """
+        self._check_skirts()
+        return _outputs.command_of(self.valves, self._facts(), case, output, program, warp)
+
+    def command_files(self, *, case: str = "case.json", warp: str = "warp.json") -> dict[str, str]:
+        """Returns the files that ``command`` needs, by their names."""
+        if len(self.valves) > 1:
+            return {case: self.case()}
+        state = self.valves[0] if self.valves else None
+        if state is None or state.warp is None or _outputs.is_from_its_file(state, self._facts()):
+            return {}
+        return {warp: json.dumps(warp_object(state.warp), indent=2) + "\n"}
 
     def python(self) -> str:
         """Returns a script that gives the present marks: marks[NAME] for each valve, and K. Without a path it needs points."""
-        return _outputs.python_of(self.valves, self._unit, self._path, self._cells_where)
+        return _outputs.python_of(self.valves, self._facts())
+
+    def _facts(self) -> _outputs.Facts:
+        return _outputs.Facts(self._unit, self._path, self._cells_where, self._wall, self._mesh.is_missing)
 
     def openfoam(self, density: float = 1060.0) -> str:
         """Returns fvOptions of OpenFOAM, in metres and kilograms. A mesh without a unit is taken as it is, and so is its R."""
@@ -622,9 +638,7 @@ class Model(BumpedValves):
     def save(self, path: str | os.PathLike[str], page: Mapping[str, Any] | None = None) -> None:
         """Writes the session. ``load`` opens it as it was. A page adds further data that it shows, such as its camera, as
         JSON."""
-        text = _outputs.session_of(
-            self.valves, self._unit, self._path, self._cells_where, len(self.points), self._time, page
-        )
+        text = _sessions.session_of(self.valves, self._facts(), len(self.points), self._time, self._landmarks, page)
         Path(path).write_text(text, encoding="utf-8")
 
     def restore(self, path: str | os.PathLike[str]) -> dict[str, Any]:
@@ -632,10 +646,10 @@ class Model(BumpedValves):
 
         Returns the data that the page added.
         """
-        root, states = _outputs.read_session(os.fspath(path))
+        root, states = _sessions.read_session(os.fspath(path))
         if root["n_nodes"] != len(self.points):
             raise refuse(f"path: {os.fspath(path)!r} is of a mesh with {root['n_nodes']} nodes; this one has {len(self.points)}")
-        self._change(states, root["unit"])
+        self._change_to(Snapshot(states, root["unit"], root["landmarks"], root["wall"] or self._wall))
         self._time = root["time"]
         page: dict[str, Any] = root["page"]
         return page
@@ -651,13 +665,15 @@ class Model(BumpedValves):
         mesh  the arrays of its mesh, by the names of Model's arguments, such as {"points": ..., "cells": ..., "near": True}; or a
               function that reads these arrays from the session's path
         """
-        root, _ = _outputs.read_session(os.fspath(path))
-        if callable(mesh):
+        root, _ = _sessions.read_session(os.fspath(path))
+        if callable(mesh) and root["n_nodes"] > 0:
             if root["mesh"] is None:
                 raise refuse(f"mesh: {os.fspath(path)!r} names no file of a mesh; pass its arrays")
             arrays = dict(mesh(root["mesh"]))
-        elif mesh is not None:
+        elif mesh is not None and not callable(mesh):
             arrays = dict(mesh)
+        elif root["wall"] is not None and root["n_nodes"] == 0:
+            arrays = {"points": None, "wall": root["wall"]}
         else:
             raise refuse(f"mesh: is None; pass the arrays of {root['mesh'] or 'the mesh'}, or a function that reads them")
         known = {name: root[name] for name in ("unit", "cells_where")}

@@ -18,20 +18,24 @@ import traceback
 from collections.abc import Callable, Coroutine, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy
 
 import riis
+from riis._place import UNITS
 from riis._plot import COLOURS
 from riis.view import guard, reading, rows, saving
+from riis.view._landmark_files import AXES
+from riis.view._landmarks import WARPS
 from riis.view._lights import counted
-from riis.view._outputs import read_session
+from riis.view._sessions import read_session
 from riis.view.details import N_DETAILS, Details
 from riis.view.hand import Hand
 from riis.view.heartbeat import Heartbeat
 from riis.view.model import CYCLES, KINDS, Model
-from riis.view.scene import CELLS, LOOKS, WALLS, Scene, boundary_of, check_of_graphics, colour_of, places_of
+from riis.view.patient import Patient
+from riis.view.scene import CELLS, GAP, LOOKS, WALLS, Scene, boundary_of, check_of_graphics, colour_of, places_of
 
 N_SLIDERS = 12  # of the whole valve
 N_ALL = N_SLIDERS + sum(N_DETAILS)
@@ -42,7 +46,18 @@ REST = 0.25  # seconds without a move after which the lights and the cut are ren
 _SPEEDS = [{"title": name, "value": value} for name, value in (("1/10", 0.1), ("1/4", 0.25), ("1/2", 0.5), ("as in life", 1.0))]
 
 
-class Page(Hand, Details, Heartbeat, saving.Files):
+class Sources(NamedTuple):
+    """The files with which a page begins."""
+
+    path: str | None = None  #: the mesh
+    saved: str | None = None  #: a saved view
+    cells_where: str | None = None
+    wall: str | None = None
+    placed: str | None = None  #: a placed valve
+    landmarks: str | None = None
+
+
+class Page(Hand, Details, Heartbeat, Patient, saving.Files):
     """A server with one model, which all its browsers share.
 
     path    the mesh to read, or None
@@ -50,6 +65,9 @@ class Page(Hand, Details, Heartbeat, saving.Files):
     unit    of the meshes: "mm", "cm" or "m". None: not known
     folder  the folder to which the page writes, and from which relative paths start
     cells_where  NAME=VALUES: the cells of the mesh to take. None: all, or those of the saved view
+    wall    the wall to read, or None. With a wall there may be no mesh
+    placed  the file of a placed valve to open, or None
+    landmarks  a file of landmarks to read, or None
     """
 
     def __init__(
@@ -60,6 +78,9 @@ class Page(Hand, Details, Heartbeat, saving.Files):
         unit: Any = None,
         folder: str = ".",
         cells_where: str | None = None,
+        wall: str | None = None,
+        placed: str | None = None,
+        landmarks: str | None = None,
     ):
         from trame.app import get_server
 
@@ -67,7 +88,7 @@ class Page(Hand, Details, Heartbeat, saving.Files):
         self.server = get_server("riis", client_type="vue3")
         self.state = self.server.state
         self.folder = Path(folder).resolve()
-        self._begin_path, self._begin_saved, self._unit, self._begin_cells = path, saved, unit, cells_where
+        self._begin, self._unit = Sources(path, saved, cells_where, wall, placed, landmarks), unit
         self.model: Any = None
         self.scene: Any = None
         self._grid: Any = None
@@ -88,6 +109,7 @@ class Page(Hand, Details, Heartbeat, saving.Files):
         self._busy = ""  # the name of the present long task, as a sentence
         self._wanted_size: tuple[int, int] | None = None  # a browser requested it during a movie
         self._shown: Any = None
+        self._shows_gap = False
         self._build()
 
     # the page's variables and functions
@@ -119,8 +141,15 @@ class Page(Hand, Details, Heartbeat, saving.Files):
             "speed": 0.25, "speeds": _SPEEDS, "cycle": "", "cycles": list(CYCLES), "curves": [],
             "texts": saving.TEXTS, "text": "", "text_title": "", "text_shown": False,
             "writes": saving.WRITES, "file_name": "valve", "replace": False,
+            "landmarks": [], "landmark": "", "warp": "smoothed", "warps": list(WARPS), "found": {}, "unit": None, "axes": None,
+            "units": list(UNITS), "all_axes": list(AXES), "has_wall": False, "skirt_on": False, "skirt": "", "resistance": "",
+            "resistance_unit": "", "sizes_to_fit": [], "fit_sizes": [], "fit_kind": "", "fit_whole": True, "fit_path": "",
+            "picture_width": 1920, "picture_height": 1080,
             "open_rows": [
                 {"name": "mesh", "label": "Mesh", "value": ""},
+                {"name": "wall", "label": "Wall, such as root.stl", "value": ""},
+                {"name": "placed", "label": "A placed valve, .json of riis place", "value": ""},
+                {"name": "landmarks", "label": "Landmarks, .mrk.json, .json, .csv or .fcsv", "value": ""},
                 {"name": "cells", "label": "Only its cells with NAME=VALUES, or all", "value": ""},
                 {"name": "surface", "label": "A patient's surface", "value": ""},
                 {"name": "view", "label": "A saved view", "value": ""},
@@ -133,7 +162,7 @@ class Page(Hand, Details, Heartbeat, saving.Files):
             self.server.trigger("riis_" + name[4:])(self._told(getattr(self, name)))
         for k in range(N_ALL):
             self.state.change(f"slider_{k}")(self._told(functools.partial(self._slid, k)))
-        for name in ("kind", "current", "wall", "cells", "tool", "time", "size", "bump", "bump_place", "panels"):
+        for name in ("kind", "current", "wall", "cells", "tool", "time", "size", "bump", "bump_place", "panels", "unit", "axes"):
             self.state.change(name)(self._told(getattr(self, f"_changed_{name}")))
         self.server.controller.on_server_ready.add(self._ready)
 
@@ -199,10 +228,13 @@ class Page(Hand, Details, Heartbeat, saving.Files):
 
     def _ready(self, **_: Any) -> None:
         self._begin_task(self._pictures())
-        if self._begin_saved is not None:
-            self._begin_task(self._reopen(self._begin_saved, self._begin_path, self._begin_cells))
-        elif self._begin_path is not None:
-            self._begin_task(self._read(self._begin_path, cells_where=self._begin_cells))
+        begin = self._begin
+        if begin.saved is not None:
+            self._begin_task(self._reopen(begin.saved, begin.path, begin.cells_where))
+        elif begin.path is not None or begin.wall is not None:
+            self._begin_task(self._read(**begin._asdict()))
+        elif begin.placed is not None or begin.landmarks is not None:
+            self._say("open a mesh or a wall first, by MESH or --wall")
 
     # the mesh
 
@@ -213,53 +245,93 @@ class Page(Hand, Details, Heartbeat, saving.Files):
         path = str(self.folder / os.path.expanduser(value))
         if name == "cells":
             self._need_model()
+            if self._grid is None:
+                raise reading.Refusal("open a mesh first: a wall has no cells to choose")
             self._begin_task(self._read(self.state.path, cells_where=None if value == "all" else value))
         elif name == "mesh":
             self._begin_task(self._read(path))
         elif name == "view":
             self._begin_task(self._reopen(path))
+        elif name == "wall" and self.model is None:
+            self._begin_task(self._read(wall=path))
+        elif name == "wall":
+            self._begin_change()
+            self.model.set_wall(reading.read_wall(path))
+            self._renew_all()
+        elif name == "placed":
+            self._begin_change()
+            with self.model.one_step():
+                self.model.add_placed(path)
+                self.model.remove(self.state.current)
+            self.state.current = len(self.model.valves) - 1
+            self._refresh()
+            self._look("oblique")
+            self._renew_all()
+        elif name == "landmarks":
+            self._read_landmarks(path)
         elif name == "surface":
             self._begin_change()
             self.model.add_surface(**reading.read_surface(path), path=path)
             self.state.current = len(self.model.valves) - 1
             self._renew_all()
 
-    async def _read(self, path: str, saved: str | None = None, cells_where: str | None = None) -> None:
-        """On a thread, reads a mesh and a saved view of it, and shows the progress. If one of them is refused, nothing
+    async def _read(self, path: str | None = None, **others: str | None) -> None:
+        """On a thread, reads a mesh or a wall and the other Sources, and shows the progress. If one of them is refused, nothing
         changes."""
+        sources = Sources(path, **others)
         parts = {"part": -1.0}
-        with self._alone(f"{os.path.basename(path)} is being read"):
-            work = asyncio.get_running_loop().run_in_executor(None, self._make_model, path, saved, cells_where, parts)
+        name = os.path.basename(sources.path or sources.wall or sources.saved or "")
+        with self._alone(f"{name} is being read"):
+            work = asyncio.get_running_loop().run_in_executor(None, self._make_model, sources, parts, self.model)
             try:
                 while not work.done():
                     with self.state as state:
                         state.progress = round(100 * parts["part"]) if parts["part"] >= 0 else -1
-                        state.progress_text = f"{'Reading' if parts['part'] >= 0 else 'Preparing'} {os.path.basename(path)}"
+                        state.progress_text = f"{'Reading' if parts['part'] >= 0 else 'Preparing'} {name}"
                     await asyncio.wait([work], timeout=0.2)
                 grid, wall, model, shown = work.result()
             finally:
                 with self.state:
                     self.state.progress = None
-            self._take(grid, wall, model, path)
+            self._take(grid, wall, model, sources.path or "")
             self._show_as_saved(shown)
 
     def _make_model(
-        self, path: str, saved: str | None, cells_where: str | None, parts: dict[str, float]
+        self, sources: Sources, parts: dict[str, float], before: Any
     ) -> tuple[Any, Any, Any, dict[str, Any]]:
+        path, grid, boundary = sources.path, None, None
         try:
-            grid = reading.read_mesh(path, parts, cells_where=cells_where)
-            parts["part"] = -1.0
-            make = Model.near if grid.n_points > MANY_NODES else Model
-            model = make(**reading.arrays_of(grid), unit=self._unit, path=path, cells_where=cells_where)
+            wall = None if sources.wall is None else reading.read_wall(sources.wall)
+            if path is None and sources.saved is not None:
+                model = Model.load(sources.saved)
+            elif path is None:
+                model = Model(None, unit=self._unit, wall=wall)
+            else:
+                grid = reading.read_mesh(path, parts, cells_where=sources.cells_where)
+                parts["part"] = -1.0
+                make = Model.near if grid.n_points > MANY_NODES else Model
+                model = make(
+                    **reading.arrays_of(grid), unit=self._unit, path=path, cells_where=sources.cells_where, wall=wall
+                )
+                boundary = boundary_of(grid)
         except riis.Error as error:
-            raise reading.Refusal(f"{path}: {error}") from error
-        shown = {} if saved is None else model.restore(saved)
+            raise reading.Refusal(f"{path or sources.wall or sources.saved}: {error}") from error
+        shown = {} if sources.saved is None else model.restore(sources.saved)
         _check_of_saved(shown, len(model.valves))
-        return grid, boundary_of(grid), model, shown
+        if sources.saved is None and before is not None and before.wall is not None and wall is None:
+            model.take_over(before)  # a mesh of the patient whose valve is placed
+        kind = model.read_landmarks(sources.landmarks) if sources.landmarks is not None else ""
+        if sources.placed is not None:
+            model.add_placed(sources.placed)
+        elif kind and not model.valves:
+            model.add(kind)
+        return grid, boundary, model, shown
 
     def _take(self, grid: Any, wall: Any, model: Any, path: str) -> None:
         if not model.valves:
             model.add(self.state.kind)
+            if model.wall is not None:
+                model.stand_in_wall(0)
         model.forget_steps()  # the page always has a valve, so undo must not remove the first one
         scene = Scene(model, grid, wall=wall, size=self.scene.size if self.scene is not None else (900, 700))
         self._pause()
@@ -267,6 +339,11 @@ class Page(Hand, Details, Heartbeat, saving.Files):
         if self.scene is not None:
             self.scene.close()
         self.model, self.scene, self._grid, self._shown, self._clicks = model, scene, grid, None, []
+        if model.wall is not None:
+            is_placed = model.valves[0].placed is not None
+            self.state.wall = "clear" if is_placed else "cut"  # landmarks are picked on the inside
+            if not is_placed or model.landmarks.points:
+                self.state.panels = [*(name for name in self.state.panels if name != "patient"), "patient"]
         self.scene.show_wall(self.state.wall)
         self.scene.show_cells(self.state.cells)
         with self.state:
@@ -275,7 +352,10 @@ class Page(Hand, Details, Heartbeat, saving.Files):
             self.state.tool, self.state.n_clicks = "look", 0
             self.state.time, self.state.cycle, self.state.curves = float(model.time), "", []
         self._refresh()
-        self._look("oblique")
+        if model.wall is not None and model.valves[0].placed is None and not model.valves[0].parameters:
+            self._look_at_all()
+        else:
+            self._look("oblique")
         self._renew_all()
 
     async def _reopen(self, path: str, mesh: str | None = None, cells_where: str | None = None) -> None:
@@ -284,8 +364,9 @@ class Page(Hand, Details, Heartbeat, saving.Files):
             mesh, saved_cells = reading.mesh_of_saved(path)
             cells_where = cells_where or saved_cells
         wanted = None if mesh is None else (os.path.abspath(mesh), cells_where)
-        if mesh is not None and (self.model is None or wanted != (os.path.abspath(self.state.path), self.model.cells_where)):
-            await self._read(mesh, path, cells_where)
+        now = None if self.model is None or self._grid is None else (os.path.abspath(self.state.path), self.model.cells_where)
+        if self.model is None or wanted != now:
+            await self._read(mesh, saved=path, cells_where=cells_where)
         else:
             self._begin_change()
             root, valves = read_session(path)
@@ -344,11 +425,7 @@ class Page(Hand, Details, Heartbeat, saving.Files):
             valve = self._valve()
             state.valve_names = [valve.name for valve in model.valves]
             unit = model.unit or ""
-            state.mesh_text = (
-                f"{os.path.basename(state.path)}: {counted(self._grid.n_points, 'node')}, {counted(self._grid.n_cells, 'cell')}"
-                + (f" with {model.cells_where}, " if model.cells_where else ", ")
-                + (f"in {model.unit}" if model.unit else "unit not known")
-            )
+            state.mesh_text = self._text_of_mesh()
             state.is_surface = valve.surface is not None
             state.sliders, state.rows = [], []
             sliders: list[dict[str, Any] | None] = [rows.half_thickness_of(valve, unit), rows.offset_of(valve)]
@@ -362,18 +439,30 @@ class Page(Hand, Details, Heartbeat, saving.Files):
                     if parameter.part and parameter.n_values == 1:
                         continue  # among the details
                     if parameter.first and parameter.n_values == 1 and len(sliders) < N_SLIDERS:
-                        sliders.append(rows.slider_of(parameter, float(value), is_set))
+                        sliders.append(rows.slider_of(parameter, float(value), is_set, valve.scale, unit))
                     else:
-                        table.append(rows.row_of(parameter, value, is_set))
+                        table.append(rows.row_of(parameter, value, is_set, valve.scale, unit))
             sliders = [*sliders, *[None] * (N_SLIDERS - len(sliders)), *self._details()]
             # The values are not in state.sliders, because trame does not send a list that was changed in place.
             self._slider_values = [float(slider.pop("value")) if slider is not None else 0.0 for slider in sliders]
             for k, value in enumerate(self._slider_values):
                 state[f"slider_{k}"] = value
             state.sliders, state.rows = sliders, table
-            state.placement = rows.placement_of(valve)
+            state.placement = rows.placement_of(valve, unit)
             state.can_undo, state.can_redo = bool(model.can_undo), bool(model.can_redo)
             state.legend = self._legend()
+            self._show_patient()
+
+    def _text_of_mesh(self) -> str:
+        model, parts = self.model, []
+        if self._grid is not None:
+            n_nodes, n_cells = counted(self._grid.n_points, "node"), counted(self._grid.n_cells, "cell")
+            parts.append(f"{os.path.basename(self.state.path)}: {n_nodes}, {n_cells}")
+            if model.cells_where:
+                parts[0] += f" with {model.cells_where}"
+        if model.wall is not None:
+            parts.append(f"wall {os.path.basename(model.wall.path or '')}: {counted(len(model.wall.triangles), 'triangle')}")
+        return ", ".join([*parts, f"in {model.unit}" if model.unit else "unit not known"])
 
     def _legend(self) -> list[dict[str, str]]:
         legend = []
@@ -381,7 +470,9 @@ class Page(Hand, Details, Heartbeat, saving.Files):
             leaflets = numpy.unique(self.model.surface(k).triangles.leaflet_id).tolist()
             shown = leaflets[:1] if valve.surface is not None else leaflets
             legend += [{"label": rows.leaflet_name(valve.kind, leaflet), "colour": colour_of(k, leaflet)} for leaflet in shown]
-        return legend + [{"label": "marked cells", "colour": "#56b4e9"}, {"label": "partly marked", "colour": "#f0e442"}]
+        if self._grid is not None:
+            legend += [{"label": "marked cells", "colour": "#56b4e9"}, {"label": "partly marked", "colour": "#f0e442"}]
+        return legend + ([{"label": "gap to the wall", "colour": GAP}] if self._shows_gap else [])
 
     def _renew_all(self) -> None:
         """Shows the model after a larger change than a move of a slider."""
@@ -420,7 +511,9 @@ class Page(Hand, Details, Heartbeat, saving.Files):
         elif time.monotonic() - self._orifice_at > 0.25:
             self._show_orifice()
         self.scene.show_lights([])
+        self.scene.show_gap([], [])
         self._show_bump()
+        self._show_landmarks()
         valve = self._valve()
         with self.state as state:
             if state.sliders and state.sliders[0]["name"] == "opening" and self._slider_values[0] != valve.opening:
@@ -428,7 +521,9 @@ class Page(Hand, Details, Heartbeat, saving.Files):
             if self._playing is not None:
                 state.time = float(self.model.time)
             state.n_marked, state.milliseconds = len(self._shown.marked), self._shown.milliseconds
-            state.marked_text = f"{counted(len(self._shown.marked), 'node')} marked in {self._shown.milliseconds:.1f} ms"
+            state.marked_text = "" if self._grid is None else (
+                f"{counted(len(self._shown.marked), 'node')} marked in {self._shown.milliseconds:.1f} ms"
+            )
             state.can_undo, state.can_redo = bool(self.model.can_undo), bool(self.model.can_redo)
 
     def _show_orifice(self) -> None:
@@ -443,6 +538,9 @@ class Page(Hand, Details, Heartbeat, saving.Files):
             self._end_drag()
         lights = self.model.lights()
         self.scene.show_lights(lights)
+        points, triangles = self.model.gap_ribbon(self.state.current)
+        self.scene.show_gap(points, triangles)
+        self._shows_gap = len(triangles) > 0
         self.scene.rest()
         valve = self._valve()
         self.scene.show_handle(valve.origin, valve.axis, 1.2 * self._reach())

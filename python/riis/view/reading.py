@@ -10,10 +10,13 @@ from typing import Any
 
 import numpy
 
-from riis import FAR_DISTANCE
+from riis import FAR_DISTANCE, Error
+from riis.view._cells import VOLUME_TYPES
 from riis.view._domains import chosen_cells, groups_of_volumes, read_once
+from riis.view._walls import Wall
 
 BY_VTK, BY_MESHIO = (".vtu", ".pvtu", ".vtk"), (".msh", ".xdmf", ".xmf")
+WALLS = (".stl", ".vtp", ".obj", ".ply")
 SURFACES = (".stl", ".vtp", ".obj", ".ply", ".off")
 BY_PROGRAM = (".vti", ".vtr", ".vts", ".vtm", ".e", ".exo", ".ex2", ".exii", ".foam")  # and folders of OpenFOAM
 
@@ -35,8 +38,8 @@ def read_mesh(path: str, progress: dict[str, float] | None = None, *, cells_wher
         raise Refusal(f"{path}: there is no such file")
     if ending in SURFACES:
         raise Refusal(
-            f"{path}: is a surface, and riis view shows a mesh of volume cells. gmsh or your mesher fills a closed surface with "
-            "cells; docs/patient.md has the commands"
+            f"{path}: is a surface, and MESH has volume cells. Give it as the wall: riis view --wall {shlex.quote(path)}. Or "
+            "gmsh or your mesher fills a closed surface with cells; docs/patient.md has the commands"
         )
     if os.path.isdir(path) or ending not in BY_VTK + BY_MESHIO:
         text = f"{path}: riis view reads {', '.join(BY_VTK + BY_MESHIO)}"
@@ -142,6 +145,73 @@ def read_surface(path: str) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def read_wall(path: str) -> Wall:
+    """Returns the wall of a file: a surface, or the boundary of the volume cells of a mesh, as the program's --wall takes it."""
+    import pyvista
+
+    if not os.path.isfile(path):
+        raise Refusal(f"{path}: there is no such file")
+    ending = os.path.splitext(path)[1].lower()
+    if ending in BY_VTK + BY_MESHIO:
+        from riis.view.scene import boundary_of
+
+        grid = read_mesh(path)
+        has_volumes = bool(numpy.isin(grid.celltypes, VOLUME_TYPES).any())
+        data = boundary_of(_volumes_of(grid) if has_volumes else grid)
+    elif ending in WALLS:
+        try:
+            data = pyvista.read(path)
+        except Exception as error:  # PyVista raises many kinds of exceptions for files that it cannot parse
+            raise Refusal(f"{path}: is not a surface that VTK can read ({error})") from error
+    else:
+        raise Refusal(f"{path}: a wall is a surface, {', '.join(WALLS)}, or a mesh, {', '.join(BY_VTK + BY_MESHIO)}")
+    triangles = _triangles_of(data, path)
+    if triangles.n_cells == 0 or triangles.n_points == 0:
+        raise Refusal(f"{path}: has no triangles, or is not a surface that VTK can read")
+    faces = numpy.asarray(triangles.regular_faces, numpy.int64)
+    try:
+        return Wall(numpy.array(triangles.points, numpy.float64), faces, path)
+    except Error as error:
+        raise Refusal(f"{path}: {error}") from error
+
+
+def read_points(path: str) -> Any:
+    """Returns the points of segmented leaflets for riis.fit: a surface, or rows of x, y and z."""
+    ending = os.path.splitext(path)[1].lower()
+    if not os.path.isfile(path):
+        raise Refusal(f"{path}: there is no such file")
+    if ending in (".csv", ".txt", ".xyz"):
+        points: list[list[float]] = []
+        with open(path, encoding="utf-8", errors="replace") as file:
+            for number, line in enumerate(file, 1):
+                cells = [cell for cell in re.split(r"[,;\s]+", line) if cell]
+                if not cells or cells[0].startswith("#") or (not points and cells[:3] == ["x", "y", "z"]):
+                    continue
+                if len(cells) != 3:
+                    raise Refusal(f"{path}: line {number} has {len(cells)} columns; it must have x, y and z")
+                points.append([number_of(cell, f"{path}: line {number}") for cell in cells])
+        if not points:
+            raise Refusal(f"{path}: has no points")
+        return numpy.array(points, numpy.float64)
+    if ending not in WALLS:
+        raise Refusal(f"{path}: points are a surface, {', '.join(WALLS)}, or rows of x, y and z in a .csv, .txt or .xyz")
+    import pyvista
+
+    try:
+        data = pyvista.read(path)
+    except Exception as error:  # PyVista raises many kinds of exceptions for files that it cannot parse
+        raise Refusal(f"{path}: is not a surface that VTK can read ({error})") from error
+    if not isinstance(data, pyvista.PolyData) or data.n_points == 0:
+        raise Refusal(f"{path}: has no points, or is not a surface that VTK can read")
+    return data
+
+
+def _volumes_of(grid: Any) -> Any:
+    """Returns the volume cells. A mesh of gmsh also has the triangles of its boundaries."""
+    is_volume = numpy.isin(grid.celltypes, VOLUME_TYPES)
+    return grid if is_volume.all() else grid.extract_cells(numpy.flatnonzero(is_volume))
+
+
 def _triangles_of(data: Any, path: str) -> Any:
     import pyvista
 
@@ -152,7 +222,7 @@ def _triangles_of(data: Any, path: str) -> Any:
 
 def mesh_of_saved(path: str) -> tuple[str | None, str | None]:
     """Returns the path of the mesh of a saved view, and the choice of its cells."""
-    from riis.view._outputs import read_session
+    from riis.view._sessions import read_session
 
     if not os.path.isfile(path):
         raise Refusal(f"{path}: there is no such file")

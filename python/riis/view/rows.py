@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy
 
+from riis.view._landmark_files import missing, role_of, roles_of
+from riis.view._numbers import in_unit, shown
 from riis.view._valves import SURFACE, n_leaflets
 
 _LIGHT = {
@@ -38,7 +40,7 @@ OPENING = {
     "description": "0 is closed, 1 is open",
 }  # fmt: skip
 _LABELS = {"annulus": "annulus, diameter", "stj": "sinotubular junction, diameter"}
-_UNITS = {"length": "cm", "degree": "°", "1": ""}
+_UNITS = {"degree": "°", "1": ""}
 _CUSPS = ["right cusp", "left cusp", "non-coronary cusp"]
 _MITRAL = ["anterior leaflet", "posterior leaflet"]
 _LEAFLETS = {
@@ -61,7 +63,7 @@ def half_thickness_of(valve: Any, unit: str) -> dict[str, Any]:
     value = float(valve.half_thickness)
     middle = 10.0 ** round(math.log10(value))
     return {
-        "name": "half_thickness", "label": "half thickness", "unit": unit, "least": 0.0, "greatest": 1e60, "low": 0.05 * middle,
+        "name": "half_thickness", "label": "half thickness ε", "unit": unit, "least": 0.0, "greatest": 1e60, "low": 0.05 * middle,
         "high": 4.0 * middle, "step": 0.005 * middle, "value": value,
         "description": "nodes closer than this to a leaflet are marked; in the mesh's unit",
     }  # fmt: skip
@@ -81,52 +83,131 @@ def offset_of(valve: Any) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def slider_of(parameter: Any, value: float, is_set: bool, label: str = "") -> dict[str, Any]:
-    low, high = min(float(parameter.low), value), max(float(parameter.high), value)
+def factor_of(parameter: Any, scale: float) -> float:
+    """Returns the factor from a parameter's value to the number on the screen, where lengths have the mesh's unit."""
+    return scale if parameter.unit == "length" else 1.0
+
+
+def slider_of(parameter: Any, value: float, is_set: bool, scale: float, unit: str, label: str = "") -> dict[str, Any]:
+    factor = factor_of(parameter, scale)
+
+    def on_screen(number: float) -> float:
+        return in_unit(float(number), factor)
+
+    value = on_screen(value)
+    low, high = min(on_screen(parameter.low), value), max(on_screen(parameter.high), value)
     step = 10.0 ** math.floor(math.log10((high - low) / 100)) if high > low else 0.01
     return {
         "name": parameter.name, "label": label or _LABELS.get(parameter.name, parameter.name.replace("_", " ")),
-        "changed": is_set, "unit": _UNITS[parameter.unit],
-        "least": float(parameter.least), "greatest": float(parameter.greatest), "low": low, "high": high, "step": step,
+        "changed": is_set, "unit": unit if parameter.unit == "length" else _UNITS[parameter.unit],
+        "least": on_screen(parameter.least), "greatest": on_screen(parameter.greatest), "low": low, "high": high, "step": step,
         "value": value, "description": parameter.description,
     }  # fmt: skip
 
 
 def _number(value: float) -> str:
-    return f"{value:.6g}"
+    return shown(value, 6)
 
 
-def _range_of(parameter: Any) -> str:
+def _range_of(parameter: Any, factor: float) -> str:
     """Returns a range in words. The library's widest ranges only keep out numbers that overflow."""
+    least, greatest = factor * parameter.least, factor * parameter.greatest
     if parameter.greatest < 1e8:
-        return f"{_number(parameter.least)} to {_number(parameter.greatest)}"
+        return f"{_number(least)} to {_number(greatest)}"
     if parameter.least < -1e8:
         return "any"
-    return "above 0" if 0.0 < parameter.least < 1e-8 else f"at least {_number(parameter.least)}"
+    return "above 0" if 0.0 < parameter.least < 1e-8 else f"at least {_number(least)}"
 
 
-def row_of(parameter: Any, value: Any, is_set: bool) -> dict[str, Any]:
-    parts = value if isinstance(value, tuple) else (value,)
+def row_of(parameter: Any, value: Any, is_set: bool, scale: float, unit: str) -> dict[str, Any]:
+    parts, factor = value if isinstance(value, tuple) else (value,), factor_of(parameter, scale)
     return {
-        "name": parameter.name, "value": ", ".join(_number(part) for part in parts), "unit": _UNITS[parameter.unit],
-        "range": _range_of(parameter), "changed": is_set,
-        "description": parameter.description + (f" (unless set: {parameter.rule})" if parameter.rule else ""),
+        "name": parameter.name, "value": ", ".join(_number(factor * part) for part in parts),
+        "unit": unit if parameter.unit == "length" else _UNITS[parameter.unit], "range": _range_of(parameter, factor),
+        "changed": is_set, "description": parameter.description + (f" (unless set: {parameter.rule})" if parameter.rule else ""),
     }  # fmt: skip
 
 
-def placement_of(valve: Any) -> list[dict[str, Any]]:
+def placement_of(valve: Any, unit: str) -> list[dict[str, Any]]:
     def row(name: str, label: str, values: Any, description: str) -> dict[str, Any]:
         return {"name": name, "label": label, "values": values, "description": description}
 
     def direction(values: Any) -> list[str]:  # in one field, because a direction with one new component is a different direction
-        return [", ".join(f"{round(x, 6) + 0.0:g}" for x in values)]
+        return [", ".join(shown(round(x, 6), 6) for x in values)]
 
+    words = f" in {unit}" if unit else ""
     return [
-        row("origin", "Centre", [_number(x) for x in valve.origin], "the valve's origin, in the mesh's unit"),
+        row("origin", f"Centre{words}", [_number(x) for x in valve.origin], "the valve's origin, in the mesh's unit"),
         row("axis", "Axis", direction(valve.axis), "the direction of the flow, of any length"),
         row("reference", "Turn", direction(valve.reference), "the direction of the valve's x axis, of any length"),
         row("scale", "Scale", [_number(valve.scale)], "the length of a centimetre of the valve, in the mesh's unit"),
     ]
+
+
+# ---- Landmarks ----
+
+
+def landmarks_of(kind: str, points: Any) -> list[dict[str, Any]]:
+    """Returns the rows of the landmarks: those that are set, and those that a kind may have, in the order of its list."""
+    needed = set(missing(kind, points))
+    rows, done = [], set()
+
+    def row(name: str, text: str, role: str, is_needed: bool) -> dict[str, Any]:
+        at = points.get(name)
+        return {
+            "name": name, "label": name.replace("_", " "), "role": role, "text": text, "needed": is_needed, "set": at is not None,
+            "value": "" if at is None else ", ".join(_number(x) for x in at),
+        }  # fmt: skip
+
+    for role in roles_of(kind):
+        mine = sorted((name for name in points if role_of(name, kind) == role), key=_by_number)
+        rows += [row(name, role.text, name, False) for name in mine]
+        done.update(mine)
+        if role.is_list:
+            is_needed = any(role_of(name, kind) == role for name in needed)
+            adding = row(role.name, f"{role.text}: press to add one", role.name, is_needed)
+            rows.append(adding | {"label": f"+ {adding['label']}"})
+        elif not mine:
+            rows.append(row(role.name, role.text, role.name, role.name in needed))
+    return rows + [row(name, "this kind of valve has no such landmark", name, False) for name in points if name not in done]
+
+
+def _by_number(name: str) -> tuple[str, int]:
+    word, _, number = name.rpartition("_")
+    return (word, int(number)) if number.isdigit() else (name, 0)
+
+
+def found_of(found: Any, unit: str) -> dict[str, Any]:
+    """Returns the table of a placing or of a fit: a head, the rows, and what a person should know about them."""
+    if found is None:
+        return {}
+    words = f" {unit}" if unit else ""
+    if hasattr(found, "residuals"):
+        has_warp = found.warped_residuals is not None
+        head = ["landmark", f"residual{words}"] + ([f"warped{words}"] if has_warp else [])
+        rows = [
+            [name.replace("_", " "), shown(found.residuals[k])] + ([shown(found.warped_residuals[k])] if has_warp else [])
+            for k, name in enumerate(found.names)
+        ]
+        notes = [
+            f"rms {shown(found.rms)}{words}, worst {shown(found.worst)}{words} at {found.worst_landmark.replace('_', ' ')}",
+            f"standard errors: {shown(found.rotation_error)}°, {shown(found.position_error)}{words}",
+        ]
+        if found.undetermined:
+            notes.append(f"the landmarks do not determine {', '.join(found.undetermined)}")
+        return {"title": "Placed by landmarks", "head": head, "rows": rows, "notes": notes}
+    table = found.valve.parameters
+    factor = float(found.placement["scale"])
+    rows = []
+    for name, value in found.parameters.items():
+        times, of = (factor, unit) if table[name].unit == "length" else (1.0, _UNITS[table[name].unit])
+        rows.append([name.replace("_", " "), f"{shown(times * value)} {of}", shown(times * found.standard_errors[name])])
+    notes = [
+        f"rms {shown(found.rms)}{words}; 95 % of {len(found.distances)} points within {shown(found.percentile95)}{words}",
+        f"outliers {100 * found.outliers:.1f} %; the points cover {100 * found.covered:.0f} % of the valve",
+        *(f"doubt: {doubt}" for doubt in found.doubts),
+    ]
+    return {"title": "Fitted to points", "head": ["size", "value", "std. error"], "rows": rows, "notes": notes}
 
 
 def light_of(light: Any) -> dict[str, Any]:

@@ -13,12 +13,16 @@ import numpy
 
 import riis
 from riis.view import reading
+from riis.view._numbers import shown
 from riis.view._part import Part
+from riis.view.scene import LEAST_SIDE, MOST_SIDE
 
-TEXTS = {"case": "Case file", "command": "Command", "python": "Python", "openfoam": "OpenFOAM"}
-_TEXT_ENDINGS = {"case": ".case.json", "command": ".sh", "python": ".py", "openfoam": ".foam.txt"}
-WRITES = {"view": "This view", "mesh": "Marked mesh", "picture": "Picture", "movie": "Movie"}
-_WRITE_ENDINGS = {"view": ".view.json", "mesh": ".vtu", "picture": ".png", "movie": ".mp4"}
+TEXTS = {"placed": "Placed valve", "command": "Command", "case": "Case file", "python": "Python", "openfoam": "OpenFOAM"}
+_TEXT_ENDINGS = {
+    "placed": ".placed.json", "case": ".case.json", "command": ".sh", "python": ".py", "openfoam": ".foam.txt", "report": ".txt",
+}  # fmt: skip
+WRITES = {"view": "This view", "landmarks": "Landmarks", "mesh": "Marked mesh", "picture": "Picture", "movie": "Movie"}
+_WRITE_ENDINGS = {"view": ".view.json", "landmarks": ".mrk.json", "mesh": ".vtu", "picture": ".png", "movie": ".mp4"}
 FILMING = "a movie is being written"
 _NO_FILMS = "a movie needs imageio and imageio-ffmpeg: pip install imageio imageio-ffmpeg"
 
@@ -45,18 +49,23 @@ class Files(Part):
             state.text, state.text_title, state.text_shown = text, TEXTS[name], True
 
     def _text(self, name: str) -> str:
+        if name == "report":
+            return str(self.state.text)
         if name not in TEXTS:
             raise reading.Refusal(f"text: '{name}' is not one of {', '.join(TEXTS)}")
+        if name == "placed":
+            return str(self.model.placed_file(self.state.current))
         if name == "case" and any(self.model.period(k) > 0.0 for k in range(len(self.model.valves))):
             return str(self.model.case(numpy.linspace(*self.model.span, 51)))
         if name == "command":
             base = str(self.folder / self._name())
-            case, before = base + ".now.case.json", ""
-            words = shlex.split(self.model.command(case=case, output=base + ".vtu"))
-            if len(self.model.valves) > 1:  # the page may have written a case file of a heartbeat
-                before = f"cat >{shlex.quote(case)} <<'END'\n{self.model.case()}END\n"
-            lines = [shlex.join(words[: words.index("mark") + 1])]
-            for word in words[words.index("mark") + 1 :]:
+            names = {"case": base + ".now.case.json", "warp": base + ".warp.json"}  # the page may have written another case
+            words = shlex.split(self.model.command(output=base + ".vtu", **names))
+            before = "".join(
+                f"cat >{shlex.quote(path)} <<'END'\n{text}END\n" for path, text in self.model.command_files(**names).items()
+            )
+            lines = [shlex.join(words[:2])]
+            for word in words[2:]:
                 if lines[-1].startswith("--") and not word.startswith("--") and "=" not in lines[-1]:
                     lines[-1] += " " + shlex.quote(word)
                 else:
@@ -90,19 +99,38 @@ class Files(Part):
         self._need_model()
         if name not in WRITES:
             raise reading.Refusal(f"file: '{name}' is not one of {', '.join(WRITES)}")
-        path = self._path(_WRITE_ENDINGS[name])
+        ending = _WRITE_ENDINGS[name]
+        if name == "landmarks" and self.model.landmarks.axes not in ("LPS", "RAS"):
+            ending = ".landmarks.json"  # 3D Slicer's files have no other axes
+        path = self._path(ending)
         if name == "movie":
             self._need_idle()
             self._begin_task(self._movie(path))
             return
         if name == "view":
             self.model.save(str(path), self._as_saved())
+        elif name == "landmarks":
+            self.model.save_landmarks(path, self.state.current)
         elif name == "mesh":
+            if self._grid is None:
+                raise reading.Refusal("there is no mesh that could have marks, only a wall; open a mesh first")
             reading.write_marked(self._grid, self.model, str(path))
         else:
-            self.scene.sharpen()
-            self.scene.plotter.screenshot(str(path))
+            self.scene.save_picture(str(path), self._picture_size())
+            self._moved.set()
         self._wrote(path)
+
+    def _picture_size(self) -> tuple[int, int]:
+        sides = []
+        for name in ("width", "height"):
+            side = reading.number_of(self.state[f"picture_{name}"], f"{name} of the picture")
+            if not (LEAST_SIDE <= side <= MOST_SIDE and side == int(side)):
+                raise reading.Refusal(
+                    f"{name} of the picture: is {shown(side, 6)}; it must be a whole number of pixels from {LEAST_SIDE} to "
+                    f"{MOST_SIDE}"
+                )
+            sides.append(int(side))
+        return sides[0], sides[1]
 
     async def _movie(self, path: Path, n_frames: int = 48) -> None:
         """Writes one heartbeat as a movie. Browsers see its progress. If a movie fails, an older file stays as it is."""
@@ -117,14 +145,14 @@ class Files(Part):
             size = self.scene.size
             try:
                 self.scene.resize(*(length // 16 * 16 for length in size))  # as .mp4 needs
-                self.scene.sharpen()
-                with self.model.kept(), imageio.get_writer(str(part), fps=24) as writer:
+                with self.scene.for_a_report(), self.model.kept(), imageio.get_writer(str(part), fps=24) as writer:
                     begin, end = self.model.span
                     for k in range(n_frames):
                         self.model.at(begin + k / n_frames * (end - begin))
                         self._refresh()
                         self._show_orifice()
                         self.scene.rest()
+                        self.scene.hide_helpers()
                         writer.append_data(numpy.asarray(self.scene.plotter.screenshot(return_img=True)))
                         with self.state as state:
                             state.progress, state.progress_text = round(100 * (k + 1) / n_frames), "Writing the movie"

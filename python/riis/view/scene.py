@@ -11,7 +11,8 @@ import ctypes
 import math
 import os
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 import numpy
@@ -20,10 +21,13 @@ from riis._plot import COLOURS, _pyvista, add_scale_bar, coloured, drop_scale_ba
 from riis.view._valves import point, refuse
 
 WALL, PARTLY, LEAK, CROSSING, ORIFICE, HANDLE = "#c9ced6", "#9aa3b2", "#d50000", "#cc00aa", "#111111", "#333333"
-BUMP = "#5e35b1"
+BUMP, LANDMARK, CHOSEN, GAP = "#5e35b1", "#1b5e20", "#d50000", "#ff7043"
 WALLS = ("cut", "clear", "none")
 CELLS = ("partly", "marked", "none")
 LOOKS = ("oblique", "top", "side")
+LEAST_SIDE, MOST_SIDE = 64, 4096  # of a picture, in pixels
+_LETTER = 15  # size of the names of landmarks, in pixels
+_HELPERS = ("riis light ", "riis gap", "riis handle", "riis points", "riis bump")  # that a report does not show
 SLOW = 0.12  # seconds; if a picture takes longer while a hand moves, the next picture has fewer pixels
 MANY_MARKED = 400_000  # if more cells are marked, they are drawn only while the hand rests
 MANY_CELLS = 2_000_000  # larger meshes show only the cut through the cells near the valve
@@ -89,7 +93,7 @@ class Scene:
 
     model    the Model. The scene reads the model and never changes it
     grid     the mesh as pyvista.UnstructuredGrid, with the nodes and cells of the model, or None for leaflets alone
-    wall     the mesh's boundary as pyvista.PolyData. If None, the scene extracts it
+    wall     the mesh's boundary as pyvista.PolyData. If None, the scene extracts it. A wall of the model is drawn in its place
     plotter  the pyvista.Plotter to draw into. If None, the scene makes one without a window
     """
 
@@ -103,7 +107,9 @@ class Scene:
         self.plotter, self.model, self.grid = plotter, model, grid
         self._size, self._ratio = (int(plotter.window_size[0]), int(plotter.window_size[1])), 1.0
         self._pv = pyvista
-        self._wall = wall if wall is not None or grid is None else boundary_of(grid)
+        self._boundary = wall if wall is not None or grid is None else boundary_of(grid)
+        self._given_wall: Any = None
+        self._wall: Any = None
         self._how, self._cells_shown = "cut", "partly"
         self._plane: Any = None
         self._waiting = False  # whether marked cells are drawn only after the hand rests
@@ -112,20 +118,44 @@ class Scene:
         self._actors: dict[str, Any] = {}
         self._wall_actors: dict[str, Any] = {}
         self._placed: Any = None
+        self._labels: list[Any] = []
         plotter.set_background("white")
-        if self._wall is not None:
-            self._add_wall()
+        self.renew_wall()
 
-    # the mesh
+    # the wall and the mesh
 
-    def _add_wall(self) -> None:
+    def renew_wall(self) -> None:
+        """Draws the wall of the model, or else the boundary of the mesh."""
+        given = self.model.wall
+        if self._wall is not None and given is self._given_wall:
+            return
+        self._given_wall = given
+        for name in ("riis wall", "riis clear wall"):
+            self.plotter.remove_actor(name, reset_camera=False)
+        self._wall_actors, before = {}, self._plane
+        self._wall = self._boundary if given is None else self._shell(given)
+        if self._wall is None:
+            self._plane = None
+            return
+        self._add_wall(before)
+
+    def _shell(self, given: Any) -> Any:
+        """Returns the triangles of a wall, with normals for smooth light."""
+        faces = numpy.full((len(given.triangles), 4), 3, numpy.int64)
+        faces[:, 1:] = given.triangles
+        data = self._pv.PolyData(given.points, faces.ravel())
+        return data.compute_normals(cell_normals=False, split_vertices=True, feature_angle=50.0)
+
+    def _add_wall(self, plane: Any = None) -> None:
         from vtkmodules.vtkCommonDataModel import vtkPlane
 
-        self._plane = vtkPlane()
+        self._plane = plane or vtkPlane()
         common = {"color": WALL, "reset_camera": False, "pickable": True, "show_scalar_bar": False}
         solid = self.plotter.add_mesh(self._wall, ambient=0.35, specular=0.0, name="riis wall", **common)
         solid.mapper.AddClippingPlane(self._plane)
-        clear = self.plotter.add_mesh(self._wall.copy(deep=False), opacity=0.16, name="riis clear wall", **common)
+        lit = {"opacity": 0.16} if self._given_wall is None else {
+            "opacity": 0.3, "smooth_shading": False, "ambient": 0.25, "diffuse": 0.8, "specular": 0.35, "specular_power": 25.0}
+        clear = self.plotter.add_mesh(self._wall.copy(deep=False), name="riis clear wall", **lit, **common)
         self._wall_actors = {"cut": solid, "clear": clear}
         self._show_wall()
 
@@ -141,7 +171,7 @@ class Scene:
         vtk.js knows no scale bar either.
         """
         drop_scale_bar(self.plotter)
-        if self._plane is not None:
+        if self._plane is not None and self._wall is not None:
             rest = self._wall.clip(normal=self._plane.GetNormal(), origin=self._plane.GetOrigin(), invert=False)
             self.plotter.remove_actor("riis wall", reset_camera=False)
             self.plotter.remove_actor("riis clear wall", reset_camera=False)
@@ -311,6 +341,47 @@ class Scene:
         data = self._pv.PolyData(numpy.concatenate(lines), lines=numpy.concatenate(rows))
         self._put("riis orifice", data, color=ORIFICE, line_width=4, lighting=False, pickable=False)
 
+    def show_gap(self, points: Any, triangles: Any) -> None:
+        """Draws the gap between the valve and the wall as a ribbon, or nothing."""
+        self._drop("riis gap")
+        if len(triangles) > 0:
+            faces = numpy.full((len(triangles), 4), 3, numpy.int64)
+            faces[:, 1:] = triangles
+            data = self._pv.PolyData(numpy.array(points, float), faces.ravel())
+            self._put("riis gap", data, color=GAP, opacity=0.75, ambient=0.5, pickable=False)
+
+    def show_landmarks(self, landmarks: Mapping[str, Any], chosen: str = "") -> None:
+        """Draws landmarks as points with their names. The chosen one is red."""
+        for name in ("riis landmarks", "riis chosen landmark"):
+            self._drop(name)
+        for label in self._labels:
+            self.plotter.renderer.RemoveViewProp(label)
+        self._labels = [self._label_of(name.replace("_", " "), at) for name, at in landmarks.items()]
+        for label in self._labels:
+            self.plotter.renderer.AddViewProp(label)
+        for name, colour, points in (
+            ("riis landmarks", LANDMARK, [at for one, at in landmarks.items() if one != chosen]),
+            ("riis chosen landmark", CHOSEN, [at for one, at in landmarks.items() if one == chosen]),
+        ):  # fmt: skip
+            if points:
+                self._put(name, self._pv.PolyData(numpy.array(points, float)), color=colour, point_size=13,
+                          render_points_as_spheres=True, lighting=False, pickable=False)
+    def _label_of(self, text: str, at: Any) -> Any:
+        """Returns a text beside a point, in front of everything."""
+        from vtkmodules.vtkRenderingCore import vtkTextActor
+
+        label = vtkTextActor()
+        label.SetInput(f"  {text} ")
+        label.GetPositionCoordinate().SetCoordinateSystemToWorld()
+        label.GetPositionCoordinate().SetValue(*(float(x) for x in at))
+        look = label.GetTextProperty()
+        look.SetFontSize(_LETTER)
+        look.SetVerticalJustificationToCentered()
+        look.SetColor(0.07, 0.07, 0.07)
+        look.SetBackgroundColor(1.0, 1.0, 1.0)
+        look.SetBackgroundOpacity(0.6)
+        return label
+
     def show_points(self, points: Any) -> None:
         """Draws points that were clicked."""
         self._drop("riis points")
@@ -451,7 +522,7 @@ class Scene:
         return self._size
 
     def resize(self, width: int, height: int) -> None:
-        self._size = max(64, min(4096, int(width))), max(64, min(4096, int(height)))
+        self._size = tuple(max(LEAST_SIDE, min(MOST_SIDE, int(side))) for side in (width, height))  # type: ignore[assignment]
         self._set_window(1.0)
 
     def _set_window(self, ratio: float) -> None:
@@ -499,6 +570,57 @@ class Scene:
         writer.SetInputConnection(image.GetOutputPort())
         writer.Write()
         return memoryview(writer.GetResult()).tobytes()
+
+    def save_picture(self, path: str, size: tuple[int, int] | None = None) -> None:
+        """Writes the picture as .png, without what helps to place the valve: lights, the gap, the axis and clicked points.
+
+        size  width and height in pixels. None: those of the page. Lines, points and letters grow with the height
+        """
+        with self.for_a_report(size):
+            self.plotter.screenshot(path)
+
+    @contextmanager
+    def for_a_report(self, size: tuple[int, int] | None = None) -> Iterator[None]:
+        """During this context, the picture has this size, and no lights and handles."""
+        before, hidden = self._size, self.hide_helpers()
+        try:
+            if size is not None:
+                self.resize(*size)
+            grown = self._size[1] / before[1]
+            with self._grown(grown):
+                self.sharpen()
+                yield
+        finally:
+            for actor in hidden:
+                actor.SetVisibility(True)
+            self.resize(*before)
+
+    def hide_helpers(self) -> list[Any]:
+        """Hides what helps to place the valve. Returns the actors that were visible."""
+        hidden = [actor for name, actor in self._actors.items() if name.startswith(_HELPERS) and actor.GetVisibility()]
+        for actor in hidden:
+            actor.SetVisibility(False)
+        return hidden
+
+    @contextmanager
+    def _grown(self, factor: float) -> Iterator[None]:
+        """During this context, lines, points and letters are larger by a factor."""
+        looks = [actor.GetProperty() for actor in self._actors.values() if hasattr(actor, "GetProperty")]
+        sizes = [(look, look.GetLineWidth(), look.GetPointSize()) for look in looks]
+        letters = [label.GetTextProperty() for label in self._labels]
+        try:
+            for look, width, point_size in sizes:
+                look.SetLineWidth(factor * width)
+                look.SetPointSize(factor * point_size)
+            for letter in letters:
+                letter.SetFontSize(max(6, round(factor * _LETTER)))
+            yield
+        finally:
+            for look, width, point_size in sizes:
+                look.SetLineWidth(width)
+                look.SetPointSize(point_size)
+            for letter in letters:
+                letter.SetFontSize(_LETTER)
 
     def close(self) -> None:
         self.plotter.close()

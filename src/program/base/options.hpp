@@ -5,6 +5,7 @@
 #include <riis/riis_vtk.h>
 #include <riis/riis.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -59,6 +60,23 @@ struct Picture {
   std::int32_t view;
 };
 
+// The names of captions and panels. A name's position is the value of its RIIS_VTK_CAPTIONS_* or RIIS_VTK_PANELS_*.
+inline const std::vector<std::string> caption_names = {"all", "scale", "none"};
+inline const std::vector<std::string> panel_names = {"both", "valve", "marks"};
+
+struct PictureSize {
+  std::int32_t width = 1600, height = 800;
+  static constexpr std::int32_t least = 64, most = 8192;  // the range that riis_vtk accepts
+};
+
+// How all pictures of a run and its movie look.
+struct PictureStyle {
+  std::optional<PictureSize> size;                  // not set if the user gave none
+  std::array<double, 4> background = {1, 1, 1, 1};  // red, green, blue and opacity
+  std::int32_t captions = RIIS_VTK_CAPTIONS_ALL;
+  std::int32_t panels = RIIS_VTK_PANELS_BOTH;
+};
+
 // The options of a series in time, and of a case of several valves.
 struct SeriesOptions {
   std::string case_file;      // "" if the command line describes the only valve
@@ -99,6 +117,7 @@ struct MarkOptions : ValveOptions {
   std::string output, surface_output, stats;  // "" if not wanted
   std::string surface_output_option = "--surface-output";
   std::vector<Picture> pictures;
+  PictureStyle style;
   std::int32_t n_steps = 0;     // number of steps to be timed
   std::string prefix = "riis";  // the prefix of the arrays in the output
   bool replace = false;         // whether to replace existing arrays with these names
@@ -183,6 +202,24 @@ struct PlaceOptions : ValveOptions {
   std::optional<std::vector<double>> flow;                    // in the mesh's axes
   std::string output, foam_output, c_output, fortran_output;  // "" if not wanted, "-" for stdout
 };
+
+// The options of riis patient. `wall` is the file of the wall. Points have its unit, and so have lengths without a unit.
+struct PatientOptions : ValveOptions {
+  std::string landmarks, folder;    // a file, and the folder for the results
+  bool has_valve = false;           // whether the user named the kind
+  std::string solver = "none";      // one of solver_names
+  std::optional<Unit> wall_unit;    // of the wall's file; nothing: found by the landmarks
+  std::string axes;                 // of the wall: "LPS" or "RAS"; "": found by the landmarks
+  std::int32_t warp_choice = smoothed_warp;  // a LandmarkWarp
+  std::optional<Amount> noise;               // of the landmarks
+  std::optional<std::vector<double>> flow;   // in the wall's axes
+  std::optional<std::vector<double>> inlet;  // a point near the flat end that the blood comes from
+  std::vector<std::vector<double>> outlets;  // points near the other ends
+  std::optional<Amount> given_half_thickness, given_skirt, given_largest_edge, given_resistance;
+  std::optional<double> band_edge;  // in half thicknesses
+  bool replace = false;             // whether to replace the files of an earlier run
+};
+inline const std::vector<std::string> solver_names = {"none", "openfoam", "svmultiphysics", "fenicsx"};
 
 // The options of riis params.
 struct ParamsOptions : ValveOptions {

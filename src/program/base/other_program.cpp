@@ -8,7 +8,9 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <new>
+#include <system_error>
 
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
@@ -90,8 +92,20 @@ ProgramEnd run_program(const std::vector<std::string> &words, std::FILE *input,
   read_lines(output.get(), read);
   end.status = status_of(process);
   std::rewind(messages.get());
-  read_lines(messages.get(), [&end](const std::string &line) { end.last_message = line; });
+  read_lines(messages.get(), [&end](const std::string &line) { end.messages.push_back(line); });
+  if (!end.messages.empty()) end.last_message = end.messages.back();
   return end;
+}
+
+std::string program_on_path(const std::string &name) {
+  const char *path = std::getenv("PATH");
+  for (const std::string &folder : split(path ? path : "", ":")) {
+    const std::string program = folder + "/" + name;
+    std::error_code error;
+    if (!folder.empty() && std::filesystem::is_regular_file(program, error) && access(program.c_str(), X_OK) == 0)
+      return program;
+  }
+  return "";
 }
 
 std::string python_of_user() {

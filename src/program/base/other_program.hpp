@@ -22,12 +22,16 @@ struct ProgramEnd {
   int error = 0;               // why the program could not be run, as errno has it, or 0
   int status = -1;             // its exit status, or -1 if a signal ended it
   std::string last_message{};  // the last line on its stderr
+  std::vector<std::string> messages{};  // all these lines
 };
 // Runs the words as a program and waits for its end. A first word without a slash is looked for in PATH. The program reads
 // `input` from its position, or nothing if it is NULL. `read` gets each line of the output.
 ProgramEnd run_program(
     const std::vector<std::string> &words, std::FILE *input = nullptr,
     const std::function<void(const std::string &)> &read = [](const std::string &) {});
+
+// Returns the path of the program with that name on the PATH, or "" if there is none.
+std::string program_on_path(const std::string &name);
 
 // Returns the Python that the program starts: `python3`, or the one that the environment variable RIIS_PYTHON names.
 std::string python_of_user();

@@ -24,6 +24,7 @@ inline constexpr Quantity a_resistance = {"a resistance", "kg/(m s)", 1, -1, -1}
 inline constexpr Quantity a_density = {"a density", "kg/m3", 1, -3, 0};
 inline constexpr Quantity a_viscosity = {"a viscosity", "Pa s", 1, -1, -1};
 inline constexpr Quantity a_pressure = {"a pressure", "Pa", 1, -1, -2};
+inline constexpr Quantity a_length = {"a length", "m", 0, 1, 0};
 inline constexpr Quantity an_area = {"an area", "m2", 0, 2, 0};
 inline constexpr Quantity a_flow = {"a flow", "m3/s", 0, 3, -1};
 inline constexpr Quantity a_K = {"a K", "kg/(m3 s)", 1, -3, -1};

@@ -41,7 +41,7 @@ class Alone {
   Alone &operator=(const Alone &) = delete;
 
  private:
-  int n_ranks_;
+  [[maybe_unused]] int n_ranks_;  // used with MPI
 };
 
 // A failure that all ranks know.

@@ -119,6 +119,22 @@ void check_distance(const Command &command, const MarkOptions &options) {
     refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
 }
 
+// Refuses looks of pictures that nothing has, or that a movie or a picture without a mesh cannot have.
+void check_style(const Command &command, const MarkOptions &options) {
+  const std::string &movie = options.series.movie;
+  const PictureStyle &style = options.style;
+  for (const char *name : {"--picture-size", "--picture-background", "--picture-captions", "--picture-panels"})
+    if (command.has(name) && options.pictures.empty() && movie.empty())
+      refuse_usage(std::string(name) + " has no effect without --picture" +
+                   (command.knows("--movie") ? " or --movie" : ""));
+  if (!movie.empty() && style.background[3] == 0) refuse_usage("--picture-background: a movie cannot be transparent");
+  const bool is_odd = style.size && (style.size->width % 2 != 0 || style.size->height % 2 != 0);
+  if (is_odd && has_ending(movie, ".mp4"))
+    refuse_usage("--picture-size: both numbers must be even for the movie " + movie);
+  if (style.panels == RIIS_VTK_PANELS_MARKS && !options.needs_mesh)
+    refuse_usage("--picture-panels marks: riis surface has no mesh, and marks nothing");
+}
+
 bool has_output(const MarkOptions &options) {
   return !options.output.empty() || !options.surface_output.empty() || !options.pictures.empty() ||
          !options.stats.empty() || !options.series.movie.empty() || !options.series.table.empty();
@@ -194,12 +210,14 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
   if (has_case) return options;
   apply_amounts(options);
   if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
+  check_style(command, options);
   if (options.quiet && !has_output(options)) refuse_usage("nothing to do: --quiet is given and no output is named");
   return options;
 }
 
 MarkOptions finish_surface(const Command &command, MarkOptions options) {
   finish_surface_in_place(command, options);
+  check_style(command, options);
   if (!has_output(options)) refuse_usage("nothing to do: --output or --picture is needed");
   return options;
 }
@@ -270,6 +288,22 @@ PlaceOptions finish_place(const Command &command, PlaceOptions options) {
   if (options.output != "-" && !options.output.empty() && !is_valve_file(options.output))
     refuse_usage("--output: " + options.output + " must end in .json, so that other commands take it");
   check_set_opening(options, "has no effect: landmarks are those of the closed valve");
+  return options;
+}
+
+PatientOptions finish_patient(const Command &command, PatientOptions options) {
+  options.has_valve = command.has("--valve");
+  if (options.has_valve && is_valve_file(options.valve))
+    refuse_usage("--valve: " + options.valve + " is a file; landmarks place a kind of valve");
+  if (options.has_valve) use_named_valve(options);
+  check_set_opening(options, "has no effect: the valve opens and closes");
+  if (options.noise && options.noise->number < 0) refuse_usage("--noise: " + options.noise->text + " is below 0");
+  if (options.solver == "none") return options;
+  const Unit needed = options.solver == "svmultiphysics" ? Unit::centimetre : Unit::metre;
+  if (options.unit && *options.unit != needed)
+    refuse_usage("--unit: " + options.solver + " takes " + words_of(needed) + ", not " + words_of(*options.unit) +
+                 ": leave --unit out, because riis patient converts");
+  options.unit = needed;
   return options;
 }
 

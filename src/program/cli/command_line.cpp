@@ -178,6 +178,8 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   add(app, "params", "Print the parameters of a valve", declare_params, finish_params, ParamsOptions());
   add(app, "place", "Find a valve's sizes and placement from a patient's landmarks", declare_place, finish_place,
       PlaceOptions());
+  add(app, "patient", "Make a mesh with a valve from a patient's wall and landmarks, and a case that a solver runs",
+      declare_patient, finish_patient, PatientOptions());
   named(app, "view", "Show a valve in a mesh, in a browser (by the Python package riis)");
   CLI::App *help = named(app, "help", "Explain a topic, or list the topics");
   std::string topic;

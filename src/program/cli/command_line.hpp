@@ -20,7 +20,8 @@ namespace riis::program {
 
 // The command that the user requested, with its options. The commands riis surface and riis check also use MarkOptions.
 using Request =
-    std::variant<MarkOptions, SizeFieldOptions, StatesOptions, AreaOptions, ExportOptions, ParamsOptions, PlaceOptions>;
+    std::variant<MarkOptions, SizeFieldOptions, StatesOptions, AreaOptions, ExportOptions, ParamsOptions, PlaceOptions,
+                 PatientOptions>;
 
 // Parses the command line. If the user requests only help or the version, prints this text and returns nothing. Throws a Refusal
 // for wrong usage.
@@ -79,6 +80,7 @@ void declare_from_area(Command command, AreaOptions &options);
 void declare_export(Command command, ExportOptions &options);
 void declare_params(Command command, ParamsOptions &options);
 void declare_place(Command command, PlaceOptions &options);
+void declare_patient(Command command, PatientOptions &options);
 
 // Each finish_* function refuses options that contradict each other or have no effect, and derives the remaining values.
 MarkOptions finish_mark(const Command &command, MarkOptions options);
@@ -91,6 +93,7 @@ AreaOptions finish_from_area(const Command &command, AreaOptions options);
 ExportOptions finish_export(const Command &command, ExportOptions options);
 ParamsOptions finish_params(const Command &command, ParamsOptions options);
 PlaceOptions finish_place(const Command &command, PlaceOptions options);
+PatientOptions finish_patient(const Command &command, PatientOptions options);
 
 // The beginning of the program's help.
 extern const char *const description;

@@ -267,6 +267,48 @@ void declare_loudness(Command &command, ValveOptions &options) {
   command.flag("--strict", "Exit with status 4 if there was a warning", options.strict);
 }
 
+// Reads a text such as 3840x2160.
+PictureSize parse_size(const std::string &text, const std::string &subject) {
+  const std::vector<std::string> sides = split(text, "x");
+  const auto is_number = [](const std::string &side) {
+    return !side.empty() && side.size() < 8 && side.find_first_not_of("0123456789") == std::string::npos;
+  };
+  if (sides.size() != 2 || !is_number(sides[0]) || !is_number(sides[1]))
+    refuse_usage(subject + ": " + text + " is not WIDTHxHEIGHT, such as 1920x1080");
+  PictureSize size;
+  size.width = parse_integer(sides[0], subject);
+  size.height = parse_integer(sides[1], subject);
+  for (const std::int32_t side : {size.width, size.height})
+    if (side < PictureSize::least || side > PictureSize::most)
+      refuse_usage(subject + ": " + text + ": " + std::to_string(side) + " is not from " +
+                   std::to_string(PictureSize::least) + " to " + std::to_string(PictureSize::most) + " pixels");
+  return size;
+}
+
+// Reads white, black, transparent, or a colour as six hexadecimal digits.
+std::array<double, 4> parse_background(const std::string &text, const std::string &subject) {
+  if (text == "white") return {1, 1, 1, 1};
+  if (text == "black") return {0, 0, 0, 1};
+  if (text == "transparent") return {1, 1, 1, 0};
+  const std::string digits = text.substr(text.rfind('#', 0) == 0 ? 1 : 0);
+  if (digits.size() != 6 || digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
+    refuse_usage(subject + ": " + text + " is not white, black, transparent, or six hexadecimal digits such as f4f1ea");
+  std::array<double, 4> colour = {0, 0, 0, 1};
+  for (std::size_t k = 0; k < 3; ++k) colour[k] = std::stoi(digits.substr(2 * k, 2), nullptr, 16) / 255.0;
+  return colour;
+}
+
+void declare_style(Command &command, PictureStyle &style) {
+  command.parsed("--picture-size", "WIDTHxHEIGHT", "Pixels of pictures and movies (default 1600x800)", style.size,
+                 parse_size);
+  command.parsed("--picture-background", "COLOUR",
+                 "white (default), black, transparent, or as f4f1ea: riis help pictures", style.background,
+                 parse_background);
+  command.choice("--picture-captions", "all (default), scale (only the scale bar) or none", caption_names,
+                 style.captions, "WHICH");
+  command.choice("--picture-panels", "both (default), valve or marks", panel_names, style.panels, "WHICH");
+}
+
 // --view is declared after --picture, so CLI11 passes the pictures first. Their number is then known when the views are read.
 void declare_pictures(Command &command, MarkOptions &options) {
   CLI::Option *const pictures =
@@ -287,6 +329,7 @@ void declare_pictures(Command &command, MarkOptions &options) {
       ->allow_extra_args(false)
       ->check(CLI::IsMember(view_names))
       ->needs(pictures);
+  declare_style(command, options.style);
 }
 
 void declare_stats(Command &command, MarkOptions &options) {
@@ -572,6 +615,10 @@ void declare_place(Command command, PlaceOptions &options) {
   command.text("--output", "OUT.json", "The placed valve, for --valve of the other commands; - is stdout",
                options.output);
   command.text("--foam", "OUT", "The valve and its placement as OpenFOAM reads them, in metres", options.foam_output);
+  command
+      .parsed("--skirt", "L", "The longest skirt that OpenFOAM accepts, in the mesh's unit (default 6 mm)",
+              options.skirt, parse_positive_finite)
+      ->needs(command.option("--foam"));
   command.text("--c", "OUT", "The valve and its placement as lines of C", options.c_output);
   command.text("--fortran", "OUT", "The valve and its placement as lines of Fortran", options.fortran_output);
   declare_loudness(command, options);
@@ -596,6 +643,54 @@ void declare_place(Command command, PlaceOptions &options) {
                options.valve);
   command.text("--params", "FILE.json", "Parameters of the valve that serves as the template", options.params);
   declare_settings(command, "Set and keep one parameter, in cm; may be repeated", options);
+}
+
+void declare_patient(Command command, PatientOptions &options) {
+  command.text("WALL", "FILE", "The wall: a closed surface around the blood (.stl, .vtp, ...), or a volume mesh", options.wall)
+      ->required();
+  command.text("LANDMARKS", "FILE.json|.csv|.fcsv", "The landmarks of the valve, as riis place reads them", options.landmarks)
+      ->required();
+  command.text("--output", "FOLDER", "A new or empty folder for the mesh, the valve, pictures and reports", options.folder)
+      ->required();
+  command.text("--solver", "NAME", "Also write a case: openfoam, svmultiphysics, fenicsx or none (default)", options.solver)
+      ->check(CLI::IsMember(solver_names));
+  command.flag("--replace", "Replace the files that an earlier riis patient wrote to FOLDER", options.replace);
+  declare_loudness(command, options);
+  command.group("Landmarks and wall (lengths without a unit and points are in the unit of WALL)");
+  declare_unit_of(command, "--wall-unit", "Unit of WALL (default found: landmarks lie at the wall)", options.wall_unit);
+  command.text("--axes", "LPS|RAS", "Axes of WALL (default found in the same way)", options.axes)
+      ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
+  declare_unit_of(command, "--unit", "Unit of the files in FOLDER (default the solver's, else that of WALL)", options.unit);
+  command.choice("--warp", "Warp the valve to the landmarks: none, exact, or smoothed by their noise (default)", warp_names,
+                 options.warp_choice);
+  command.parsed("--noise", "L", "Standard deviation of each coordinate of the landmarks (default 0.3 mm)", options.noise,
+                 amount_of(a_length));
+  command.value("--flow", "X,Y,Z", "Direction of flow through the valve, in the axes of WALL",
+                [&options](const std::string &text) { options.flow = parse_list(text, "--flow", 3, "X,Y,Z"); });
+  command.value("--inlet", "X,Y,Z", "A point near the flat end that the blood comes from (default found by the valve)",
+                [&options](const std::string &text) { options.inlet = parse_list(text, "--inlet", 3, "X,Y,Z"); });
+  command
+      .values("--outlet", "X,Y,Z", "A point near an end that the blood leaves by; may be repeated (default all others)",
+              [&options](const std::vector<std::string> &texts) {
+                for (const std::string &text : texts) options.outlets.push_back(parse_list(text, "--outlet", 3, "X,Y,Z"));
+              })
+      ->allow_extra_args(false);
+  command.group("Valve");
+  command.text("--valve", "KIND|DISEASE", "coapting, mitral or another kind, or a disease (default by the landmarks)",
+               options.valve);
+  command.text("--params", "FILE.json", "Parameters of the valve that serves as the template", options.params);
+  declare_settings(command, "Set and keep one parameter, in cm; may be repeated", options);
+  command.parsed("--skirt", "L", "The longest skirt from the valve to the wall to accept (default 6 mm)", options.given_skirt,
+                 positive_amount_of(a_length));
+  command.group("Mesh and flow");
+  command.parsed("--half-thickness", "L", "Half thickness of the band (default 1 mm, and 1.5 mm for a mitral valve)",
+                 options.given_half_thickness, positive_amount_of(a_length));
+  command.parsed("--band-edge", "F", "Edge length in the band, in half thicknesses (default 0.95; svmultiphysics 0.55)",
+                 options.band_edge, parse_positive_finite);
+  command.parsed("--largest-edge", "L", "Largest edge length of the mesh (default 3 half thicknesses)",
+                 options.given_largest_edge, positive_amount_of(a_length));
+  command.parsed("--resistance", "R", "Resistance of the valve in kg/(m s) (default 1e4)", options.given_resistance,
+                 positive_amount_of(a_resistance));
 }
 
 void declare_params(Command command, ParamsOptions &options) {

@@ -67,12 +67,20 @@ riis help parameters explains the names.)"},
   riis mark root.vtu --valve placed.json --opening 0.3 --output marked.vtu
   riis place annulus.csv --valve mitral --flow 0,0,-1 --set anterior_length=2.4 --c lines.c
 riis help landmarks explains the files and the report.)"},
+    {"patient", R"(Examples:
+  riis patient root.stl landmarks.mrk.json --output case
+  riis patient root.stl landmarks.mrk.json --output case --solver openfoam
+  riis patient ventricle.stl landmarks.json --valve mitral --output case --half-thickness '1.2 mm' --inlet 12,-40,85
+riis help patient explains the steps. The program gmsh makes the mesh.)"},
     {"view", R"(Examples:
   riis view root.vtu
   riis view root.vtu --unit mm --folder results --no-browser
+  riis view --wall root.stl --landmarks landmarks.mrk.json
+  riis view root.vtu --valve placed.json --wall root.stl
   riis view --open valve.view.json
-A page in the browser has the mesh, the valve and sliders for its sizes. Other options: --port N, and --cells-where NAME=VALUES
-as in riis mark. RIIS_PYTHON names the Python that has the package riis; python3 unless set.)"},
+A page in the browser has the mesh, the wall, the valve and sliders for its sizes. Landmarks are picked on the wall, and place
+the valve. Other options: --port N, and --cells-where NAME=VALUES as in riis mark. RIIS_PYTHON names the Python that has the
+package riis; python3 unless set.)"},
     {"help", R"(Examples:
   riis help units)"},
     {"riis", R"(Examples:
@@ -228,6 +236,33 @@ Sizes from "proportion" have no landmark: they keep the proportions of --params 
 its standard error at the noise moves the valve by more than a fifteenth of its radius. It is then drawn to its proportion.
 Landmarks are those of the closed valve. The report's residuals are distances from landmarks to the valve.
 )"},
+    {"patient", "from a wall and landmarks to a mesh with a valve",
+     R"(
+riis patient WALL LANDMARKS --output FOLDER makes all of a patient's valve: an aortic valve in its root, or a mitral valve in a
+ventricle with the ends of the atrium and of the aorta. It sizes and places the valve, warps it to the landmarks, leads a skirt to
+the wall, makes a mesh by gmsh, and marks it. It prints each command before it runs it. The commands also run one by one, in FOLDER.
+The unit and the axes of WALL are found: the landmarks must lie at the wall. If two possibilities fit, the command asks. The flat
+ends of the wall become the boundaries inlet, outlet, outlet_2 and so on, and the rest becomes wall. --inlet and --outlet name ends
+by points near them.
+The command stops, and says what to do, if WALL has a fault or is not within --skirt of the valve, if leaflets go through each
+other, if an edge leaks at one of 11 openings, or if the closed valve does not seal. If an edge leaks, it first makes the mesh
+once more with shorter edges. FOLDER has the file UNFINISHED.txt until all is done. A sick valve that never closes need not seal.
+--solver writes a case into FOLDER, and the last line on stdout runs it.
+)"},
+    {"pictures", "views, sizes, backgrounds, captions",
+     R"(
+--picture draws the valve in its wall, and beside it the marked cells. The wall is the boundary of the mesh. riis surface has no
+mesh, and takes the wall of --wall. Flat ends of the wall, such as an inlet, are left out. These options hold for all pictures and
+for the movie of a run:
+  --picture-size 3840x2160        width and height in pixels, 64 to 8192. Letters and lines grow with them
+  --picture-background COLOUR     white, black, transparent (not for a movie), or six hexadecimal digits: red, green, blue
+  --picture-captions scale|none   only the scale bar, or no text at all
+  --picture-panels valve|marks    only one of the two panels
+--view and --movie-view choose the direction: side, top, oblique or three, by the mesh's axes, and valve-side, ... by the valve's.
+Captions give the opening, the orifice in cm2, the half thickness in mm, the number of marked nodes, and leaking edges.
+A picture needs no screen. If DISPLAY is not set or cannot be used, riis starts Xvfb, of Debian's package xvfb, for as long as it
+draws. An empty DISPLAY forces this: DISPLAY= riis mark ...
+)"},
     {"series", "many times: .pvd, movies, tables",
      R"(
 --times marks the nodes at each time, and --cycle is a file with the opening. The file has a line for each key, with a time
@@ -374,7 +409,7 @@ bileaflet valve is a face. With --ring scaffold the solver adds its K to that of
 
 riis export FOLDER MESH also computes what the solver will do in MESH, by the solver's own rules: its box, its distances, their
 interpolation to Gauss points, and the bands in which it takes pressures. The comment of the block has the expected drop of the
-closed valve over (R/eps) u, and the nodes before and behind the valve. If the drop is below 0.95, a line on stderr names the
+closed valve over (R/eps) u, and the nodes before and behind the valve. If the drop is below 0.9, a line on stderr names the
 half thickness that the mesh needs. FOLDER/forecast.csv has the numbers of each frame. A valve that the solver could never open
 or never close is refused. The drop depends a little on --density and --viscosity. python3 computes it by
 NumPy and SciPy, or the Python that RIIS_PYTHON names. Without them only the drop is missing, and a line on stderr says so.
@@ -419,7 +454,8 @@ killed leaves the lock behind, and the next run takes it over.
      R"(
 0  fine
 1  bad data: a file that cannot be read or written, or has bad content; a valve's kind; a parameter's name or value (in a
-   file or by --set); an output that another run is writing; no display for a picture, no ffmpeg for a movie, no memory
+   file or by --set); an output that another run is writing; no display and no Xvfb for a picture, no ffmpeg for a movie,
+   no memory
 2  wrong usage: an option that is unknown, malformed, out of range, without effect, or at odds with another; an output
    that would replace an input, another output, or arrays of the mesh
 3  no node is marked at any time, without --allow-none; the outputs are written all the same

@@ -25,9 +25,19 @@ void run_from_area(const AreaOptions &options);
 // command takes, and as text for OpenFOAM, C and Fortran.
 void run_place(const PlaceOptions &options);
 
+// riis patient. In: a patient's wall and landmarks. Out: a folder with the placed valve, a mesh with named boundaries, marks that
+// seal, a beat, pictures, a report, and perhaps a case of a solver.
+ExitCode run_patient(const PatientOptions &options);
+
 // riis export. Writes a valve's opening and closing to a folder as files for svMultiPhysics, and prints the block of the solver's
 // input that names these files.
 void export_uris(const ExportOptions &options);
+// The files of an export, written. The block names them in `named_folder`, the folder as the solver sees it.
+struct UrisExport {
+  std::string block;
+  std::string failure;  // why the drop was not found; "": it was, or there is no mesh
+};
+UrisExport write_uris(const ExportOptions &options, const std::string &named_folder);
 
 // riis size-field. In: valves and their motion. Out: a grid of edge lengths that gmsh reads, small near the valves. The lengths
 // follow from the distances of the grid's points to the valves at all times.

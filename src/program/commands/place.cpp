@@ -16,6 +16,7 @@
 #include "program/input/valve_source.hpp"
 #include "program/mark/crossings.hpp"
 #include "program/output/outputs.hpp"
+#include "program/patient/openfoam_valve.hpp"
 
 namespace riis::program {
 namespace {
@@ -51,40 +52,11 @@ void check_mesh(const PlaceOptions &options, const Placed &placed) {
   check_at_nodes(placed.landmarks, n_nodes, nodes, " of " + options.mesh, Reader::program);
 }
 
-// ---- Lines for OpenFOAM, C and Fortran ----
+// ---- Lines for C and Fortran ----
 
 bool is_changed(const Size &size) {
   return std::string(size.parameter.name) != "opening" && !size.follows &&
          !std::equal(size.values.begin(), size.values.end(), size.parameter.default_values);
-}
-
-// OpenFOAM's lengths are metres.
-std::string foam_of(const Placed &placed) {
-  const riis_placement &at = placed.placement;
-  const double metres = factor_between(placed.landmarks.unit, Unit::metre);
-  double translation[3];
-  for (int k = 0; k < 3; ++k) translation[k] = metres * at.translation[k];
-  std::string text = "valve\n{\n    kind            " + placed.kind + ";\n";
-  for (const Size &size : placed.sizes) {
-    if (!is_changed(size)) continue;
-    const std::string values = numbers_text(size.values.data(), size.values.size(), " ");
-    text += "    " + std::string(size.parameter.name) + " " + (size.values.size() == 1 ? values : "(" + values + ")") +
-            ";\n";
-  }
-  text += "}\nplacement\n{\n    scale           0.01;\n    rotationAxis    (" + numbers_text(at.rotation_axis, 3, " ") +
-          ");\n    rotationAngle   " + shortest(at.rotation_angle) + ";\n    translation     (" +
-          numbers_text(translation, 3, " ") + ");\n}\n";
-  if (!placed.is_warped) return text;
-  const auto points = [&](const std::vector<double> &xyz) {
-    std::string list;
-    for (std::size_t i = 0; i < xyz.size(); i += 3) {
-      const double point[3] = {metres * xyz[i], metres * xyz[i + 1], metres * xyz[i + 2]};
-      list += "\n        (" + numbers_text(point, 3, " ") + ")";
-    }
-    return "\n    (" + list + "\n    );\n";
-  };
-  return text + "warp\n{\n    sources" + points(placed.places) + "    targets" + points(placed.landmarks.xyz) +
-         "    noise           " + shortest(metres * placed.warp_noise) + ";\n}\n";
 }
 
 std::string c_of(const Placed &placed) {
@@ -179,10 +151,16 @@ void run_place(const PlaceOptions &options) {
   shape.surface_options = placed.where;
   shape.unit = placed.landmarks.unit;
   check_shape(shape, valve, false);
-  const std::pair<std::string, std::string> outputs[] = {{options.output, placed_file_of(placed, valve)},
-                                                         {options.foam_output, foam_of(placed)},
-                                                         {options.c_output, c_of(placed)},
-                                                         {options.fortran_output, fortran_of(placed)}};
+  const std::string file = placed_file_of(placed, valve);
+  // OpenFOAM's lengths are metres.
+  const double longest =
+      options.skirt ? factor_between(placed.landmarks.unit, Unit::metre) * *options.skirt : longest_foam_skirt;
+  const std::pair<std::string, std::string> outputs[] = {
+      {options.output, file},
+      {options.foam_output,
+       options.foam_output.empty() ? "" : foam_valve_of(options.landmarks, Json::parse(file), longest)},
+      {options.c_output, c_of(placed)},
+      {options.fortran_output, fortran_of(placed)}};
   bool uses_stdout = false;
   for (const auto &[path, text] : outputs) {
     if (path.empty()) continue;

@@ -43,6 +43,7 @@ ExitCode run_command(const Request &request) {
   if (const auto *options = std::get_if<AreaOptions>(&request)) run_from_area(*options);
   if (const auto *options = std::get_if<ExportOptions>(&request)) export_uris(*options);
   if (const auto *options = std::get_if<PlaceOptions>(&request)) run_place(*options);
+  if (const auto *options = std::get_if<PatientOptions>(&request)) return run_patient(*options);
   if (const auto *options = std::get_if<ParamsOptions>(&request)) print_params(*options);
   return exit_fine;
 }

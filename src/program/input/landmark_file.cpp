@@ -139,6 +139,7 @@ class Collector {
     if (file_.flow) refuse_file(file_.path, "the flow is given twice, by flow and by flow_from and flow_to");
     const auto &from = ends_.at(flow_from), &to = ends_.at(flow_to);
     file_.flow = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+    file_.flow_ends = {from[0], from[1], from[2], to[0], to[1], to[2]};
   }
 
  private:
@@ -372,7 +373,8 @@ const char *name_of(Axes axes) { return axes_names()[static_cast<std::size_t>(ax
 
 void LandmarkFile::convert(Unit to) {
   const double factor = factor_between(unit, to);
-  for (double &x : xyz) x *= factor;
+  for (std::vector<double> *const points : {&xyz, &flow_ends})
+    for (double &x : *points) x *= factor;
   if (noise) *noise *= factor;
   unit = to;
 }
@@ -381,8 +383,9 @@ void LandmarkFile::convert(Axes to) {
   const bool is_turned = axes != to && axes != Axes::mesh && to != Axes::mesh;
   axes = to;
   if (!is_turned) return;
-  for (std::size_t i = 0; i < xyz.size(); ++i)
-    if (i % 3 != 2) xyz[i] = -xyz[i];
+  for (std::vector<double> *const points : {&xyz, &flow_ends})
+    for (std::size_t i = 0; i < points->size(); ++i)
+      if (i % 3 != 2) (*points)[i] = -(*points)[i];
   if (flow) flow = {-(*flow)[0], -(*flow)[1], (*flow)[2]};
 }
 

@@ -27,29 +27,6 @@ constexpr double most_beyond = 0.01;
 // An open line of the wall is a hole if it is shorter than this share of the attachment. The end of a vessel is longer.
 constexpr double longest_hole = 0.3;
 
-// Reads the wall. The wall of a volume mesh is its boundary.
-SurfaceFile read_wall(const std::string &path) {
-  static const std::set<std::string> surface_endings = {".vtp", ".stl", ".obj", ".ply"};
-  static const std::set<std::string> common_endings = {".vtu", ".vtk"};
-  SurfaceFile wall;
-  const riis_status status = riis_vtk_surface_read(path.c_str(), nullptr, wall.out());
-  if (status == RIIS_OK) return wall;
-  const std::string ending = ending_of(path), reason = riis_last_error();
-  if (status != RIIS_FILE_ERROR || surface_endings.count(ending) != 0) check_surface_read(status, path);
-  MeshFile mesh;
-  try {
-    mesh = read_mesh_file(path, "");
-  } catch (const Refusal &) {
-    if (common_endings.count(ending) == 0) throw;
-    refuse_data(reason);
-  }
-  std::int64_t n_volumes = 0;
-  check(riis_vtk_mesh_get_volume_cells(mesh, &n_volumes, nullptr));
-  if (n_volumes == 0) refuse_data(reason);
-  check(riis_vtk_mesh_get_boundary(mesh, wall.out()), path);
-  return wall;
-}
-
 // How a wall differs from the file's: a factor of its lengths, and half a turn about z, by which the axes LPS and RAS differ.
 struct Change {
   const char *factor;
@@ -164,6 +141,28 @@ bool is_reached(const Gaps &gaps, double longest) {
 }
 
 }  // namespace
+
+SurfaceFile read_wall(const std::string &path) {
+  static const std::set<std::string> surface_endings = {".vtp", ".stl", ".obj", ".ply"};
+  static const std::set<std::string> common_endings = {".vtu", ".vtk"};
+  SurfaceFile wall;
+  const riis_status status = riis_vtk_surface_read(path.c_str(), nullptr, wall.out());
+  if (status == RIIS_OK) return wall;
+  const std::string ending = ending_of(path), reason = riis_last_error();
+  if (status != RIIS_FILE_ERROR || surface_endings.count(ending) != 0) check_surface_read(status, path);
+  MeshFile mesh;
+  try {
+    mesh = read_mesh_file(path, "");
+  } catch (const Refusal &) {
+    if (common_endings.count(ending) == 0) throw;
+    refuse_data(reason);
+  }
+  std::int64_t n_volumes = 0;
+  check(riis_vtk_mesh_get_volume_cells(mesh, &n_volumes, nullptr));
+  if (n_volumes == 0) refuse_data(reason);
+  check(riis_vtk_mesh_get_boundary(mesh, wall.out()), path);
+  return wall;
+}
 
 void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string &subject) {
   if (!options.skirt) return;

@@ -36,6 +36,8 @@ class SkirtOfFile {
 // Adds to a refusal of arrays how a file names the attached vertices.
 std::string with_attached_array(std::string text);
 
+// Reads a wall from the file of a surface or of a volume mesh. The wall of a volume mesh is its boundary.
+SurfaceFile read_wall(const std::string &path);
 // Makes the surface of --wall.
 Surface wall_of(const ValveOptions &options);
 // Measures the gap between a valve's surface and the wall of --wall.

@@ -24,6 +24,7 @@
 #include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
+#include "program/base/virtual_display.hpp"
 #include "program/input/mesh_reading.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/mark/warnings.hpp"
@@ -158,13 +159,10 @@ OutputLocks locks_of(const NamedFiles &outputs) {
   return OutputLocks(written);
 }
 
-// Checks the display early. riis_vtk also refuses a picture without a display, but only when it draws, after all other work.
+// Refuses a picture early, before all other work, if there is no display and no program that makes one.
 void check_display() {
   const char *display = std::getenv("DISPLAY");
-  if (display && *display) return;
-  refuse_data(
-      "a picture needs an X display: DISPLAY is not set; on a machine without one, run the program by: "
-      "xvfb-run -a PROGRAM");
+  if (!display || !*display) check_virtual_display();
 }
 
 // Writes the text to a file. Returns the system's error, or 0 if there is none.

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -19,6 +17,7 @@
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_file.hpp"
+#include "program/input/wall.hpp"
 #include "program/mark/moving_valve.hpp"
 #include "program/output/outputs.hpp"
 
@@ -34,18 +33,18 @@ bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve
   return has_default_values(valve, {"open_radius_ratio", "commissure_expansion"});
 }
 
-// Returns the unit for the scale bar, or NULL if it is not known. Without --unit, the centimetres of a valve's parameters and the
-// scale of its placement tell the unit of the mesh. If two valves tell different units, the unit is not known.
-const char *unit_of_mesh(const std::optional<Unit> &given, const std::vector<MovingValve> &valves) {
-  if (given) return name_of(*given);
+// Returns the unit for the scale bar and the captions, or none if it is not known. Without --unit, the centimetres of a valve's
+// parameters and the scale of its placement tell the unit of the mesh. If two valves tell different units, it is not known.
+std::optional<Unit> unit_of_mesh(const std::optional<Unit> &given, const std::vector<MovingValve> &valves) {
+  if (given) return given;
   std::optional<Unit> told;
   for (const MovingValve &valve : valves) {
     if (!valve.options().surface.empty() || is_valve_file(valve.options().valve)) continue;
     const std::optional<Unit> reached = unit_reached(Unit::centimetre, valve.options().surface_options.scale);
-    if (!reached || (told && *told != *reached)) return nullptr;
+    if (!reached || (told && *told != *reached)) return std::nullopt;
     told = reached;
   }
-  return told ? name_of(*told) : nullptr;
+  return told;
 }
 
 void check_view(const std::string &option, std::int32_t view, std::size_t n_valves, const ValveOptions &valve) {
@@ -106,6 +105,25 @@ std::string fixed(double number, int decimals) {
   return printed(("%." + std::to_string(decimals) + "f").c_str(), number);
 }
 
+// Returns a text such as ", orifice 2.10 cm2". Returns "" for a surface without an outline. Slits of a closed valve do not count.
+// Areas are in cm2 and the half thickness is in mm, as people give them, unless the unit of the mesh is not known.
+std::string orifice_text(const riis_surface *surface, const std::optional<Unit> &unit) {
+  const auto orifice = get<riis_orifice>(riis_surface_get_orifice, surface, nullptr);
+  if (orifice.outline == RIIS_OUTLINE_NONE) return "";
+  const double area = has_slits(orifice) ? orifice.effective_area : orifice.area;
+  const double factor = unit ? factor_between(*unit, Unit::centimetre) : 1;
+  return ", orifice " + (unit ? fixed(area * factor * factor, 2) + " cm2" : printed("%.3g", area));
+}
+
+// Returns the line of a title about the half thickness, after a line break. Returns "" if the valves have several.
+std::string half_thickness_line(const std::vector<MovingValve> &valves, const std::optional<Unit> &unit) {
+  const double first = info_of(valves[0].surface()).half_thickness;
+  for (const MovingValve &valve : valves)
+    if (info_of(valve.surface()).half_thickness != first) return "";
+  const double factor = unit ? factor_between(*unit, Unit::millimetre) : 1;
+  return "\nhalf thickness " + printed("%.3g", first * factor) + (unit ? " mm" : "");
+}
+
 // The marks of several valves together. A node gets the leaflet of its nearest valve.
 struct JoinedMarks {
   explicit JoinedMarks(std::size_t n) : marked(n, 0.0), distance(n, RIIS_FAR_DISTANCE), leaflet(n, -1.0) {}
@@ -141,7 +159,9 @@ std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<Mov
 RunPictures::RunPictures(const Case &all, MeshFile mesh, const Box &box)
     : all_(all), mesh_(std::move(mesh)), box_(box) {
   if (all.is_series()) nodes_.emplace(mesh_, all.options.mesh);
-  if (!all.options.series.movie.empty()) movie_.emplace(all.options.series.movie, all.options.series.frame_rate);
+  if (!all.options.series.movie.empty())
+    movie_.emplace(all.options.series.movie, all.options.series.frame_rate, all.options.style.size.has_value());
+  if (!mesh_ && !all.options.wall.empty()) wall_ = wall_of(all.options);
 }
 
 bool RunPictures::are_wanted(const MarkOptions &options) {
@@ -169,8 +189,11 @@ void RunPictures::set_marks_of(std::vector<MovingValve> &valves) {
 
 std::string RunPictures::title(std::size_t step, const std::vector<MovingValve> &valves, const Report &report) const {
   const MovingValve &first = valves[0];
+  const std::optional<Unit> unit = unit_of_mesh(all_.options.unit, valves);
+  const std::string second_line = half_thickness_line(valves, unit);
   if (valves.size() == 1 && !all_.is_series())
-    return picture_title(first.options(), first.source().valve, report.valves[0]);
+    return picture_title(first.options(), first.source().valve, report.valves[0]) +
+           orifice_text(first.surface(), unit) + second_line;
   const std::vector<double> &times = all_.options.series.times;
   const std::string time = times.empty() ? "" : fixed(times[step], decimals_of(times));
   if (valves.size() > 1) {
@@ -178,10 +201,11 @@ std::string RunPictures::title(std::size_t step, const std::vector<MovingValve> 
     for (std::size_t valve = 0; valve < valves.size(); ++valve)
       text += (valve > 0 ? ", " : "") + all_.part_of(valve) +
               (valves[valve].opening() ? " " + fixed(*valves[valve].opening(), 2) : "");
-    return text;
+    return text + second_line;
   }
   const std::string text = title_of_valve(first.options()) + ", time " + time;
-  return first.opening() ? text + ", opening " + fixed(*first.opening(), 2) : text;
+  return (first.opening() ? text + ", opening " + fixed(*first.opening(), 2) : text) +
+         orifice_text(first.surface(), unit) + second_line;
 }
 
 // Only a single valve has views by its axes, which the placement of the first valve gives.
@@ -191,9 +215,19 @@ riis_vtk_picture_options RunPictures::how(const std::vector<MovingValve> &valves
   check(riis_vtk_picture_options_init(&how, sizeof how));
   how.leaflet_names = leaflet_names_.data();
   how.n_leaflet_names = view(leaflet_names_).size();
-  how.unit = unit_of_mesh(all_.options.unit, valves);
+  const std::optional<Unit> unit = unit_of_mesh(all_.options.unit, valves);
+  how.unit = unit ? name_of(*unit) : nullptr;
   std::copy_n(placement.rotation_axis, 3, how.rotation_axis);
   how.rotation_angle = placement.rotation_angle;
+  how.wall = wall_;
+  const PictureStyle &style = all_.options.style;
+  if (style.size) {
+    how.width = style.size->width;
+    how.height = style.size->height;
+  }
+  std::copy(style.background.begin(), style.background.end(), how.background);
+  how.captions = style.captions;
+  how.panels = style.panels;
   return how;
 }
 
@@ -219,16 +253,29 @@ void RunPictures::draw_pictures(const std::vector<MovingValve> &valves, const st
     options.leaking_edges = leaks.edges.empty() ? nullptr : leaks.edges.data();
     if (leaks.found.n_edges == 0 && leaks.has_all_edges()) options.leaking_edges = &none;
   }
-  check(riis_vtk_draw_views(surface, mesh_, &options, view(paths).size(), views.data(), paths.data()));
+  with_display(
+      [&] { return riis_vtk_draw_views(surface, mesh_, &options, view(paths).size(), views.data(), paths.data()); });
   report.written.insert(report.written.end(), paths.begin(), paths.end());
   report.seconds.picture = stage.seconds();
+}
+
+// Without a display that can be used, makes a virtual one and tries again.
+void RunPictures::with_display(const std::function<riis_status()> &draw) {
+  riis_status status = draw();
+  if (status == RIIS_UNAVAILABLE && !display_) {
+    display_.emplace();
+    status = draw();
+  }
+  check(status);
 }
 
 riis_vtk_film *RunPictures::film(const std::vector<MovingValve> &valves) {
   if (film_) return film_;
   riis_vtk_picture_options options = how(valves);
   options.view = all_.options.series.movie_view;
-  film_ = create<Film>(riis_vtk_film_create, mesh_, box_.lower, box_.upper, &options);
+  riis_vtk_film *film = nullptr;
+  with_display([&] { return riis_vtk_film_create(mesh_, box_.lower, box_.upper, &options, &film); });
+  film_ = Film(film);
   return film_;
 }
 
@@ -257,18 +304,6 @@ void RunPictures::encode(Report &report) {
 
 namespace {
 
-// Returns the path of the program with that name on the PATH, or "" if there is none.
-std::string program_on_path(const std::string &name) {
-  const char *path = std::getenv("PATH");
-  for (const std::string &folder : split(path ? path : "", ":")) {
-    const std::string program = folder + "/" + name;
-    std::error_code error;
-    if (!folder.empty() && std::filesystem::is_regular_file(program, error) && access(program.c_str(), X_OK) == 0)
-      return program;
-  }
-  return "";
-}
-
 [[noreturn]] void refuse_movie(const std::string &path, const std::string &reason) {
   refuse_data(path + ": the movie cannot be made: " + reason);
 }
@@ -287,16 +322,16 @@ std::string frame_pattern(const std::string &folder) {
   return pattern + "/frame_%06d.png";
 }
 
-std::vector<std::string> encoding_of(const std::string &path) {
+std::vector<std::string> encoding_of(const std::string &path, bool has_size) {
   if (has_ending(path, ".gif")) {
-    // The movie repeats for ever, and all its frames share one palette of colours.
-    return {
-        "-filter_complex",
-        "scale='min(800,iw)':-2:flags=lanczos,split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",
-        "-loop",
-        "0",
-        "-f",
-        "gif"};
+    // The movie repeats for ever, and all its frames share one palette of colours. It is small unless the user gave a size.
+    return {"-filter_complex",
+            std::string(has_size ? "" : "scale='min(800,iw)':-2:flags=lanczos,") +
+                "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",
+            "-loop",
+            "0",
+            "-f",
+            "gif"};
   }
   // This kind of H.264 plays in every player.
   return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"};
@@ -321,7 +356,7 @@ void Movie::encode() const {
   std::vector<std::string> words = {
       program_on_path("ffmpeg"),    "-nostdin", "-loglevel", "error", "-y", "-framerate", shortest(frame_rate_), "-i",
       frame_pattern(folder_.path())};
-  const std::vector<std::string> encoding = encoding_of(path_);
+  const std::vector<std::string> encoding = encoding_of(path_, has_size_);
   words.insert(words.end(), encoding.begin(), encoding.end());
   words.push_back(temporary);
   const ProgramEnd end = run_program(words);

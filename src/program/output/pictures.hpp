@@ -5,12 +5,14 @@
 #include <riis/riis_vtk.h>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "program/base/handles.hpp"
 #include "program/base/options.hpp"
+#include "program/base/virtual_display.hpp"
 #include "program/input/case.hpp"
 #include "program/mark/moving_valve.hpp"
 #include "program/output/outputs.hpp"
@@ -29,7 +31,9 @@ void check_movie(const std::string &path);
 
 class Movie {
  public:
-  Movie(const std::string &path, double frame_rate) : path_(path), frame_rate_(frame_rate) {}
+  // `has_size` tells whether the user gave the size of the frames. A .gif without a given size is made small.
+  Movie(const std::string &path, double frame_rate, bool has_size)
+      : path_(path), frame_rate_(frame_rate), has_size_(has_size) {}
 
   // Returns the path of the next frame. The caller must write a .png file there.
   std::string next_frame();
@@ -39,6 +43,7 @@ class Movie {
  private:
   std::string path_;
   double frame_rate_;
+  bool has_size_;
   const TemporaryFolder folder_;  // of the frames
   std::size_t n_frames_ = 0;
 };
@@ -64,6 +69,7 @@ class RunPictures {
   riis_vtk_picture_options how(const std::vector<MovingValve> &valves) const;
   void draw_pictures(const std::vector<MovingValve> &valves, const std::string &title, const riis_surface *surface,
                      Report &report);
+  void with_display(const std::function<riis_status()> &draw);
   riis_vtk_film *film(const std::vector<MovingValve> &valves);
 
   const Case &all_;
@@ -73,6 +79,8 @@ class RunPictures {
   std::vector<std::string> leaflet_texts_;
   std::vector<const char *> leaflet_names_;  // point into leaflet_texts_
   std::optional<Movie> movie_;
+  Surface wall_;                           // of --wall, without a mesh; otherwise null
+  std::optional<VirtualDisplay> display_;  // ends after film_
   Film film_;
 };
 

@@ -28,17 +28,19 @@ struct SolverCase {
   std::string solver;       // its own folder, inside of `folder`
   Unit unit = Unit::metre;  // of the mesh: metres for OpenFOAM and FEniCSx, centimetres for svMultiPhysics
   std::string kind;         // of the valve
-  bool is_mitral = false;   // the blood fills a ventricle: atrial pressure at the inlet, the ventricle's at the other end
-  std::string name;         // of the valve in the solver, such as "aortic_valve"
+  bool is_mitral =
+      false;         // the blood fills a ventricle: atrial pressure at the inlet, the ventricle's at the other end
+  std::string name;  // of the valve in the solver, such as "aortic_valve"
 
-  double half_thickness = 0;                     // eps
-  double skirt = 0;                              // the longest skirt that is accepted; with the wall it ends at the wall
-  double resistance = 1e4;                       // R, kg/(m s)
-  double density = 1060, viscosity = 3.5e-3;     // of blood, kg/m3 and Pa s
+  double half_thickness = 0;                  // eps
+  double skirt = 0;                           // the longest skirt that is accepted; with the wall it ends at the wall
+  double resistance = 1e4;                    // R, kg/(m s)
+  double density = 1060, viscosity = 3.5e-3;  // of blood, kg/m3 and Pa s
   bool starts_closed = true;
-  std::array<double, 3> upstream{}, downstream{};  // points in the blood before and after the valve, and the radius of balls
-  double ball_radius = 0;                          // around them, in which pressures are read
-  std::vector<Boundary> boundaries;                // the inlet, the outlets, the wall
+  std::array<double, 3> upstream{},
+      downstream{};                  // points in the blood before and after the valve, and the radius of balls
+  double ball_radius = 0;            // around them, in which pressures are read
+  std::vector<Boundary> boundaries;  // the inlet, the outlets, the wall
   std::int64_t n_nodes = 0, n_cells = 0;
   double band_edge = 0;  // edge length in the band
 };

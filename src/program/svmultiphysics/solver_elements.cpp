@@ -7,7 +7,7 @@
 namespace riis::program {
 namespace {
 
-using Place = std::array<double, 3>;
+using Coordinates = std::array<double, 3>;
 
 enum class Shape { tetrahedron, wedge, hexahedron };
 
@@ -15,7 +15,7 @@ enum class Shape { tetrahedron, wedge, hexahedron };
 
 struct Value {
   double value;
-  Place slope;
+  Coordinates slope;
 };
 
 Value product(const Value &a, const Value &b) {
@@ -25,14 +25,14 @@ Value product(const Value &a, const Value &b) {
 }
 
 // The four barycentric coordinates of a tetrahedron. The last node is the origin, as in the solver.
-std::array<Value, 4> tetrahedron_coordinates(const Place &at) {
+std::array<Value, 4> tetrahedron_coordinates(const Coordinates &at) {
   return {{{at[0], {1, 0, 0}}, {at[1], {0, 1, 0}}, {at[2], {0, 0, 1}}, {1 - at[0] - at[1] - at[2], {-1, -1, -1}}}};
 }
 
 // The corners that the middle nodes of a quadratic tetrahedron lie between.
 constexpr std::size_t edges_of_tetrahedron[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
-Value tetrahedron_shape(std::size_t n_nodes, std::size_t node, const Place &at) {
+Value tetrahedron_shape(std::size_t n_nodes, std::size_t node, const Coordinates &at) {
   const std::array<Value, 4> of = tetrahedron_coordinates(at);
   if (n_nodes == 4) return of[node];
   if (node < 4) {
@@ -47,7 +47,7 @@ Value tetrahedron_shape(std::size_t n_nodes, std::size_t node, const Place &at) 
   return middle;
 }
 
-Value wedge_shape(std::size_t node, const Place &at) {
+Value wedge_shape(std::size_t node, const Coordinates &at) {
   const Value in_triangle[3] = {{at[0], {1, 0, 0}}, {at[1], {0, 1, 0}}, {1 - at[0] - at[1], {-1, -1, 0}}};
   const double sign = node < 3 ? -1 : 1;
   return product(in_triangle[node % 3], {(1 + sign * at[2]) / 2, {0, 0, sign / 2}});
@@ -65,7 +65,7 @@ Value quadratic(double place, double x, std::size_t k) {
   return v;
 }
 
-Value hexahedron_shape(std::size_t n_nodes, const Place &node, const Place &at) {
+Value hexahedron_shape(std::size_t n_nodes, const Coordinates &node, const Coordinates &at) {
   Value v{1, {}};
   if (n_nodes == 27) {
     for (std::size_t k = 0; k < 3; ++k) v = product(v, quadratic(node[k], at[k], k));
@@ -90,7 +90,7 @@ Value hexahedron_shape(std::size_t n_nodes, const Place &node, const Place &at) 
   return v;
 }
 
-ShapeFunctions shapes_at(Shape shape, const std::vector<Place> &nodes, const Place &at) {
+ShapeFunctions shapes_at(Shape shape, const std::vector<Coordinates> &nodes, const Coordinates &at) {
   ShapeFunctions functions;
   for (std::size_t a = 0; a < nodes.size(); ++a) {
     const Value v = shape == Shape::tetrahedron ? tetrahedron_shape(nodes.size(), a, at)
@@ -104,26 +104,26 @@ ShapeFunctions shapes_at(Shape shape, const std::vector<Place> &nodes, const Pla
 
 // ---- Nodes ----
 
-std::vector<Place> tetrahedron_nodes(std::size_t n) {
-  std::vector<Place> nodes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+std::vector<Coordinates> tetrahedron_nodes(std::size_t n) {
+  std::vector<Coordinates> nodes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
   if (n == 4) return nodes;
   for (const auto &edge : edges_of_tetrahedron) {
-    const Place a = nodes[edge[0]], b = nodes[edge[1]];
+    const Coordinates a = nodes[edge[0]], b = nodes[edge[1]];
     nodes.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
   }
   return nodes;
 }
 
-std::vector<Place> wedge_nodes() { return {{1, 0, -1}, {0, 1, -1}, {0, 0, -1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 1}}; }
+std::vector<Coordinates> wedge_nodes() { return {{1, 0, -1}, {0, 1, -1}, {0, 0, -1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 1}}; }
 
-std::vector<Place> hexahedron_nodes(std::size_t n) {
-  std::vector<Place> nodes = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},  // corners
-                              {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1},   //
-                              {0, -1, -1},  {1, 0, -1},  {0, 1, -1}, {-1, 0, -1},  // middles of edges below
-                              {0, -1, 1},   {1, 0, 1},   {0, 1, 1},  {-1, 0, 1},   // above
-                              {-1, -1, 0},  {1, -1, 0},  {1, 1, 0},  {-1, 1, 0},   // upright
-                              {-1, 0, 0},   {1, 0, 0},   {0, -1, 0}, {0, 1, 0},    // middles of faces
-                              {0, 0, -1},   {0, 0, 1},   {0, 0, 0}};
+std::vector<Coordinates> hexahedron_nodes(std::size_t n) {
+  std::vector<Coordinates> nodes = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},  // corners
+                                    {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1},   //
+                                    {0, -1, -1},  {1, 0, -1},  {0, 1, -1}, {-1, 0, -1},  // middles of edges below
+                                    {0, -1, 1},   {1, 0, 1},   {0, 1, 1},  {-1, 0, 1},   // above
+                                    {-1, -1, 0},  {1, -1, 0},  {1, 1, 0},  {-1, 1, 0},   // upright
+                                    {-1, 0, 0},   {1, 0, 0},   {0, -1, 0}, {0, 1, 0},    // middles of faces
+                                    {0, 0, -1},   {0, 0, 1},   {0, 0, 0}};
   nodes.resize(n);
   return nodes;
 }
@@ -146,7 +146,7 @@ std::vector<ReferencePoint> tetrahedron_gauss(std::size_t n_nodes) {
   add_four(1.0 / 3, 0, 0.006026785714286);
   add_four(1.0 / 11, 8.0 / 11, 0.011645249086029);
   const double s = 0.066550153573664, t = 0.433449846426336, w = 0.010949141561386;
-  for (const Place &at : {Place{s, s, t}, {s, t, s}, {s, t, t}, {t, t, s}, {t, s, t}, {t, s, s}})
+  for (const Coordinates &at : {Coordinates{s, s, t}, {s, t, s}, {s, t, t}, {t, t, s}, {t, s, t}, {t, s, s}})
     points.push_back({at, w});
   return points;
 }
@@ -197,7 +197,7 @@ std::vector<ReferencePoint> fine_points(Shape shape) {
   return points;
 }
 
-SolverElement element_of(const char *name, std::uint8_t vtk_type, Shape shape, std::vector<Place> nodes,
+SolverElement element_of(const char *name, std::uint8_t vtk_type, Shape shape, std::vector<Coordinates> nodes,
                          std::vector<ReferencePoint> gauss) {
   SolverElement element{};
   element.name = name;

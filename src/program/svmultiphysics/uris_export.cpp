@@ -380,9 +380,9 @@ std::string text_of_units(const ExportOptions &options) {
          name_of(*options.unit) + " needs Mesh_scale_factor " + shortest(options.to_solver);
 }
 
-std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, const UrisLeaflets &leaflets,
-                       const UrisForecast &forecast) {
-  const std::string folder = in_xml(options.folder) + (options.folder.back() == '/' ? "" : "/");
+std::string mesh_block(const ExportOptions &options, const std::string &named_folder, const UrisMotion &motion,
+                       const UrisLeaflets &leaflets, const UrisForecast &forecast) {
+  const std::string folder = in_xml(named_folder) + (named_folder.back() == '/' ? "" : "/");
   const auto element = [](const std::string &name, const std::string &value) {
     return "<" + name + "> " + value + " </" + name + ">\n";
   };
@@ -439,7 +439,7 @@ std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, c
 
 }  // namespace
 
-void export_uris(const ExportOptions &options) {
+UrisExport write_uris(const ExportOptions &options, const std::string &named_folder) {
   if (options.surface_options.offset != 0)
     refuse_usage("--offset: svMultiPhysics interpolates distances, and has no offset");
   check_whole_folder(options.folder, "FOLDER");
@@ -454,8 +454,13 @@ void export_uris(const ExportOptions &options) {
   check_shape(options, leaflets.valve(), !options.params_open.empty());
   const UrisForecast forecast = options.mesh.empty() ? UrisForecast{} : forecast_of(options, motion, leaflets);
   write_export(options, motion, leaflets, forecast);
-  if (!options.quiet) write_text("-", mesh_block(options, motion, leaflets, forecast));
-  if (!forecast.failure.empty()) refuse_data(forecast.failure);
+  return {mesh_block(options, named_folder, motion, leaflets, forecast), forecast.failure};
+}
+
+void export_uris(const ExportOptions &options) {
+  const UrisExport written = write_uris(options, options.folder);
+  if (!options.quiet) write_text("-", written.block);
+  if (!written.failure.empty()) refuse_data(written.failure);
 }
 
 }  // namespace riis::program

@@ -2,6 +2,8 @@
 #include "program/svmultiphysics/uris_forecast.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "common/array_view.hpp"
@@ -9,6 +11,7 @@
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/mesh_reading.hpp"
+#include "program/mark/mesh_marking.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
 #include "program/svmultiphysics/uris_solver.hpp"
@@ -19,7 +22,24 @@ namespace {
 // The solver's bands of pressure end at this many half thicknesses.
 constexpr double band_end = 5;
 // The share of (R / eps) u that is enough, and the largest half thickness that is tried, over the given one.
-constexpr double enough = 0.95, most_thickness = 2;
+constexpr double enough = 0.9, most_thickness = 2;
+// A drop above the inverse of this share of (R / eps) u is no forecast.
+constexpr double least_of_sensible = 0.95;
+
+// Returns whether two corners are the ends of an edge.
+bool is_edge(const SolverElement &element, std::size_t a, std::size_t b) {
+  const auto &p = element.node_places[a], &q = element.node_places[b];
+  const bool agrees[] = {p[0] == q[0], p[1] == q[1], p[2] == q[2]};
+  if (element.n_corners == 4) return true;
+  if (element.n_corners == 6) return agrees[2] || (agrees[0] && agrees[1]);
+  return agrees[0] + agrees[1] + agrees[2] == 2;
+}
+
+double middle_of(std::vector<double> numbers) {
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  std::nth_element(numbers.begin(), middle, numbers.end());
+  return *middle;
+}
 
 class Forecaster {
  public:
@@ -158,10 +178,10 @@ class Forecaster {
       return;
     }
     if (!is_sensible(expected.drop)) {
-      say("expected drop: not found, because the solver's equations give none between 0 and 1/" + shown(enough) +
-          " of (R/eps) u");
+      say("expected drop: not found, because the solver's equations give none between 0 and 1/" +
+          shown(least_of_sensible) + " of (R/eps) u");
       warn("the drop across the closed valve was not found, because the solver's equations give none between 0 and 1/" +
-           shown(enough) + " of (R/eps) u; its stabilisation needs a density of about 1 g/cm3");
+           shown(least_of_sensible) + " of (R/eps) u; its stabilisation needs a density of about 1 g/cm3");
       return;
     }
     say("expected drop of the closed valve: " + printed("%.4f", expected.drop) + " of (R/eps) u, with eps = " +
@@ -209,12 +229,48 @@ class Forecaster {
       const double middle = (below + above) / 2;
       (is_enough(middle) ? above : below) = middle;
     }
-    return "a drop of " + shown(enough) + " needs a half thickness of " + in_mesh(above * half_thickness_) + ", " +
-           shown(above * half_thickness_ / median_edge_) + " edges";
+    return "a drop of " + shown(enough) + " needs a half thickness of " + in_mesh(above * half_thickness_) +
+           text_of_finer_mesh(near, above);
+  }
+
+  // Returns the edges that are as good as a half thickness that is larger by this factor, because the drop depends on the ratio of
+  // both. Elements become shorter by the same length everywhere, as with size fields of different edges in the band.
+  std::string text_of_finer_mesh(const std::vector<double> &near, double factor) const {
+    std::vector<double> lengths, volumes;
+    const SolverElement &element = *mesh_.element;
+    for (std::int64_t e = 0; e < mesh_.n_elements(); ++e) {
+      const std::int64_t *const nodes = mesh_.nodes_of(e);
+      if (std::none_of(nodes, nodes + element.n_corners,
+                       [&](std::int64_t i) { return view(near)[i] <= half_thickness_; }))
+        continue;
+      for (std::size_t b = 0; b < element.n_corners; ++b)
+        for (std::size_t a = 0; a < b; ++a)
+          if (is_edge(element, a, b))
+            lengths.push_back(distance_between(mesh_.point(nodes[a]).data(), mesh_.point(nodes[b]).data()));
+    }
+    for (std::int64_t i = 0; i < mesh_.n_nodes; ++i)
+      if (view(near)[i] <= half_thickness_) volumes.push_back(view(mesh_.node_volume)[i]);
+    if (lengths.empty() || volumes.empty()) return "";
+    const double edge = middle_of(lengths), volume = middle_of(volumes), shorter = edge - edge / factor;
+    double n_nodes = 0;
+    for (const double of_node : mesh_.node_volume) {
+      const double of_edges = edge * std::cbrt(std::max(of_node, 0.0) / volume);
+      // A node beside the wall has a small volume, but the edges of its neighbours.
+      n_nodes += std::pow(std::max(of_edges, edge) / (std::max(of_edges, edge) - shorter), 3);
+    }
+    return ", or edges of " + in_mesh(edge / factor) + " in the band, which are " +
+           shown(edge / factor / half_thickness_) + " half thicknesses and now are " + shown(edge / half_thickness_) +
+           ", in about " + rounded(n_nodes) + " nodes";
+  }
+
+  // Returns a count with two digits that are not 0.
+  static std::string rounded(double count) {
+    const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(count)) - 1));
+    return grouped(static_cast<std::int64_t>(std::llround(count / unit) * std::llround(unit)));
   }
 
   // The stabilisation can make the drop exceed (R / eps) u a little. A drop far above it, or below 0, is no forecast.
-  static bool is_sensible(double drop) { return drop > 0 && drop <= 1 / enough; }
+  static bool is_sensible(double drop) { return drop > 0 && drop <= 1 / least_of_sensible; }
 
   // Returns a length as the user gives it, in the unit of the mesh.
   std::string in_mesh(double length) const {

@@ -37,8 +37,8 @@ namespace {
 struct Block {
   Block *next;
 };
-constexpr int smallest = 6, largest = 22;
-constexpr std::size_t largest_block = std::size_t{1} << largest;
+constexpr int smallest_class = 6, largest_class = 22;
+constexpr std::size_t largest_block = std::size_t{1} << largest_class;
 
 // Each thread takes from its own pool first, so threads seldom wait for each other. A thread may give back memory that
 // another thread took. So a thread whose pool is empty looks into the other pools before it asks the system.
@@ -59,7 +59,7 @@ class ShortLock {
 
 struct alignas(64) Pool {
   ShortLock in_use;
-  std::array<Block *, largest - smallest + 1> kept{};
+  std::array<Block *, largest_class - smallest_class + 1> kept{};
 
   // Returns a kept block of this size class, or null if there is none.
   Block *take(std::size_t size) {
@@ -94,7 +94,7 @@ bool prepare_for_forks() noexcept {
 }
 
 int size_class(std::size_t n_bytes) {
-  int k = smallest;
+  int k = smallest_class;
   while ((std::size_t{1} << k) < n_bytes) ++k;
   return k;
 }
@@ -106,7 +106,7 @@ void *take_memory(std::size_t n_bytes) {
   const int k = size_class(n_bytes);
   if (n_keepers.load(std::memory_order_relaxed) > 0)
     for (unsigned i = 0, own = own_pool(); i < n_pools; ++i)
-      if (Block *taken = pools[(own + i) % n_pools].take(static_cast<std::size_t>(k - smallest))) return taken;
+      if (Block *taken = pools[(own + i) % n_pools].take(static_cast<std::size_t>(k - smallest_class))) return taken;
   return ::operator new (std::size_t{1} << k);
 }
 
@@ -117,7 +117,7 @@ void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
     // n_keepers counts the objects that keep memory. The last of them lowers this count first and then empties the pools under
     // this lock. So if the count is above 0 here, the pool will still be emptied, and the block may be kept.
     if (n_keepers.load(std::memory_order_acquire) > 0) {
-      Block *&first = to.kept[static_cast<std::size_t>(size_class(n_bytes) - smallest)];
+      Block *&first = to.kept[static_cast<std::size_t>(size_class(n_bytes) - smallest_class)];
       first = new (memory) Block{first};
       return;
     }
@@ -127,7 +127,7 @@ void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
 
 void free_kept_memory() noexcept {
   for (Pool &pool : pools) {
-    std::array<Block *, largest - smallest + 1> freed{};
+    std::array<Block *, largest_class - smallest_class + 1> freed{};
     {
       const std::lock_guard<ShortLock> lock(pool.in_use);
       freed.swap(pool.kept);

@@ -378,13 +378,12 @@ RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
 
 constexpr int halves = triangles_per_group / Doubles::n;
 
-// Both functions move a bound outwards by more than a number can change when it is rounded to single precision. So the results
-// also bound numbers that were rounded to single precision.
+// Moves a lower bound outwards by more than a number can change when it is rounded to single precision. So the result also bounds
+// numbers that were rounded to single precision.
 RIIS_INLINE float round_down(double x) {
   const double unit = (x < 0 ? -x : x) * 0x1p-22 + 0x1p-120;
   return static_cast<float>(x - unit);
 }
-RIIS_INLINE float round_up(double x) { return -round_down(-x); }
 
 void frame_leaf(const PlainFrame &frame, const double *xyz, Leaf &leaf, float *lower, float *upper) {
   // Eight nodes have 24 coordinates, so the pattern of centres repeats every three registers.

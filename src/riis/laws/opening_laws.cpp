@@ -14,10 +14,10 @@
 namespace riis {
 namespace {
 
-constexpr double largest = 1e30;
+constexpr double largest_number = 1e30;
 constexpr double degree = pi / 180;
 
-void check_time(double time) { check_range("", "time", time, -largest, largest); }
+void check_time(double time) { check_range("", "time", time, -largest_number, largest_number); }
 
 // Rises from 0 at x = 0 to 1 at x = 1. Its first two derivatives are 0 at both ends, so neither the valve's velocity nor its
 // acceleration jumps. Just below x = 1 the polynomial may round to more than 1. The result is limited to 1, because no valve
@@ -47,13 +47,14 @@ ValueAndRate opening_from_table(const riis_opening_table &table, double time) {
 }
 
 ValueAndRate opening_from_times(const riis_opening_times &times, double time) {
-  check_range("times", "opening_start", times.opening_start, -largest, largest);
-  check_range("times", "opening_duration", times.opening_duration, 1 / largest, largest);
-  check_range("times", "closing_start", times.closing_start, times.opening_start + times.opening_duration, largest);
-  check_range("times", "closing_duration", times.closing_duration, 1 / largest, largest);
+  check_range("times", "opening_start", times.opening_start, -largest_number, largest_number);
+  check_range("times", "opening_duration", times.opening_duration, 1 / largest_number, largest_number);
+  check_range("times", "closing_start", times.closing_start, times.opening_start + times.opening_duration,
+              largest_number);
+  check_range("times", "closing_duration", times.closing_duration, 1 / largest_number, largest_number);
   check_range("times", "closed", times.closed, 0, 1);
   check_range("times", "open", times.open, 0, 1);
-  check_range("times", "period", times.period, 0, largest);
+  check_range("times", "period", times.period, 0, largest_number);
   const double length = times.closing_start + times.closing_duration - times.opening_start;
   if (times.period > 0 && length > times.period)
     fail(RIIS_INVALID_ARGUMENT, "times.period is ", times.period, "; opening and closing take ", length);
@@ -76,10 +77,10 @@ namespace {
 
 // Returns the time since the previous state. Also checks the values that drive the law.
 double checked_step(double before, double time, double pressure_difference, double flow) {
-  check_range("before", "time", before, -largest, largest);
-  check_range("", "time", time, before, largest);
-  check_range("", "pressure_difference", pressure_difference, -largest, largest);
-  check_range("", "flow", flow, -largest, largest);
+  check_range("before", "time", before, -largest_number, largest_number);
+  check_range("", "time", time, before, largest_number);
+  check_range("", "pressure_difference", pressure_difference, -largest_number, largest_number);
+  check_range("", "flow", flow, -largest_number, largest_number);
   return time - before;
 }
 
@@ -98,12 +99,12 @@ void check_phase(std::int32_t phase) {
 
 riis_opening_switch_state advance(const riis_opening_switch &law, const riis_opening_switch_state &before, double time,
                                   double pressure_difference, double flow) {
-  check_range("law", "opening_duration", law.opening_duration, 1 / largest, largest);
-  check_range("law", "closing_duration", law.closing_duration, 1 / largest, largest);
-  check_range("law", "open_above", law.open_above, -largest, largest);
-  check_range("law", "close_below", law.close_below, -largest, largest);
-  check_range("law", "filter_time", law.filter_time, 0, largest);
-  check_range("law", "dwell_time", law.dwell_time, 0, largest);
+  check_range("law", "opening_duration", law.opening_duration, 1 / largest_number, largest_number);
+  check_range("law", "closing_duration", law.closing_duration, 1 / largest_number, largest_number);
+  check_range("law", "open_above", law.open_above, -largest_number, largest_number);
+  check_range("law", "close_below", law.close_below, -largest_number, largest_number);
+  check_range("law", "filter_time", law.filter_time, 0, largest_number);
+  check_range("law", "dwell_time", law.dwell_time, 0, largest_number);
   check_range("before", "progress", before.progress, 0, 1);
   check_phase(before.phase);
   check_reserved("before.reserved", before.reserved);
@@ -194,10 +195,10 @@ AngleState stopped(AngleState at, double least, double most) {
 
 riis_opening_angle_state advance(const riis_opening_angle &law, const riis_opening_angle_state &before, double time,
                                  double pressure_difference, double flow) {
-  check_range("law", "pressure_gain", law.pressure_gain, 0, largest);
-  check_range("law", "flow_gain", law.flow_gain, 0, largest);
-  check_range("law", "friction", law.friction, 0, largest);
-  check_range("law", "vortex_gain", law.vortex_gain, 0, largest);
+  check_range("law", "pressure_gain", law.pressure_gain, 0, largest_number);
+  check_range("law", "flow_gain", law.flow_gain, 0, largest_number);
+  check_range("law", "friction", law.friction, 0, largest_number);
+  check_range("law", "vortex_gain", law.vortex_gain, 0, largest_number);
   check_range("law", "angle_min", law.angle_min, 0, 90);
   check_range("law", "angle_max", law.angle_max, law.angle_min, 90);
   if (!(law.angle_max > law.angle_min))
@@ -208,7 +209,7 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
   const bool has_drive = !std::isnan(before.pressure_difference) && !std::isnan(before.flow);
   const double angle = has_drive || before.angle != 0 ? before.angle : law.angle_min;
   check_range("before", "angle", angle, law.angle_min, law.angle_max);
-  check_range("before", "angle_rate", before.angle_rate, -largest, largest);
+  check_range("before", "angle_rate", before.angle_rate, -largest_number, largest_number);
   const double step = checked_step(before.time, time, pressure_difference, flow);
 
   const AngleLaw::Drive to{pressure_difference, flow};

@@ -411,9 +411,9 @@ void make_fields(const SearchRequest &request, std::int32_t fields, const NodeLi
                      request.n_threads.for_part(request.surface.triangles().n_vertices(), few_vertices), scratch);
   const TriangleFields of_triangles(request, fields, list, scratch, made);
   const bool has_triangles = !request.surface.other_distance();
-  constexpr std::int64_t nodes_per_block = 512, few = 4096;
+  constexpr std::int64_t n_per_block = 512, few = 4096;
   const int n_threads = request.n_threads.for_part(list.size(), has_triangles ? few : 0);
-  parallel_for_ranges(list.size(), nodes_per_block, n_threads, [&](const Range &range, int) {
+  parallel_for_ranges(list.size(), n_per_block, n_threads, [&](const Range &range, int) {
     if (has_triangles) {
       of_triangles.write(range);
     } else {

@@ -56,16 +56,19 @@ void make_common(const std::vector<Vec3> &points, double tolerance, const std::v
 std::optional<double> distance_along(const Wall &wall, Vec3 point, Vec3 direction) {
   const Bounds &bounds = wall.scene.bounds();
   const double reach = 2 * (distance(bounds.lower, bounds.upper) + distance(point, bounds.lower));
-  std::optional<double> nearest;
   std::vector<std::int32_t> found;
-  wall.scene.for_each_along(point - reach * direction, point + reach * direction, found, [&](std::int64_t triangle) {
-    const std::optional<double> here = meets(wall.triangles.corners(triangle), point, direction);
-    if (!here) return;
-    const bool is_nearer =
-        !nearest || std::abs(*here) < std::abs(*nearest) || (std::abs(*here) == std::abs(*nearest) && *here > *nearest);
-    if (is_nearer) nearest = here;
-  });
-  return nearest;
+  // The wall is mostly near, and a short line meets few triangles. A line that meets nothing gets longer.
+  for (double length = reach / 256;; length = std::min(4 * length, reach)) {
+    std::optional<double> nearest;
+    wall.scene.for_each_along(point - length * direction, point + length * direction, found, [&](std::int64_t triangle) {
+      const std::optional<double> here = meets(wall.triangles.corners(triangle), point, direction);
+      if (!here) return;
+      const bool is_nearer =
+          !nearest || std::abs(*here) < std::abs(*nearest) || (std::abs(*here) == std::abs(*nearest) && *here > *nearest);
+      if (is_nearer) nearest = here;
+    });
+    if (length >= reach || (nearest && std::abs(*nearest) <= length)) return nearest;
+  }
 }
 
 Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads) {

@@ -156,13 +156,13 @@ TriangulationPlan plan_for(Valve valve, double max_error, int n_threads) {
   if (n_patches > max_patches)
     fail(RIIS_LIMIT_EXCEEDED, "the valve has ", n_patches, " patches; a fixed triangulation takes at most ",
          max_patches);
-  constexpr int n_steps = (n_between + 1) * (n_openings - 1);
-  const auto opening = [](int i) { return static_cast<double>(i) / n_steps; };
-  for (int i = 0; i <= n_steps; i += n_between + 1) states.push_back(patches_at(valve, opening(i)));
+  constexpr int n_spans = (n_between + 1) * (n_openings - 1);
+  const auto opening = [](int i) { return static_cast<double>(i) / n_spans; };
+  for (int i = 0; i <= n_spans; i += n_between + 1) states.push_back(patches_at(valve, opening(i)));
   TriangulationPlan plan = plan_triangulation(states, max_error, n_threads);
   for (int trial = 0; trial < n_trials; ++trial) {
     const std::size_t n_states = states.size();
-    for (int i = 0; i <= n_steps; ++i) {
+    for (int i = 0; i <= n_spans; ++i) {
       PatchSet state = patches_at(valve, opening(i));
       if (!is_within(state, plan, max_error)) states.push_back(std::move(state));
     }

@@ -170,9 +170,9 @@ struct OtherDistances {
   // distance to the triangles minus triangle_error.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);
-    const double infinity = std::numeric_limits<double>::infinity();
+    constexpr double far = std::numeric_limits<double>::infinity();
     const ClosestTriangle found = scene.closest(p, limit + triangle_error, best_instruction_set());
-    return found.triangle < 0 ? infinity : std::sqrt(found.distance_sq) - triangle_error;
+    return found.triangle < 0 ? far : std::sqrt(found.distance_sq) - triangle_error;
   }
 
   double rounding() const { return scene.rounding(); }

@@ -15,12 +15,15 @@ namespace {
 
 constexpr const char *advice = "; on a machine without one, run the program by: xvfb-run -a PROGRAM";
 
-// Tries several times, because the X server refuses connections while it resets itself after a picture.
+// Tries again for a while, because the X server refuses connections while it resets itself after a picture. A display on another
+// machine may take minutes to refuse, and is tried once.
 Display *open_display() {
-  for (int n_tries_left = 5;; --n_tries_left) {
+  using std::chrono::milliseconds;
+  const auto end = std::chrono::steady_clock::now() + milliseconds(450);
+  for (;;) {
     Display *display = XOpenDisplay(nullptr);
-    if (display || n_tries_left == 1) return display;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    if (display || std::chrono::steady_clock::now() > end) return display;
+    std::this_thread::sleep_for(milliseconds(100));
   }
 }
 

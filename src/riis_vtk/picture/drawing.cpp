@@ -16,9 +16,8 @@
 
 namespace riis::vtk {
 
-vtkSmartPointer<vtkRenderer> white_renderer() {
+vtkSmartPointer<vtkRenderer> two_sided_renderer() {
   const auto renderer = vtkSmartPointer<vtkRenderer>::New();
-  renderer->SetBackground(1, 1, 1);
   renderer->TwoSidedLightingOn();
   return renderer;
 }

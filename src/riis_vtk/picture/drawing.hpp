@@ -35,8 +35,8 @@ class HeldDisplay {
 inline constexpr unsigned char distinct_colours[][3] = {{0, 114, 178},   {230, 159, 0}, {0, 158, 115},
                                                         {204, 121, 167}, {213, 94, 0},  {86, 180, 233}};
 
-// Returns a renderer with a white background. Faces are lit from both sides. The caller must add lights.
-vtkSmartPointer<vtkRenderer> white_renderer();
+// Returns a renderer whose faces are lit from both sides. The caller must add lights.
+vtkSmartPointer<vtkRenderer> two_sided_renderer();
 
 vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data);
 

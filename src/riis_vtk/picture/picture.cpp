@@ -59,8 +59,23 @@ void check_edges(const riis_vtk_picture_options &options, const riis_vtk_mesh *m
 void check_picture_options_size(std::int64_t size) { check_struct_size(size, first_size, size_here, "options"); }
 
 const riis_vtk_picture_options &default_picture_options() {
-  static const riis_vtk_picture_options defaults = {
-      size_here, nullptr, nullptr, 0, nullptr, 0, nullptr, RIIS_VTK_VIEW_OBLIQUE, 1600, 800, 0, {0, 0, 1}, 0};
+  static const riis_vtk_picture_options defaults = {size_here,
+                                                    nullptr,
+                                                    nullptr,
+                                                    0,
+                                                    nullptr,
+                                                    0,
+                                                    nullptr,
+                                                    RIIS_VTK_VIEW_OBLIQUE,
+                                                    1600,
+                                                    800,
+                                                    0,
+                                                    {0, 0, 1},
+                                                    0,
+                                                    nullptr,
+                                                    {1, 1, 1, 1},
+                                                    RIIS_VTK_CAPTIONS_ALL,
+                                                    RIIS_VTK_PANELS_BOTH};
   return defaults;
 }
 
@@ -96,6 +111,22 @@ void check_rotation(const riis_vtk_picture_options &options) {
   }
 }
 
+// Checks the fields of a picture's looks. `mesh` may be NULL.
+void check_style(const riis_vtk_picture_options &options, const riis_vtk_mesh *mesh) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double part = options.background[k];
+    if (!(part >= 0 && part <= 1)) refuse_option("background[", k, "] is ", part, ", not 0 to 1");
+  }
+  const double opacity = options.background[3];
+  if (opacity != 0 && opacity != 1) refuse_option("background[3] is ", opacity, ", neither 0 nor 1");
+  if (options.captions < RIIS_VTK_CAPTIONS_ALL || options.captions > RIIS_VTK_CAPTIONS_NONE)
+    refuse_option("captions is ", options.captions, ", not a RIIS_VTK_CAPTIONS_*");
+  if (options.panels < RIIS_VTK_PANELS_BOTH || options.panels > RIIS_VTK_PANELS_MARKS)
+    refuse_option("panels is ", options.panels, ", not a RIIS_VTK_PANELS_*");
+  if (options.panels == RIIS_VTK_PANELS_MARKS && !mesh)
+    refuse_option("panels is RIIS_VTK_PANELS_MARKS, and mesh is NULL");
+}
+
 // Checks all fields except the view. `mesh` may be NULL.
 void check_picture_options(const riis_vtk_picture_options &options, const riis_vtk_mesh *mesh) {
   check_pixels("width", options.width);
@@ -103,6 +134,7 @@ void check_picture_options(const riis_vtk_picture_options &options, const riis_v
   check_names(options);
   if (options.reserved != 0) refuse_option("reserved is ", options.reserved, ", not 0");
   check_rotation(options);
+  check_style(options, mesh);
   check_edges(options, mesh);
 }
 

@@ -31,12 +31,11 @@ namespace riis::vtk {
 namespace {
 
 constexpr double pale = 0.62;  // the share of white in the colour of partly marked cells
-constexpr double outline_grey = 0.45;
 
 enum MarkedPart : std::uint8_t { not_marked, partly_marked, whole_marked };
 
 vtkSmartPointer<vtkRenderer> empty_panel() {
-  const vtkSmartPointer<vtkRenderer> renderer = white_renderer();
+  const vtkSmartPointer<vtkRenderer> renderer = two_sided_renderer();
   vtkNew<vtkLightKit> lights;
   lights->AddLightsToRenderer(renderer);
   return renderer;
@@ -157,8 +156,9 @@ void SurfacePanel::show(vtkPolyData *surface) {
     leaflets_.insert(leaflets.back());
   }
   colour_faces(surface, leaflets, 0);
-  renderer_->RemoveAllViewProps();
-  renderer_->AddActor(coloured_actor(smoothed(surface)));
+  for (vtkActor *actor : {leaflets_drawn_.Get(), rims_.Get()}) renderer_->RemoveActor(actor);
+  leaflets_drawn_ = coloured_actor(smoothed(surface));
+  renderer_->AddActor(leaflets_drawn_);
   // Joins vertices at the same position first, because patches of a leaflet do not share vertices on their common sides.
   vtkNew<vtkCleanPolyData> joined;
   joined->SetInputData(surface);
@@ -181,9 +181,7 @@ void SurfacePanel::look(const View &view, const Sight &sight) {
   move_away(rims_, view, behind * sight.shown[1].half());
 }
 
-MarksPanel::MarksPanel(vtkUnstructuredGrid *grid, double pixels) : renderer_(empty_panel()), pixels_(pixels) {
-  add_outline(grid);
-}
+MarksPanel::MarksPanel(double pixels) : renderer_(empty_panel()), pixels_(pixels) {}
 
 void MarksPanel::show(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges) {
   for (vtkActor *actor : {partly_.Get(), whole_.Get(), leaks_.Get()}) renderer_->RemoveActor(actor);
@@ -244,35 +242,9 @@ void MarksPanel::add_leaks(vtkUnstructuredGrid *grid, std::int64_t n, const std:
   renderer_->AddActor(leaks_);
 }
 
-void MarksPanel::add_outline(vtkUnstructuredGrid *grid) {
-  const Colour colour = {outline_grey, outline_grey, outline_grey};
-  const Outside boundary = outside_of(grid, nullptr, nullptr);
-  vtkNew<vtkFeatureEdges> edges;
-  edges->SetInputData(boundary.faces);
-  edges->SetFeatureAngle(30);
-  edges->NonManifoldEdgesOff();
-  edges->ManifoldEdgesOff();
-  edges->ColoringOff();
-  edges->Update();
-  skin_ = flat_actor(boundary.faces, colour);
-  skin_->GetProperty()->SetOpacity(0.08);
-  outline_ = flat_actor(edges->GetOutput(), colour);
-  outline_->GetProperty()->SetLineWidth(static_cast<float>(pixels_));
-  vtkNew<vtkPolyData> nothing;
-  cut_ = flat_actor(nothing, colour);
-  cut_->GetProperty()->SetLineWidth(static_cast<float>(pixels_));
-  for (vtkActor *actor : {skin_.Get(), outline_.Get(), cut_.Get()}) renderer_->AddActor(actor);
-}
-
 void MarksPanel::look(const View &view, const Sight &sight) {
   move_away(partly_, view, 2 * partly_length_);
   if (leaks_) move_away(leaks_, view, -2 * sight.shown[2].half());
-  for (vtkActor *actor : {skin_.Get(), outline_.Get()}) {
-    actor->GetMapper()->RemoveAllClippingPlanes();
-    for (vtkPlane *plane : cutting_planes(view, sight)) actor->GetMapper()->AddClippingPlane(plane);
-  }
-  vtkPolyDataMapper::SafeDownCast(cut_->GetMapper())
-      ->SetInputData(dashes_where_cut(view, sight, vtkPolyDataMapper::SafeDownCast(skin_->GetMapper())->GetInput()));
 }
 
 }  // namespace riis::vtk

@@ -10,6 +10,7 @@
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCoordinate.h>
+#include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -20,9 +21,11 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
+#include <vtkUnstructuredGrid.h>
 
 #include "common/array_view.hpp"
 #include "riis_vtk/mesh/mesh.hpp"
+#include "riis_vtk/mesh/outside_faces.hpp"
 #include "riis_vtk/picture/drawing.hpp"
 #include "riis_vtk/surface/surfaces.hpp"
 
@@ -82,20 +85,21 @@ void add_text(vtkRenderer *renderer, const std::string &text, double x, double y
 }
 
 // Adds a text. If it is too long, uses smaller letters. If it does not fit even with the smallest letters, its end is cut off.
-void add_fitting_text(vtkRenderer *renderer, std::string text, double x, double y, double width, int letter) {
+void add_fitting_text(vtkRenderer *renderer, std::string text, double x, double y, double width, int letter,
+                      const Colour &colour) {
   while (letter > least_letter && width_of(text, letter) > width) --letter;
   if (width_of(text, letter) > width) {
     while (!text.empty() && width_of(text + "...", letter) > width) text.pop_back();
     text += "...";
   }
-  add_text(renderer, text, x, y, letter, grey);
+  add_text(renderer, text, x, y, letter, colour);
 }
 
 struct Line {
   double from[2], to[2];
 };
 
-void add_lines(vtkRenderer *renderer, const std::vector<Line> &lines, double width) {
+void add_lines(vtkRenderer *renderer, const std::vector<Line> &lines, double width, const Colour &colour) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> cells;
   for (const Line &line : lines) {
@@ -113,14 +117,14 @@ void add_lines(vtkRenderer *renderer, const std::vector<Line> &lines, double wid
   mapper->SetTransformCoordinate(pixels);
   vtkNew<vtkActor2D> actor;
   actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(grey[0], grey[1], grey[2]);
+  actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
   actor->GetProperty()->SetLineWidth(static_cast<float>(width));
   renderer->AddViewProp(actor);
 }
 
 // Adds a bar whose length is a round number, with the length and its unit next to it.
 void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double y, const Sight &sight,
-                   const std::string &unit, bool has_plural) {
+                   const std::string &unit, bool has_plural, const Colour &ink) {
   const double pixels_per_length = layout.panel_height() / (2 * sight.shown[1].half());
   const double length = round_length(0.3 * layout.panel_width() / pixels_per_length);
   const double end = x + length * pixels_per_length, middle = y + 0.35 * layout.letter(), tick = 0.3 * layout.letter();
@@ -128,41 +132,46 @@ void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double
             {{{x, middle}, {end, middle}},
              {{x, middle - tick}, {x, middle + tick}},
              {{end, middle - tick}, {end, middle + tick}}},
-            layout.line_width());
+            layout.line_width(), ink);
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text << length << " " << unit << (length == 1 || !has_plural ? "" : "s");
+  // A length in metres is given in millimetres, as people do with a valve.
+  const bool is_small = unit == "m" && length < 0.1;
+  text << (is_small ? 1000 * length : length) << " " << (is_small ? "mm" : unit)
+       << (length == 1 || !has_plural ? "" : "s");
   const double after = end + 0.6 * layout.letter();
   const double right = layout.column_left(layout.n_columns() - 1) + layout.panel_width();
-  add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter());
+  add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter(), ink);
 }
 
 // Adds arrows for x, y and z, as long as these axes appear in the view. If an axis points at the eye, its name is at the origin
 // of the arrows.
-void add_axes(vtkRenderer *renderer, const Layout &layout, double x, double y, double length, const View &view) {
+void add_axes(vtkRenderer *renderer, const Layout &layout, double x, double y, double length, const View &view,
+              const Colour &ink) {
   const char *const names[3] = {"x", "y", "z"};
   std::vector<Line> lines;
   for (std::size_t k = 0; k < 3; ++k) {
     const double dx = view.right()[k], dy = view.up()[k], part = std::hypot(dx, dy);
     const double half = 0.3 * layout.letter();
     if (part < 0.05) {
-      add_text(renderer, names[k], x - 3 * half, y - 3 * half, layout.letter(), grey);
+      add_text(renderer, names[k], x - 3 * half, y - 3 * half, layout.letter(), ink);
       continue;
     }
     const double tip[2] = {x + length * dx, y + length * dy};
     lines.push_back({{x, y}, {tip[0], tip[1]}});
     const double beyond = (length * part + 2 * half) / part;
-    add_text(renderer, names[k], x + beyond * dx - half, y + beyond * dy - half, layout.letter(), grey);
+    add_text(renderer, names[k], x + beyond * dx - half, y + beyond * dy - half, layout.letter(), ink);
   }
-  add_lines(renderer, lines, layout.line_width());
+  add_lines(renderer, lines, layout.line_width(), ink);
 }
 
-void add_caption(vtkRenderer *renderer, const Layout &layout, int column, const std::vector<std::string> &lines) {
+void add_caption(vtkRenderer *renderer, const Layout &layout, int column, const std::vector<std::string> &lines,
+                 const Colour &ink) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i].empty()) continue;
     add_fitting_text(renderer, lines[i], layout.column_left(column) + layout.margin(),
                      layout.caption_line(static_cast<int>(i)), layout.panel_width() - 2 * layout.margin(),
-                     layout.letter());
+                     layout.letter(), ink);
   }
 }
 
@@ -198,77 +207,130 @@ void add_key(vtkRenderer *renderer, const Layout &layout, int column, double lef
 // the unit gets an s, unless the number is 1.
 vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &columns,
                                               const View &view, const Sight &sight, const std::string &unit,
-                                              bool has_plural) {
+                                              bool has_plural, const Colour &ink) {
   const auto renderer = vtkSmartPointer<vtkRenderer>::New();
-  renderer->SetBackground(1, 1, 1);
-  if (!layout.has_texts()) return renderer;
-  const double axis = 1.3 * layout.letter();
-  add_axes(renderer, layout, layout.margin() + axis, 0.5 * layout.bottom(), axis, view);
-  const double first_key = layout.margin() + 4.5 * axis;
+  if (!layout.has_scale()) return renderer;
   const int last = layout.n_columns() - 1;
+  if (!layout.has_captions()) {
+    add_scale_bar(renderer, layout, layout.column_left(last) + layout.margin(), layout.key_line(0), sight, unit,
+                  has_plural, ink);
+    return renderer;
+  }
+  const double axis = 1.3 * layout.letter();
+  add_axes(renderer, layout, layout.margin() + axis, 0.5 * layout.bottom(), axis, view, ink);
+  const double first_key = layout.margin() + 4.5 * axis;
   for (int column = 0; column <= last; ++column) {
     const PanelTexts &texts = columns[static_cast<std::size_t>(column)];
-    add_caption(renderer, layout, column, texts.caption);
+    add_caption(renderer, layout, column, texts.caption, ink);
     const double left = column == 0 ? first_key : layout.column_left(column) + layout.margin();
     add_key(renderer, layout, column, left, column == last ? 1 : 2, texts.key);
-    if (column == last) add_scale_bar(renderer, layout, left, layout.key_line(1), sight, unit, has_plural);
+    if (column == last) add_scale_bar(renderer, layout, left, layout.key_line(1), sight, unit, has_plural, ink);
   }
   return renderer;
 }
 
-// Returns the texts of a picture that are the same for all views.
-std::vector<PanelTexts> texts_of(const std::string &title, const std::vector<std::string> &names,
-                                 const SurfacePanel &surface, vtkIdType n_triangles, const MarkCounts *marks,
-                                 const Leaks &leaks) {
-  std::vector<PanelTexts> panels = {{{title + ": " + counted(n_triangles, "triangle")}, {}}};
-  for (const vtkIdType leaflet : surface.leaflets()) {
-    const bool named = leaflet >= 0 && leaflet < view(names).size();
-    panels[0].key.push_back(
-        {named ? view(names)[leaflet] : "leaflet " + std::to_string(leaflet), colour_of_leaflet(leaflet)});
-  }
-  if (!marks) return panels;
-  std::string cells = grouped(marks->n_whole_cells) + " whole, " + grouped(marks->n_partly_cells) + " partly marked " +
-                      (marks->n_partly_cells == 1 ? "cell" : "cells");
-  std::vector<KeyEntry> key = {{"pale: partly marked", grey}};
-  if (leaks.edges) {
-    cells += ", " + counted(leaks.n_edges, "leaking edge");
-    if (leaks.n_edges > 0) key.push_back({"leaking edges", leak_colour});
-  }
-  panels.push_back(
-      {{"Marked: " + grouped(marks->n_marked_nodes) + " of " + counted(marks->n_nodes, "node"), cells}, key});
-  return panels;
+// Returns the lines of a title, at most two. The title may have a line break.
+std::vector<std::string> lines_of_title(const char *title) {
+  const std::string text = title ? title : "Surface";
+  const std::size_t end = text.find('\n');
+  std::vector<std::string> lines = {drawable(text.substr(0, end))};
+  if (end != std::string::npos) lines.push_back(drawable(text.substr(end + 1)));
+  return lines;
 }
 
-KeyEntry dashes_entry() { return {"dashed: the mesh goes on", grey}; }
+std::vector<KeyEntry> key_of_leaflets(const std::vector<std::string> &names, const SurfacePanel &surface) {
+  std::vector<KeyEntry> key;
+  for (const vtkIdType leaflet : surface.leaflets()) {
+    const bool named = leaflet >= 0 && leaflet < view(names).size();
+    key.push_back({named ? view(names)[leaflet] : "leaflet " + std::to_string(leaflet), colour_of_leaflet(leaflet)});
+  }
+  return key;
+}
 
-// Returns the texts of a picture of three views: the lines and the keys of its panels, distributed over the columns. Below its
-// line, each column has the name of its view.
+std::vector<std::string> lines_of_marks(const MarkCounts &marks, const Leaks &leaks) {
+  std::vector<std::string> lines = {"Marked: " + grouped(marks.n_marked_nodes) + " of " +
+                                    counted(marks.n_nodes, "node")};
+  if (leaks.edges) lines.push_back(leaks.n_edges == 0 ? "no leaking edge" : counted(leaks.n_edges, "leaking edge"));
+  return lines;
+}
+
+std::vector<KeyEntry> key_of_marks(const MarkCounts &marks, const Leaks &leaks, const Colour &ink) {
+  std::vector<KeyEntry> key;
+  if (marks.n_partly_cells > 0) key.push_back({"pale: cells marked in part", ink});
+  if (leaks.edges && leaks.n_edges > 0) key.push_back({"leaking edges", leak_colour});
+  return key;
+}
+
+KeyEntry dashes_entry(const Colour &ink) { return {"dashed: the mesh goes on", ink}; }
+
+// Returns the texts of a picture of three views: the captions and the keys of its panels, distributed over the columns. Below
+// its lines, each column has the name of its view.
 std::vector<PanelTexts> texts_of_columns(const std::vector<PanelTexts> &panels, std::int32_t first) {
   std::vector<PanelTexts> columns(n_views);
-  std::size_t n_lines = 0;
-  for (const PanelTexts &panel : panels)
-    for (const std::string &line : panel.caption) view(columns)[n_lines++].caption.push_back(line);
-  for (std::size_t i = 0; i < panels.size(); ++i) view(columns)[i].key = view(panels)[i].key;
+  for (std::size_t i = 0; i < panels.size(); ++i) columns[i] = panels[i];
   for (std::int32_t i = 0; i < n_views; ++i) {
     std::vector<std::string> &caption = view(columns)[i].caption;
-    if (caption.empty()) caption.emplace_back();
+    caption.resize(2);
     caption.push_back((first == RIIS_VTK_VIEW_VALVE_SIDE ? "valve-" : "") + std::string(view_names[i]));
   }
   return columns;
 }
 
+// Returns a picture with transparency, from one picture on black and one on white. A pixel is opaque if it is the same in both,
+// and clear if it is black and white. This holds whatever was blended, and in whatever order.
+vtkSmartPointer<vtkImageData> transparent_from(vtkImageData *on_black, vtkImageData *on_white) {
+  int size[3];
+  on_black->GetDimensions(size);
+  const auto clear = vtkSmartPointer<vtkImageData>::New();
+  clear->SetDimensions(size);
+  clear->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  const auto *black = static_cast<const unsigned char *>(on_black->GetScalarPointer());
+  const auto *white = static_cast<const unsigned char *>(on_white->GetScalarPointer());
+  auto *pixel = static_cast<unsigned char *>(clear->GetScalarPointer());
+  for (vtkIdType i = 0; i < clear->GetNumberOfPoints(); ++i, black += 3, white += 3, pixel += 4) {
+    int lost = 255;  // of the background
+    for (int k = 0; k < 3; ++k) lost = std::min(lost, std::max(0, white[k] - black[k]));
+    const int opacity = 255 - lost;
+    for (int k = 0; k < 3; ++k)
+      pixel[k] = static_cast<unsigned char>(opacity == 0 ? 0 : std::min(255, (255 * black[k] + opacity / 2) / opacity));
+    pixel[3] = static_cast<unsigned char>(opacity);
+  }
+  return clear;
+}
+
+// Returns the faces of the mesh's boundary, or of the wall of the options.
+vtkSmartPointer<vtkPolyData> wall_of(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options) {
+  if (grid) return outside_of(grid, nullptr, nullptr).faces;
+  return options.wall ? polydata_of(options.wall) : nullptr;
+}
+
+int n_panels(const Style &style, bool has_grid) { return has_grid && style.panels == RIIS_VTK_PANELS_BOTH ? 2 : 1; }
+
 }  // namespace
 
-Layout::Layout(int width, int height, int n_panels, Panels panels)
+Style::Style(const riis_vtk_picture_options &options)
+    : background({options.background[0], options.background[1], options.background[2]}),
+      is_transparent(options.background[3] == 0),
+      captions(options.captions),
+      panels(options.panels) {
+  // The shares of red, green and blue in the brightness of a colour on a screen.
+  const bool is_bright = 0.2126 * background[0] + 0.7152 * background[1] + 0.0722 * background[2] > 0.4;
+  const double of_ink = is_bright ? 0.2 : 0.85, of_line = is_bright ? 0.45 : 0.65;
+  ink = {of_ink, of_ink, of_ink};
+  line = {of_line, of_line, of_line};
+  shell_grey = is_bright ? 0.59 : 0.95;
+}
+
+Layout::Layout(int width, int height, int n_panels, Panels panels, std::int32_t captions)
     : width_(width),
       height_(height),
       n_columns_(panels == Panels::stacked ? 1 : n_panels),
       n_rows_(panels == Panels::stacked ? n_panels : 1),
       letter_(std::max(8, std::min(height / 36, width / n_columns_ / 32))) {
-  if (height < least_height_with_texts) return;
-  const int n_caption_lines = panels == Panels::stacked ? 2 : n_panels;
-  top_ = (1.6 * n_caption_lines + 0.6) * letter_;
-  bottom_ = 3.8 * letter_;
+  if (height < least_height_with_texts || captions == RIIS_VTK_CAPTIONS_NONE) return;
+  const bool has_captions = captions == RIIS_VTK_CAPTIONS_ALL;
+  if (has_captions) top_ = (1.6 * (panels == Panels::stacked ? 3 : 2) + 0.6) * letter_;
+  bottom_ = (has_captions ? 3.8 : 2.2) * letter_;
 }
 
 std::array<double, 4> Layout::viewport(int panel) const {
@@ -288,19 +350,26 @@ void check_has_marks(const riis_vtk_mesh *mesh) {
 }
 
 Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options)
-    : axes_(axes_turned(options.rotation_axis, options.rotation_angle)),
-      layout_(options.width, options.height, grid ? 2 : 1, Layout::Panels::side_by_side),
+    : style_(options),
+      axes_(axes_turned(options.rotation_axis, options.rotation_angle)),
+      layout_(options.width, options.height, n_panels(style_, grid), Layout::Panels::side_by_side, options.captions),
       unit_(options.unit ? drawable(options.unit) : ""),
       grid_(grid),
       surface_(layout_.line_width()) {
   for (std::int64_t i = 0; i < options.n_leaflet_names; ++i)
     leaflet_names_.push_back(drawable(options.leaflet_names[i]));
-  if (grid_) marks_.emplace(grid_, layout_.line_width());
+  if (grid_ && style_.panels != RIIS_VTK_PANELS_VALVE) marks_.emplace(layout_.line_width());
+  const vtkSmartPointer<vtkPolyData> wall = wall_of(grid, options);
+  if (wall) {
+    around_ = grid ? static_cast<vtkPointSet *>(grid) : wall.Get();
+    shell_.emplace(wall, style_.shell_grey, style_.line, layout_.line_width());
+  }
   window_->SetOffScreenRendering(1);
   window_->SetMultiSamples(4);
   window_->SetNumberOfLayers(2);
-  for (vtkRenderer *renderer : {surface_.renderer(), marks_ ? marks_->renderer() : nullptr}) {
+  for (vtkRenderer *renderer : {has_surface() ? surface_.renderer() : nullptr, marks_ ? marks_->renderer() : nullptr}) {
     if (!renderer) continue;
+    if (shell_) shell_->add_to(renderer);
     renderer->SetLayer(1);
     renderer->SetActiveCamera(camera_);
     window_->AddRenderer(renderer);
@@ -313,8 +382,19 @@ void Scene::show(const riis_surface *surface, const char *title, const Leaks &le
   triangles_ = polydata_of(surface);
   surface_.show(triangles_);
   if (marks_) marks_->show(grid_, leaks.n_edges, leaks.edges);
-  texts_ = texts_of(title ? drawable(title) : "Surface", leaflet_names_, surface_, triangles_->GetNumberOfCells(),
-                    marks_ ? &marks_->counts() : nullptr, leaks);
+  texts_.clear();
+  const std::vector<KeyEntry> leaflets = key_of_leaflets(leaflet_names_, surface_);
+  if (has_surface()) texts_.push_back({lines_of_title(title), leaflets});
+  if (!marks_) return;
+  PanelTexts marked = {lines_of_marks(marks_->counts(), leaks), key_of_marks(marks_->counts(), leaks, style_.ink)};
+  if (!has_surface()) {
+    // The only panel has the title, and the key of the leaflets too.
+    std::string line;
+    for (const std::string &part : marked.caption) line += (line.empty() ? "" : ", ") + part;
+    marked.caption = {lines_of_title(title)[0], line};
+    marked.key.insert(marked.key.begin(), leaflets.begin(), leaflets.end());
+  }
+  texts_.push_back(marked);
 }
 
 vtkSmartPointer<vtkImageData> Scene::picture(std::int32_t of, const std::optional<Bounds> &seen) {
@@ -323,56 +403,65 @@ vtkSmartPointer<vtkImageData> Scene::picture(std::int32_t of, const std::optiona
   const View view(of, axes_);
   const Sight seen_here = sight(view, seen, layout_);
   std::vector<PanelTexts> texts = texts_;
-  if (seen_here.is_cut()) texts.back().key.push_back(dashes_entry());
+  if (seen_here.is_cut()) texts.back().key.push_back(dashes_entry(style_.ink));
   return shot(view, seen_here, layout_, texts);
 }
 
 Sight Scene::sight(const View &view, const std::optional<Bounds> &seen, const Layout &layout, double least) const {
   const Extents surface = seen ? view.extents_of(*seen) : view.extents_of(triangles_);
-  const Extents mesh = grid_ ? view.extents_of(grid_) : surface;
-  return sight_of(surface, grid_ ? &mesh : nullptr, layout.panel_width() / layout.panel_height(), least);
+  const Extents mesh = around_ ? view.extents_of(around_) : surface;
+  return sight_of(surface, around_ ? &mesh : nullptr, layout.panel_width() / layout.panel_height(), least);
 }
 
 vtkSmartPointer<vtkImageData> Scene::shot(const View &view, const Sight &sight, const Layout &layout,
                                           const std::vector<PanelTexts> &texts) {
   window_->SetSize(layout.width(), layout.height());
-  const auto put = [&layout](vtkRenderer *renderer, int panel) {
-    const std::array<double, 4> part = layout.viewport(panel);
-    renderer->SetViewport(part[0], part[1], part[2], part[3]);
+  int n_shown = 0;
+  const auto show = [&](auto &panel) {
+    const std::array<double, 4> part = layout.viewport(n_shown++);
+    panel.renderer()->SetViewport(part[0], part[1], part[2], part[3]);
+    panel.look(view, sight);
   };
   aim_camera(camera_, view, sight);
-  surface_.look(view, sight);
-  put(surface_.renderer(), 0);
-  if (marks_) {
-    marks_->look(view, sight);
-    put(marks_->renderer(), 1);
-  }
+  if (shell_) shell_->look(view, sight);
+  if (has_surface()) show(surface_);
+  if (marks_) show(*marks_);
   if (behind_) window_->RemoveRenderer(behind_);
-  behind_ =
-      texts_of_picture(layout, texts, view, sight, unit_.empty() ? grid_ ? "mesh unit" : "unit" : unit_, unit_.empty());
+  behind_ = texts_of_picture(layout, texts, view, sight, unit_.empty() ? around_ ? "mesh unit" : "unit" : unit_,
+                             unit_.empty(), style_.ink);
   window_->AddRenderer(behind_);
-  surface_.renderer()->ResetCameraClippingRange();
+  if (has_surface()) surface_.renderer()->ResetCameraClippingRange();
   if (marks_) marks_->renderer()->ResetCameraClippingRange();
+  if (!style_.is_transparent) return shot_on(style_.background);
+  const vtkSmartPointer<vtkImageData> on_black = shot_on({0, 0, 0});
+  return transparent_from(on_black, shot_on({1, 1, 1}));
+}
+
+vtkSmartPointer<vtkImageData> Scene::shot_on(const Colour &background) {
+  behind_->SetBackground(background[0], background[1], background[2]);
   window_->Render();
   return image_of(window_);
 }
 
 vtkSmartPointer<vtkImageData> Scene::three_views(std::int32_t first, const std::optional<Bounds> &seen) {
   const int width = layout_.width(), height = layout_.height();
-  const Layout column(width / n_views, height, marks_ ? 2 : 1, Layout::Panels::stacked);
+  const Layout column(width / n_views, height, n_panels(style_, grid_), Layout::Panels::stacked, style_.captions);
   double half_height = 0;
   for (std::int32_t of = first; of < first + n_views; ++of)
     half_height = std::max(half_height, sight({of, axes_}, seen, column).shown[1].half());
   const std::vector<PanelTexts> texts = texts_of_columns(texts_, first);
   const auto whole = vtkSmartPointer<vtkImageData>::New();
   whole->SetDimensions(width, height, 1);
-  whole->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  whole->GetPointData()->GetScalars()->Fill(255);  // for a width that is not a multiple of the number of views
+  whole->AllocateScalars(VTK_UNSIGNED_CHAR, style_.is_transparent ? 4 : 3);
+  for (int k = 0; k < 3; ++k)  // for a width that is not a multiple of the number of views
+    whole->GetPointData()->GetScalars()->FillComponent(
+        k, style_.is_transparent ? 0 : std::round(255 * style_.background[k]));
+  if (style_.is_transparent) whole->GetPointData()->GetScalars()->FillComponent(3, 0);
   for (std::int32_t i = 0; i < n_views; ++i) {
     const View view(first + i, axes_);
     const Sight seen_here = sight(view, seen, column, half_height);
     PanelTexts text = texts[static_cast<std::size_t>(i)];
-    if (seen_here.is_cut()) text.key.push_back(dashes_entry());
+    if (seen_here.is_cut()) text.key.push_back(dashes_entry(style_.ink));
     const vtkSmartPointer<vtkImageData> part = shot(view, seen_here, column, {text});
     const int left = i * width / n_views;
     part->SetExtent(left, left + column.width() - 1, 0, height - 1, 0, 0);

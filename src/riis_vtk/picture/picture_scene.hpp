@@ -13,9 +13,11 @@
 #include <vector>
 
 #include <vtkNew.h>
-#include <vtkPlane.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+
+#include "riis_vtk/picture/picture_shell.hpp"
+#include "riis_vtk/picture/picture_view.hpp"
 
 class vtkCamera;
 class vtkImageData;
@@ -27,76 +29,9 @@ class vtkPolyData;
 
 namespace riis::vtk {
 
-// The view.
-// In: the direction of view, and the extents of the surface and the mesh. Out: the visible space, for the camera, the cut and the
-// scale bar. If the mesh extends beyond the panel, planes cut it, and dashed lines show the cuts.
-
-using Vector = std::array<double, 3>;
-
-struct Extent {
-  double lower, upper;
-  double middle() const { return 0.5 * lower + 0.5 * upper; }
-  double half() const { return 0.5 * upper - 0.5 * lower; }
-  bool meets(const Extent &other) const { return lower <= other.upper && other.lower <= upper; }
-};
-
-// Extents along the axes of a view: to the right, upwards, and away from the eye.
-using Extents = std::array<Extent, 3>;
-// Extents along x, y and z.
-using Bounds = std::array<Extent, 3>;
-
-// The unit vectors along a valve's own x, y and z, after its placement.
-using Axes = std::array<Vector, 3>;
-
-// Returns the mesh's axes, turned about an axis of any length other than 0.
-Axes axes_turned(const double axis[3], double degrees);
-
-// A view without perspective, so that lengths can be compared. right, up and away are perpendicular unit vectors.
-struct View {
-  std::array<Vector, 3> axes;
-
-  // `view` is RIIS_VTK_VIEW_*, but not one of three views. `valve` is used by the views that look by the valve's axes.
-  View(std::int32_t view, const Axes &valve);
-  const Vector &right() const { return axes[0]; }
-  const Vector &up() const { return axes[1]; }
-  const Vector &away() const { return axes[2]; }
-  Extents extents_of(vtkPointSet *data) const;
-  // Returns the extents of the whole box.
-  Extents extents_of(const Bounds &bounds) const;
-};
-
-// The part of space that a panel shows, along the axes of its view.
-struct Sight {
-  Extents shown;                  // x and y extend to the panel's edges; z is the depth of surface and mesh
-  std::array<Extent, 2> uncut;    // x and y at which the mesh is cut if it extends further
-  std::array<bool, 2> cut_below;  // whether the mesh is cut on the left, and below
-  std::array<bool, 2> cut_above;  // whether the mesh is cut on the right, and above
-  bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
-};
-
-// Returns a sight that contains the surface. Along an axis on which the mesh is not much larger, the sight also contains the
-// mesh. So pictures of a valve that moves in one mesh can be compared. Along other axes, the sight contains the surface's
-// neighbourhood.
-//   mesh    NULL if there is none
-//   aspect  the panel's width divided by its height
-//   least   the least half height of the panel, so that several views can have one scale
-Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, double least = 0);
-
-void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);
-
-// Returns planes for the mapper of the mesh. There are none if the whole mesh is in sight.
-std::vector<vtkSmartPointer<vtkPlane>> cutting_planes(const View &view, const Sight &sight);
-
-// Returns dashed lines where the planes cut the boundary. The lines are nearer to the eye than everything else.
-vtkSmartPointer<vtkPolyData> dashes_where_cut(const View &view, const Sight &sight, vtkPolyData *boundary);
-
-// Red, green and blue, each from 0 to 1.
-using Colour = std::array<double, 3>;
-
 Colour colour_of_leaflet(vtkIdType leaflet);
 // A dark red, which no colour vision confuses with the leaflets' vermilion.
 constexpr Colour leak_colour = {0.55, 0.0, 0.0};
-constexpr Colour grey = {0.2, 0.2, 0.2};
 
 // The panel with the surface, in which each leaflet has its own colour. The rims are drawn as lines, because faces that are seen
 // edge-on cover no pixels.
@@ -114,7 +49,7 @@ class SurfacePanel {
  private:
   vtkSmartPointer<vtkRenderer> renderer_;
   double pixels_;
-  vtkSmartPointer<vtkActor> rims_;
+  vtkSmartPointer<vtkActor> leaflets_drawn_, rims_;
   std::set<vtkIdType> leaflets_;
 };
 
@@ -124,30 +59,29 @@ struct MarkCounts {
   vtkIdType n_partly_cells = 0;  // cells with some but not all nodes marked
 };
 
-// The panel with marked cells inside the faint boundary of the mesh. A cell has the colour of its closest node's leaflet. If it
-// is partly marked, the colour is paler. Leaking edges are red. Cells below the grid's largest dimension are left out.
+// The panel with marked cells. A cell has the colour of its closest node's leaflet. If it is partly marked, the colour is paler.
+// Leaking edges are red. Cells below the grid's largest dimension are left out.
 class MarksPanel {
  public:
   // `pixels` is the width of a line.
-  MarksPanel(vtkUnstructuredGrid *grid, double pixels);
+  explicit MarksPanel(double pixels);
   // Shows the marks in the grid's point arrays instead of earlier marks. leaking_edges(2, n_leaking_edges) must hold valid node
   // ids.
   void show(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges);
   vtkRenderer *renderer() const { return renderer_; }
   const MarkCounts &counts() const { return counts_; }
-  // Turns to a view. Cuts a mesh that extends beyond the panel, and moves leaking edges in front of everything else.
+  // Turns to a view. Moves leaking edges in front of everything else.
   void look(const View &view, const Sight &sight);
 
  private:
   void add_marks(vtkUnstructuredGrid *grid);
   void add_leaks(vtkUnstructuredGrid *grid, std::int64_t n, const std::int64_t *edges);
-  void add_outline(vtkUnstructuredGrid *grid);
 
   vtkSmartPointer<vtkRenderer> renderer_;
   MarkCounts counts_;
   double pixels_;
-  double partly_length_ = 0;                                                 // mean edge length of partly marked cells
-  vtkSmartPointer<vtkActor> partly_, whole_, leaks_, skin_, outline_, cut_;  // leaks_ is NULL without leaking edges
+  double partly_length_ = 0;                          // mean edge length of partly marked cells
+  vtkSmartPointer<vtkActor> partly_, whole_, leaks_;  // leaks_ is NULL without leaking edges
 };
 
 // The positions of a picture's parts, in pixels from the lower left corner. A picture that is not high enough for bands has no
@@ -155,8 +89,10 @@ class MarksPanel {
 class Layout {
  public:
   enum class Panels { side_by_side, stacked };
-  Layout(int width, int height, int n_panels, Panels panels);
-  bool has_texts() const { return top_ > 0; }
+  // `captions` is RIIS_VTK_CAPTIONS_*.
+  Layout(int width, int height, int n_panels, Panels panels, std::int32_t captions);
+  bool has_captions() const { return top_ > 0; }
+  bool has_scale() const { return bottom_ > 0; }
   int width() const { return width_; }
   int height() const { return height_; }
   int n_columns() const { return n_columns_; }
@@ -185,7 +121,7 @@ struct KeyEntry {
 };
 
 struct PanelTexts {
-  std::vector<std::string> caption;  // one entry for each line
+  std::vector<std::string> caption;  // one entry for each line, at most two
   std::vector<KeyEntry> key;         // as many as fit are shown
 };
 
@@ -193,6 +129,16 @@ struct PanelTexts {
 struct Leaks {
   std::int64_t n_edges = 0;
   const std::int64_t *edges = nullptr;
+};
+
+// What the options say of a picture's looks.
+struct Style {
+  explicit Style(const riis_vtk_picture_options &options);
+  Colour background;
+  bool is_transparent;
+  Colour ink, line;   // of texts, and of the wall's rims
+  double shell_grey;  // the brightness of the wall
+  std::int32_t captions, panels;
 };
 
 // Fails unless the mesh has the arrays of riis_vtk_mesh_set_marks.
@@ -212,10 +158,14 @@ class Scene {
  private:
   // `least` is the least half height of a panel.
   Sight sight(const View &view, const std::optional<Bounds> &seen, const Layout &layout, double least = 0) const;
+  // Draws one view. A transparent picture has a fourth channel.
   vtkSmartPointer<vtkImageData> shot(const View &view, const Sight &sight, const Layout &layout,
                                      const std::vector<PanelTexts> &texts);
+  vtkSmartPointer<vtkImageData> shot_on(const Colour &background);
+  bool has_surface() const { return style_.panels != RIIS_VTK_PANELS_MARKS; }
   vtkSmartPointer<vtkImageData> three_views(std::int32_t first, const std::optional<Bounds> &seen);
 
+  Style style_;
   Axes axes_;         // of the valve
   Layout layout_;     // of a picture with one view
   std::string unit_;  // "" if the caller gave none
@@ -223,7 +173,9 @@ class Scene {
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
   vtkSmartPointer<vtkPolyData> triangles_;
   SurfacePanel surface_;
-  std::optional<MarksPanel> marks_;
+  std::optional<MarksPanel> marks_;      // not set without a mesh, and if the picture shows only the surface
+  vtkSmartPointer<vtkPointSet> around_;  // the grid, or the wall of the options; NULL if there is neither
+  std::optional<Shell> shell_;           // set if there is one of them
   std::vector<PanelTexts> texts_;
   vtkNew<vtkCamera> camera_;
   vtkNew<vtkRenderWindow> window_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "riis_vtk/picture/picture_scene.hpp"
+#include "riis_vtk/picture/picture_view.hpp"
 
 #include <riis/riis_vtk.h>
 

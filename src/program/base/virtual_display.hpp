@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// A virtual X display for pictures on a machine without a screen. The program Xvfb, of Debian's package xvfb, makes it.
+#pragma once
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+
+namespace riis::program {
+
+// Throws a Refusal, which names the package, if Xvfb is not on the PATH.
+void check_virtual_display();
+
+// Starts Xvfb, and names its display in DISPLAY and XAUTHORITY. Only this process knows the key of the display. Xvfb ends with
+// this object, and also with the thread that made the object, however that ends. Two runs get two displays.
+class VirtualDisplay {
+ public:
+  // Throws a Refusal if Xvfb is missing, ends early, or is not ready in time.
+  VirtualDisplay();
+  // Gives DISPLAY and XAUTHORITY their former values.
+  ~VirtualDisplay();
+  VirtualDisplay(const VirtualDisplay &) = delete;
+  VirtualDisplay &operator=(const VirtualDisplay &) = delete;
+
+ private:
+  pid_t process_ = -1;
+  int key_ = -1;  // a file in memory
+  std::optional<std::string> display_before_, key_before_;
+};
+
+}  // namespace riis::program

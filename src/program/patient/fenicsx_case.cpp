@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/patient/fenicsx_case.hpp"
+
+#include "program/base/text.hpp"
+#include "program/input/json.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/patient/case_files.hpp"
+#include "program/patient/heartbeat.hpp"
+
+namespace riis::program {
+namespace {
+
+constexpr double dolfinx_step = 0.002;  // s
+// Processor time of a cell and a step, measured (docs/patient_fenicsx.md, "What was run").
+constexpr double dolfinx_seconds = 4e-5;
+
+Json keys_of(const PressureCurve &curve) {
+  Json keys = Json::array();
+  for (const PressureCurve::Key &key : curve.keys) keys.push_back({key.time, mmHg * key.pressure});
+  return keys;
+}
+
+Json constant(double pressure) { return {{0, pressure}, {beat_period, pressure}}; }
+
+Json numbers_of(const SolverCase &solver, const Ends &ends, int n_steps) {
+  Json boundaries = Json::object(), pressures = Json::object(), windkessels = Json::object();
+  for (const Boundary &boundary : solver.boundaries) boundaries[boundary.name] = boundary.group;
+  pressures["inlet"] = solver.is_mitral ? constant(pressure_of_left_atrium) : keys_of(pressure_of_left_ventricle());
+  const Windkessel body;
+  for (const Boundary &outlet : ends.outlets) {
+    if (solver.is_mitral) {
+      pressures[outlet.name] = keys_of(pressure_of_filling_ventricle());
+      continue;
+    }
+    // Several outlets share the blood by their areas.
+    const double share = outlet.area / ends.outlet_area;
+    windkessels[outlet.name] = {{"numbers",
+                                 {body.proximal_resistance / share, body.distal_resistance / share,
+                                  body.compliance * share, body.distal_pressure}},
+                                {"pressure", body.initial_pressure}};
+  }
+  return {{"valve", solver.kind},
+          {"unit", name_of(solver.unit)},
+          {"half_thickness", solver.half_thickness},
+          {"skirt", solver.skirt},
+          {"resistance", solver.resistance},
+          {"density", solver.density},
+          {"viscosity", solver.viscosity},
+          {"starts_closed", solver.starts_closed},
+          {"upstream", solver.upstream},
+          {"downstream", solver.downstream},
+          {"ball_radius", solver.ball_radius},
+          {"boundaries", boundaries},
+          {"pressures", pressures},
+          {"windkessels", windkessels},
+          {"law",
+           {{"opening_duration", motion_seconds},
+            {"closing_duration", motion_seconds},
+            {"open_above", opening_pressure},
+            {"close_below", solver.is_mitral ? closing_flow_of_mitral : 0.0},
+            {"filter_time", 0.002},
+            {"dwell_time", 0.02}}},
+          {"period", beat_period},
+          {"time_step", dolfinx_step},
+          {"steps", n_steps}};
+}
+
+}  // namespace
+
+void write_fenicsx_case(const SolverCase &solver) {
+  const Ends ends = ends_of(solver, Unit::metre);
+  make_case_folder(solver);
+  for (const char *name : {"mesh.msh", "placed.json", "wall.stl"})
+    if (solver.skirt > 0 || name != std::string("wall.stl")) copy_into(solver, name, name);
+  const int n_steps = static_cast<int>(beat_period / dolfinx_step + 0.5);
+  write_into(solver, "case.json", numbers_of(solver, ends, n_steps).dump(1) + "\n");
+  write_into(solver, "run.py", case_texts().at("fenicsx/run.py"));
+  make_runnable(solver, "run.py");
+  print_line("a beat has " + std::to_string(n_steps) + " steps of " + shortest(dolfinx_step) +
+             " s; dolfinx needs about " +
+             duration_text(dolfinx_seconds * static_cast<double>(solver.n_cells) * n_steps) + " on one processor");
+}
+
+}  // namespace riis::program

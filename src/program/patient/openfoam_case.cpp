@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/patient/openfoam_case.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/json.hpp"
+#include "program/patient/case_files.hpp"
+#include "program/patient/heartbeat.hpp"
+#include "program/patient/openfoam_valve.hpp"
+
+namespace riis::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The files of the case, and their texts.
+constexpr std::pair<const char *, const char *> foam_files[] = {
+    {"0/U", "openfoam/U"},
+    {"0/p", "openfoam/p"},
+    {"constant/transportProperties", "openfoam/transportProperties"},
+    {"constant/turbulenceProperties", "openfoam/turbulenceProperties"},
+    {"system/controlDict", "openfoam/controlDict"},
+    {"system/decomposeParDict", "openfoam/decomposeParDict"},
+    {"system/fvOptions", "openfoam/fvOptions"},
+    {"system/fvSchemes", "openfoam/fvSchemes"},
+    {"system/fvSolution", "openfoam/fvSolution"},
+    {"Allrun", "openfoam/Allrun"},
+    {"report.py", "openfoam/report.py"}};
+
+std::string point_of(const std::array<double, 3> &point) { return "(" + numbers_text(point.data(), 3, " ") + ")"; }
+
+// Returns the text with four more levels of spaces before each line.
+std::string indented(const std::string &text) {
+  std::string made;
+  for (const std::string &line : split(text, "\n"))
+    if (!line.empty()) made += "    " + line + "\n";
+  return made;
+}
+
+// The entries of 0/p for the ends, and the pressure at which the case begins.
+struct Pressures {
+  std::string patches;
+  double start;
+};
+
+class PressureWriter {
+ public:
+  explicit PressureWriter(double density) : density_(density) {}
+
+  // The kinematic pressure of a pressure in Pa.
+  double kinematic(double pressure) const { return pressure / density_; }
+
+  std::string curve(const std::string &name, const char *what, const PressureCurve &curve) const {
+    std::string rows, shown;
+    for (const auto &[time, pressure] : curve.keys) {
+      rows += std::string(rows.empty() ? "" : " ") + "(" + shortest(time) + " " + number(mmHg * pressure) + ")";
+      shown += (shown.empty() ? "" : ", ") + shortest(pressure) + " at " + shortest(time) + " s";
+    }
+    return "    // " + std::string(what) + " [mmHg]: " + shown + ".\n    " + name +
+           "\n    {\n        type uniformTotalPressure;\n        p0 table (" + rows +
+           ");\n        outOfBounds repeat;\n        value uniform " + number(curve.at(0)) + ";\n    }\n";
+  }
+
+  std::string constant(const std::string &name, const char *what, double pressure) const {
+    return "    // " + std::string(what) + ": " + printed("%.4g", pressure / mmHg) + " mmHg.\n    " + name +
+           "\n    {\n        type uniformTotalPressure;\n        p0 constant " + number(pressure) +
+           ";\n        value uniform " + number(pressure) + ";\n    }\n";
+  }
+
+  // The arteries behind an outlet with this share of the area of all outlets.
+  std::string arteries(const std::string &name, double share) const {
+    const auto entry = [](const char *key, double value) {
+      return "        " + std::string(key) + " " + printed("%.6g", value) + ";\n";
+    };
+    const Windkessel body;
+    return "    // The arteries: two resistances [Pa s/m3], a compliance [m3/Pa] and its pressure [Pa].\n    " + name +
+           "\n    {\n        type riisWindkessel;\n" + entry("rho", density_) +
+           entry("proximalResistance", body.proximal_resistance / share) +
+           entry("distalResistance", body.distal_resistance / share) + entry("compliance", body.compliance * share) +
+           entry("venousPressure", body.distal_pressure) + entry("pressure", body.initial_pressure) + "    }\n";
+  }
+
+ private:
+  std::string number(double pressure) const { return printed("%.6g", kinematic(pressure)); }
+
+  double density_;
+};
+
+Pressures pressures_of(const SolverCase &the, const Ends &ends) {
+  const PressureWriter writer(the.density);
+  Pressures made;
+  if (the.is_mitral) {
+    made.start = writer.kinematic(pressure_of_filling_ventricle().at(0));
+    made.patches = writer.constant("inlet", "The atrium", pressure_of_left_atrium);
+    for (const Boundary &outlet : ends.outlets)
+      made.patches += writer.curve(outlet.name, "The ventricle", pressure_of_filling_ventricle());
+    return made;
+  }
+  made.start = writer.kinematic(pressure_of_left_ventricle().at(0));
+  made.patches = writer.curve("inlet", "The ventricle", pressure_of_left_ventricle());
+  for (const Boundary &outlet : ends.outlets)
+    made.patches += writer.arteries(outlet.name, outlet.area / ends.outlet_area);
+  return made;
+}
+
+// The function objects that sum the flow through each end.
+std::string flows_of(const Ends &ends) {
+  std::string text =
+      "    flow_inlet // postProcessing/flow_inlet/TIME/surfaceFieldValue.dat: the flow out of the blood [m3/s]\n    "
+      "{\n"
+      "        type surfaceFieldValue;\n        libs (fieldFunctionObjects);\n        regionType patch;\n"
+      "        name inlet;\n        operation sum;\n        fields (phi);\n        writeFields no;\n        log no;\n"
+      "        writePrecision 12;\n    }\n";
+  for (const Boundary &outlet : ends.outlets)
+    text += "    flow_" + outlet.name + " { $flow_inlet; name " + outlet.name + "; }\n";
+  return text;
+}
+
+}  // namespace
+
+void write_openfoam_case(const SolverCase &the) {
+  if (!the.starts_closed) refuse_data("--solver openfoam: the valve's law, switch, starts with a closed valve");
+  const Ends ends = ends_of(the, Unit::metre);
+  const Pressures pressures = pressures_of(the, ends);
+  const std::string placed = (fs::path(the.folder) / "placed.json").string();
+  const std::string valve = foam_valve_of(placed, parse_json_file(placed, "a placed valve"), the.skirt);
+  // The backflow of a mitral valve in a rigid ventricle is larger, so this valve begins to close before the flow reverses.
+  const std::map<std::string, std::string> values = {
+      {"NAME", the.name},
+      {"DENSITY", shortest(the.density)},
+      {"RESISTANCE", shortest(the.resistance)},
+      {"HALF_THICKNESS", shortest(the.half_thickness)},
+      {"KINEMATIC_VISCOSITY", printed("%.6g", the.viscosity / the.density)},
+      {"MMHG", printed("%.6g", mmHg / the.density)},
+      {"CLOSE_BELOW", the.is_mitral ? "1e-4" : "0"},
+      {"PERIOD", shortest(beat_period)},
+      {"MOTION_SECONDS", shortest(motion_seconds)},
+      {"OPEN_ABOVE", shortest(opening_pressure)},
+      {"UPSTREAM", point_of(the.upstream)},
+      {"DOWNSTREAM", point_of(the.downstream)},
+      {"RADIUS", shortest(the.ball_radius)},
+      {"START", printed("%.6g", pressures.start)},
+      {"PATCHES", pressures.patches},
+      {"FLOWS", flows_of(ends)},
+      {"VALVE", indented(valve)}};
+  make_case_folder(the);
+  for (const auto &[path, file] : foam_files) write_into(the, path, filled(case_texts().at(file), values));
+  make_runnable(the, "Allrun");
+  copy_into(the, "mesh.msh", "mesh.msh");
+}
+
+}  // namespace riis::program

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: the file of a placed valve. Out: its entries in OpenFOAM's dictionary of riisValve (examples/openfoam/README.md).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "program/input/valve_file.hpp"
+
+namespace riis::program {
+
+// The longest skirt that OpenFOAM accepts unless the user says otherwise, in metres. The gaps of patients are below 3 mm, and
+// walls of other chambers are farther away.
+inline constexpr double longest_foam_skirt = 6e-3;
+
+// Returns the entries valve, placement, warp and skirt. OpenFOAM's lengths are metres. `root` is the content of the file, and
+// `longest` the longest skirt in metres. The skirt ends at the mesh's patch wall. A valve whose parameter skirt_length is set
+// keeps this skirt, and a kind without a skirt gets none. Refuses a warp that moves.
+std::string foam_valve_of(const std::string &path, const Json &root, double longest);
+
+}  // namespace riis::program

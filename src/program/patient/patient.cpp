@@ -1,0 +1,562 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis patient: the commands of docs/patient.md in one.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "program/base/handles.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/commands/commands.hpp"
+#include "program/input/placing.hpp"
+#include "program/input/valve_file.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/output/report.hpp"
+#include "program/patient/fenicsx_case.hpp"
+#include "program/patient/flat_ends.hpp"
+#include "program/patient/openfoam_case.hpp"
+#include "program/patient/patient_mesh.hpp"
+#include "program/patient/patient_steps.hpp"
+#include "program/patient/solver_case.hpp"
+#include "program/patient/svmultiphysics_case.hpp"
+#include "program/patient/valve_sides.hpp"
+#include "program/patient/vectors.hpp"
+#include "program/patient/wall_frame.hpp"
+
+namespace riis::program {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+// Defaults of lengths, in millimetres.
+constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6;
+// A half thickness outside this range has a wrong unit, or closes the open valve.
+constexpr double least_half_thickness_mm = 0.1, most_half_thickness_mm = 4, most_skirt_mm = 30;
+constexpr double usual_band_edge = 0.95, usual_largest_edge = 3;
+// svMultiPhysics spreads K over elements, so that its closed valve leaks much in a coarser mesh (docs/export.md).
+constexpr double uris_band_edge = 0.55;
+constexpr double usual_resistance = 1e4;  // kg/(m s)
+// Where an edge leaks, edges of the second mesh are shorter by this factor.
+constexpr double shorter_by = 0.9;
+// Flow solvers on one computer take meshes up to about this size.
+constexpr std::int64_t many_nodes = 40000;
+// The number of nodes grows with this power of the shortness of edges in the band, by meshes of a root and of a ventricle.
+constexpr double power_of_nodes = 2.5;
+constexpr int n_marked_openings = 11;
+
+// The opening of a beat of 0.72 s: times in seconds, as in examples/demo, and the times to be written.
+struct Beat {
+  const char *text, *times;
+};
+constexpr Beat aortic_beat{"time,opening\n0.00,0\n0.06,1\n0.17,0.79\n0.21,0\n", "0:0.22:0.02"};
+constexpr Beat mitral_beat{"time,opening\n0.00,0\n0.22,0\n0.29,1\n0.40,0.62\n0.50,0.55\n0.57,0.85\n0.66,0\n", "0.2:0.68:0.04"};
+const char *const shown_period = "0.72";
+
+bool is_mitral_kind(const std::string &kind) { return kind == "mitral" || kind == "mitral_coapting"; }
+
+// Returns the kind of valve that the landmarks belong to, or "".
+std::string kind_of_roles(const LandmarkFile &landmarks) {
+  const auto n_of = [&](std::int32_t role) { return std::count(landmarks.roles.begin(), landmarks.roles.end(), role); };
+  const auto n_nadirs = n_of(RIIS_LANDMARK_NADIR);
+  if (n_nadirs > 0) return n_nadirs == 2 ? "bicuspid" : n_nadirs == 4 ? "quadricuspid" : "coapting";
+  return n_of(RIIS_LANDMARK_HINGE) == 0 && n_of(RIIS_LANDMARK_ANNULUS) > 0 ? "mitral" : "";
+}
+
+void check_kind(const std::string &kind) {
+  static const std::set<std::string> kinds = {"coapting", "trileaflet", "bicuspid", "quadricuspid", "mitral", "mitral_coapting"};
+  if (kinds.count(kind) > 0) return;
+  if (kind == "aortic") refuse_usage("--valve: the aortic valve does not close: write --valve coapting or --valve trileaflet");
+  refuse_usage("--valve: riis patient takes " + one_of({kinds.begin(), kinds.end()}) + ", not " + kind +
+               "; docs/patient.md has the single commands, which take every kind");
+}
+
+// The ending of a file of landmarks, which tells its format.
+std::string landmark_ending(const std::string &path) {
+  return has_ending(path, ".mrk.json") ? ".mrk.json" : ending_of(path);
+}
+
+// Returns the present number of a JSON file of a step.
+Json stats_of(const std::string &name) { return parse_json_file("logs/" + name + ".json", "stats"); }
+
+// Returns whether the file exists, for outputs that may be missing.
+bool exists(const char *path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+class PatientRun {
+ public:
+  explicit PatientRun(const PatientOptions &options) : options_(options), steps_(options.quiet) {}
+
+  ExitCode run() {
+    gmsh_ = require_gmsh();
+    read_landmarks_and_wall();
+    PatientFolder folder(options_.folder, options_.replace, inputs_);
+    copy_inputs();
+    place();
+    check_valve();
+    make_mesh();
+    check_sealed();
+    write_marks();
+    write_beat();
+    write_case();
+    write_report();
+    folder.finish();
+    print_end();
+    return exit_fine;
+  }
+
+ private:
+  // ---- What the user gave ----
+
+  void read_landmarks_and_wall() {
+    const double begin = steps_.seconds();
+    landmarks_ = read_landmarks(options_.landmarks, text_of_file(options_.landmarks));
+    const std::string given = options_.has_valve ? options_.valve : landmarks_.valve.empty() ? kind_of_roles(landmarks_) : "";
+    kind_ = kind_of(landmarks_, given, Reader::program);
+    check_kind(kind_);
+    is_mitral_ = is_mitral_kind(kind_);
+    const auto point_of = [](const std::vector<double> &xyz) { return std::array<double, 3>{xyz[0], xyz[1], xyz[2]}; };
+    EndPoints points;
+    if (options_.inlet) points.inlet = point_of(*options_.inlet);
+    for (const std::vector<double> &outlet : options_.outlets) points.outlets.push_back(point_of(outlet));
+    wall_ = read_patient_wall(options_.wall, points);
+    frame_ = frame_of_wall(wall_, landmarks_, options_.wall_unit, options_.axes);
+    unit_ = options_.unit.value_or(frame_.unit);
+    millimetre_ = factor_between(Unit::millimetre, unit_);
+    half_thickness_ = length_of(options_.given_half_thickness, is_mitral_ ? mitral_half_thickness : aortic_half_thickness,
+                                least_half_thickness_mm, most_half_thickness_mm);
+    skirt_ = length_of(options_.given_skirt, usual_skirt, 0, most_skirt_mm);
+    largest_edge_ = length_of(options_.given_largest_edge, usual_largest_edge * half_thickness_ / millimetre_, 0, most_skirt_mm);
+    band_edge_ = options_.band_edge.value_or(options_.solver == "svmultiphysics" ? uris_band_edge : usual_band_edge);
+    resistance_ = options_.given_resistance ? options_.given_resistance->number : usual_resistance;
+    steps_.say("patient", "a " + kind_ + " valve by " + counted(view(landmarks_.names).size(), "landmark") + " of " +
+                              options_.landmarks + (options_.has_valve || !landmarks_.valve.empty() ? "" : " (--valve names another)"));
+    for (const std::string &remark : wall_.remarks) steps_.say("wall", remark);
+    steps_.say("wall", options_.wall + ": " + counted(view(wall_.corners).size() / 3, "triangle") + ", " +
+                           counted(view(wall_.ends).size(), "flat end") + ", in " + name_of(frame_.unit) +
+                           (frame_.axes == "mesh" ? "" : " and " + frame_.axes) + ": the landmarks are " +
+                           printed("%.2g", frame_.away) + " mm from it on average, at most " + printed("%.2g", frame_.worst) +
+                           " mm, " + frame_.farthest, steps_.seconds() - begin);
+    steps_.say("folder", options_.folder + ", where lengths are in " + name_of(unit_) + ". The next commands run there");
+    std::error_code error;
+    inputs_ = {fs::absolute(options_.wall, error).string(), fs::absolute(options_.landmarks, error).string()};
+    if (!options_.params.empty()) inputs_.push_back(fs::absolute(options_.params, error).string());
+  }
+
+  // Returns a length of an option in the folder's unit. Without a unit it has that of the wall. The limits are in millimetres.
+  double length_of(const std::optional<Amount> &given, double usual_mm, double least_mm, double most_mm) const {
+    if (!given) return usual_mm * millimetre_;
+    const double mm = given->number * (given->has_unit ? 1000 : factor_between(frame_.unit, Unit::millimetre));
+    if (mm < least_mm || mm > most_mm)
+      refuse_usage(given->subject + ": " + given->text + (given->has_unit ? "" : std::string(" ") + name_of(frame_.unit)) +
+                   " is not from " + shown(least_mm) + " to " + shown(most_mm) + " mm" +
+                   (given->has_unit ? "" : ": write " + given->subject + " '" + given->text + " mm' if millimetres are meant"));
+    return mm * millimetre_;
+  }
+
+  std::string in_mm(double length) const { return printed("%.3g", length / millimetre_) + " mm"; }
+  // Returns a length as an option's value, rounded upwards.
+  std::string option_mm(double length) const {
+    return "'" + shortest(std::ceil(100 * length / millimetre_ - 1e-6) / 100) + " mm'";
+  }
+
+  void copy_inputs() {
+    landmarks_name_ = "landmarks" + landmark_ending(options_.landmarks);
+    copy(inputs_[1], landmarks_name_);
+    if (!options_.params.empty()) copy(inputs_[2], "params.json");
+    scale_wall(wall_, factor_between(frame_.unit, unit_));
+    write_wall(wall_, "wall.stl");
+  }
+  static void copy(const std::string &from, const std::string &to) {
+    std::error_code error;
+    fs::copy_file(from, to, error);
+    if (error) refuse_data(from + ": cannot be copied to " + to + ": " + error.message());
+  }
+
+  // ---- The valve ----
+
+  Words place_words(const Words &more) const {
+    Words words = {"place", landmarks_name_, "--valve", options_.disease.empty() ? kind_ : options_.disease, "--unit",
+                   name_of(unit_)};
+    if (frame_.axes != "mesh") words.insert(words.end(), {"--axes", frame_.axes});
+    if (options_.flow) words.insert(words.end(), {"--flow", numbers_text(options_.flow->data(), 3, ",")});
+    if (!options_.params.empty()) words.insert(words.end(), {"--params", "params.json"});
+    for (const std::string &setting : options_.settings) words.insert(words.end(), {"--set", setting});
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  double noise() const { return length_of(options_.noise, 0.3, 0, most_skirt_mm); }
+
+  void place() {
+    static const char *const names[] = {"none", "exact", "smoothed"};
+    Words more = {"--warp", names[options_.warp_choice]};
+    if (options_.noise) more.insert(more.end(), {"--noise", shortest(noise())});
+    more.insert(more.end(), {"--output", "placed.json"});
+    const StepEnd end = steps_.run("place", place_words(more));
+    if (!end.is_fine()) steps_.refuse("place", end, cure_of_folds(end));
+    show_warnings(end);
+    const Json placed = parse_json_file("placed.json", "a placed valve");
+    const Json &fit = placed["fit"];
+    std::string text = "the landmarks are " + in_mm(fit["rms"]) + " from the placed valve (rms)";
+    if (fit.contains("warped_rms")) text += ", and " + in_mm(fit["warped_rms"]) + " from the warped one";
+    steps_.say("place", text, end.seconds);
+    if (!fit["undetermined"].empty())
+      steps_.say("place", "not determined by the landmarks, and guessed by proportions: " +
+                              joined_by(fit["undetermined"].get<std::vector<std::string>>(), ", ") +
+                              ". More landmarks or --set would tell (logs/place.log)");
+    report_["fit"] = fit;
+    const PlacedFile file = read_placed("placed.json", placed, unit_);
+    for (std::size_t k = 0; k < 3; ++k) centre_[k] = file.where.translation[k];
+    flow_ = axis_of(file.where, is_mitral_ ? -1 : 1);
+    name_ends(wall_, centre_, flow_);
+  }
+
+  // Returns the valve's z axis times a sign. Mitral valves have their atrium towards z.
+  static std::array<double, 3> axis_of(const riis_surface_options &where, double sign) {
+    const Vector k = unit_vector({where.rotation_axis[0], where.rotation_axis[1], where.rotation_axis[2]}), z = {0, 0, 1};
+    const double angle = where.rotation_angle * std::acos(-1.0) / 180, c = std::cos(angle), s = std::sin(angle);
+    return sign * (c * z + s * cross(k, z) + ((1 - c) * dot(k, z)) * k);
+  }
+
+  // If the warp folds, tries which noise smooths it enough.
+  std::string cure_of_folds(const StepEnd &end) {
+    if (options_.warp_choice == no_warp || end.reason().find("fold") == std::string::npos) return "";
+    for (const double factor : {1.0, 2.0, 3.0, 5.0}) {
+      if (factor == 1 && options_.warp_choice == smoothed_warp) continue;
+      const double tried = factor * noise();
+      const StepEnd trial = steps_.run_silently(
+          "place_trial", place_words({"--warp", "smoothed", "--noise", shortest(tried), "--output", "placed.json"}));
+      if (trial.is_fine())
+        return ". It does not fold with --warp smoothed" + (factor == 1 ? "" : " --noise " + option_mm(tried));
+    }
+    return ". --warp none places the valve without a warp";
+  }
+
+  Words valve_words() const {
+    return {"--valve", "placed.json", "--skirt", shortest(skirt_), "--wall", "wall.stl"};
+  }
+  Words with_valve(const Words &begin, const Words &end = {}) const {
+    Words words = begin;
+    const Words valve = valve_words();
+    words.insert(words.end(), valve.begin(), valve.end());
+    words.insert(words.end(), {"--half-thickness", shortest(half_thickness_)});
+    words.insert(words.end(), end.begin(), end.end());
+    return words;
+  }
+
+  void check_valve() {
+    const StepEnd end = steps_.run("crossings", with_valve({"check", "crossings"}, {"--stats", "logs/crossings.json"}));
+    if (end.status == exit_warned)
+      refuse_data(end.reason() + ". Look for a landmark near there that is not at its place" +
+                  (options_.warp_choice == no_warp ? "" : "; --warp none shows whether the warp does it"));
+    if (!end.is_fine()) steps_.refuse("crossings", end, cure_of_missed_wall(end));
+    show_warnings(end);
+    const Json gap = stats_of("crossings")["gap"];
+    report_["gap"] = gap;
+    steps_.say("skirt", "to the wall, which is " + in_mm(gap["least"]) + " to " + in_mm(gap["most"]) +
+                            " away; no leaflets go through each other at 101 openings", end.seconds);
+  }
+
+  // Tries which skirt would reach the wall.
+  std::string cure_of_missed_wall(const StepEnd &end) {
+    if (end.reason().find("wall.stl: ") != 0) return "";
+    for (const double longest : {8, 10, 12, 15, 20}) {
+      if (longest * millimetre_ <= skirt_) continue;
+      const StepEnd trial = steps_.run_silently("skirt_trial", {"surface", "--valve", "placed.json", "--skirt",
+                                                 shortest(longest * millimetre_), "--wall", "wall.stl", "--output", "logs/trial.vtp"});
+      if (trial.is_fine())
+        return ". If the wall is right there, --skirt " + option_mm(longest * millimetre_) +
+               " accepts it; otherwise look at the landmarks near there";
+    }
+    return ". No skirt up to 20 mm reaches this wall at all openings: are the landmarks at their places, and of this patient?";
+  }
+
+  void show_warnings(const StepEnd &end) const {
+    for (const std::string &message : end.messages) warn(message);
+  }
+
+  // ---- The mesh ----
+
+  void make_mesh() {
+    for (int attempt = 0;; ++attempt) {
+      make_mesh_once();
+      const std::int64_t n_leaks = mark_all_openings();
+      report_["n_leaking_edges"] = n_leaks;
+      if (n_leaks == 0) return steps_.say("marks", "no edge leaks at " + std::to_string(n_marked_openings) + " openings", marks_seconds_);
+      const std::string text = counted(n_leaks, "edge") + " leak" + (n_leaks == 1 ? "s" : "") + " at " +
+                               std::to_string(n_marked_openings) + " openings";
+      if (attempt == 1)
+        refuse_data(text + " also in the second mesh, whose edges in the band have " + shown(band_edge_) +
+                    " half thicknesses: --band-edge " + shown(shorter_by * band_edge_) + " makes them shorter, or --half-thickness " +
+                    option_mm(1.1 * half_thickness_) + " thickens the band");
+      band_edge_ *= shorter_by;
+      steps_.say("marks", text + ": the mesh is made once more, with edges of " + shown(band_edge_) + " half thicknesses",
+                 marks_seconds_);
+    }
+  }
+
+  void make_mesh_once() {
+    const StepEnd end = steps_.run("size_field", with_valve({"size-field", "valve.dat"},
+                                                            {"--band-edge", shown(band_edge_), "--largest-edge", shortest(largest_edge_)}));
+    if (!end.is_fine()) steps_.refuse("size_field", end);
+    show_warnings(end);
+    steps_.say("edges", in_mm(band_edge_ * half_thickness_) + " in the band, " + in_mm(largest_edge_) + " elsewhere", end.seconds);
+    PatientMeshOptions how;
+    how.folder = ".";
+    how.field = "valve.dat";
+    how.largest_edge = largest_edge_;
+    how.announce = [this](const std::string &command) { steps_.announce(command); };
+    const double begin = steps_.seconds();
+    mesh_ = mesh_patient(wall_, how);
+    steps_.say("mesh", "mesh.msh: " + grouped(mesh_.n_nodes) + " nodes, " + grouped(mesh_.n_cells) + " tetrahedra; boundaries " +
+                           names_of_boundaries(), steps_.seconds() - begin);
+    if (mesh_.n_nodes <= many_nodes) return;
+    steps_.say("mesh", "more than " + grouped(many_nodes) + " nodes take long to compute: --half-thickness " +
+                           option_mm(half_thickness_ * std::cbrt(static_cast<double>(mesh_.n_nodes) / many_nodes)) +
+                           " would need about " + grouped(many_nodes));
+  }
+
+  std::string names_of_boundaries() const {
+    std::vector<std::string> names;
+    for (const Boundary &boundary : mesh_.boundaries) names.push_back(boundary.name);
+    return joined_by(names, ", ");
+  }
+
+  // Marks the mesh at all openings. Returns the number of leaking edges.
+  std::int64_t mark_all_openings() {
+    const double begin = steps_.seconds();
+    std::int64_t sum = 0;
+    Words typed = with_valve({"riis", "mark", "mesh.msh"});
+    steps_.announce("for x in 0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1; do " + command_text(typed) +
+                    " --opening $x --stats logs/marks_$x.json; done");
+    for (const double opening : openings_from_0_to_1(n_marked_openings)) {
+      const std::string name = "marks_" + shortest(std::round(100 * opening) / 100);
+      const StepEnd end = steps_.run_silently(
+          name, with_valve({"mark", "mesh.msh"}, {"--opening", name.substr(6), "--stats", "logs/" + name + ".json"}));
+      if (!end.is_fine()) steps_.refuse(name, end);
+      const Json leaks = stats_of(name)["n_leaking_edges"];
+      if (!leaks.is_number()) refuse_data("mesh.msh: leaks are unknown at the opening " + name.substr(6) + ": " + end.reason());
+      sum += leaks.get<std::int64_t>();
+    }
+    marks_seconds_ = steps_.seconds() - begin;
+    return sum;
+  }
+
+  // ---- Does it seal? ----
+
+  void check_sealed() {
+    MarkOptions marking;
+    marking.valve = "placed.json";
+    marking.skirt = skirt_;
+    marking.wall = "wall.stl";
+    marking.has_half_thickness = true;
+    marking.surface_options.half_thickness = half_thickness_;
+    use_named_valve(marking);
+    apply_units(marking);
+    const double begin = steps_.seconds();
+    sides_ = sides_of_valve("mesh.msh", marking, mesh_.boundaries, centre_, flow_, millimetre_);
+    check_ends();
+    const std::string from = numbers_text(sides_.upstream.data(), 3, ","), to = numbers_text(sides_.downstream.data(), 3, ",");
+    const auto passage_at = [&](const char *opening, const std::string &name) {
+      const StepEnd end = steps_.run(name, with_valve({"check", "leaks", "mesh.msh"}, {"--opening", opening, "--between=" + from, to,
+                                                                                     "--stats", "logs/" + name + ".json"}));
+      if (!end.is_fine()) steps_.refuse(name, end);
+      return stats_of(name);
+    };
+    const Json closed = passage_at("0", "closed"), open = passage_at("1", "open");
+    report_["closed"] = closed["passage"]["state"];
+    report_["open"] = open["passage"]["state"];
+    const bool may_leak = !options_.disease.empty() ||
+                          std::any_of(options_.settings.begin(), options_.settings.end(),
+                                      [](const std::string &setting) { return setting.rfind("bump_", 0) == 0; });
+    if (closed["passage"]["state"] != "closed" && !may_leak) {
+      const Json thicker = closed["passage"]["closing_half_thickness"];
+      refuse_data("the closed valve does not seal: the blood passes " + in_mm(closed["passage"]["distance"]) + " from it at " +
+                  point_text(closed["passage"]["point"]) +
+                  (thicker.is_number() ? ". --half-thickness " + option_mm(thicker) + " closes the passage, or look at the landmarks near there"
+                                       : ". Look at the landmarks near there"));
+    }
+    if (open["passage"]["state"] != "open")
+      refuse_data("the open valve lets no blood pass: the widest passage is " + in_mm(open["passage"]["distance"]) +
+                  " from it. A smaller --half-thickness leaves more room");
+    const double square_cm = factor_between(unit_, Unit::centimetre) * factor_between(unit_, Unit::centimetre);
+    std::string text = closed["passage"]["state"] == "closed" ? "the closed valve seals" : "the closed valve leaves a gap, as it is sick";
+    text += ", and the open valve lets the blood pass";
+    if (open.contains("orifice")) {
+      text += " through " + printed("%.3g", square_cm * open["orifice"]["effective_area"].get<double>()) + " cm2";
+      report_["effective_area_cm2"] = square_cm * open["orifice"]["effective_area"].get<double>();
+    }
+    steps_.say("passage", text, steps_.seconds() - begin);
+  }
+
+  // Refuses ends that are on the wrong side of the closed valve.
+  void check_ends() const {
+    if (!sides_.are_apart) return;
+    for (const auto &[names, is_before] : {std::pair(sides_.before, true), std::pair(sides_.after, false)})
+      for (const std::string &name : names) {
+        if ((name == "inlet") == is_before) continue;
+        const auto end = std::find_if(mesh_.boundaries.begin(), mesh_.boundaries.end(),
+                                      [&](const Boundary &boundary) { return boundary.name == name; });
+        refuse_data("mesh.msh: the end " + name + " at " + point_text(end->centre) + " is " + (is_before ? "before" : "after") +
+                    " the valve: write --inlet X,Y,Z with a point of the end before it" +
+                    (is_before ? ", and --outlet X,Y,Z with a point of each end after it; other flat parts become wall" : ""));
+      }
+  }
+
+  template <class Point>
+  std::string point_text(const Point &point) const {
+    const double p[3] = {point[0], point[1], point[2]};
+    return place_text(options_in_folder(), p, half_thickness_);
+  }
+  ValveOptions options_in_folder() const {
+    ValveOptions options;
+    options.unit = unit_;
+    return options;
+  }
+
+  // ---- Files ----
+
+  void write_marks() {
+    for (const auto &[opening, name] : {std::pair<std::string, std::string>{"0", "closed"}, {"1", "open"}}) {
+      const Words words = with_valve({"mark", "mesh.msh"}, {"--opening", opening, "--output", name + ".vtu"});
+      Words with_picture = words;
+      with_picture.insert(with_picture.end(), {"--picture", name + ".png"});
+      run_with_picture(name + "_marks", with_picture, words, name + ".vtu", name + ".png");
+    }
+  }
+
+  // Runs a command that also draws. If it cannot draw here, says so, and runs the command that does not draw.
+  void run_with_picture(const std::string &name, const Words &with_picture, const Words &words, const std::string &output,
+                        const std::string &picture) {
+    StepEnd end = steps_.run(name, with_picture);
+    std::string missing;
+    if (!end.is_fine()) {
+      missing = end.reason();
+      end = steps_.run(name, words);
+      if (!end.is_fine()) steps_.refuse(name, end);
+    }
+    steps_.say("written", output + (missing.empty() ? ", " + picture : "; without " + picture + ": " + missing), end.seconds);
+    if (!missing.empty()) report_["missing"][picture] = missing;
+  }
+
+  void write_beat() {
+    const Beat &beat = is_mitral_ ? mitral_beat : aortic_beat;
+    write_text("beat.csv", beat.text);
+    const Words words = with_valve(
+        {"mark", "mesh.msh"},
+        {"--resistance", shortest(resistance_), "--cycle", "beat.csv", "--period", shown_period, "--interpolation", "cubic", "--times",
+         beat.times, "--output", "beat.pvd", "--surface-output", "leaflets.pvd", "--series-table", "beat_table.csv"});
+    Words with_movie = words;
+    with_movie.insert(with_movie.end(), {"--movie", "beat.mp4", "--frame-rate", "6"});
+    run_with_picture("beat", with_movie, words, "beat.pvd, leaflets.pvd, beat_table.csv", "beat.mp4");
+  }
+
+  SolverCase solver_case() const {
+    SolverCase the;
+    the.folder = ".";
+    the.solver = options_.solver;
+    the.unit = unit_;
+    the.kind = kind_;
+    the.is_mitral = is_mitral_;
+    the.name = is_mitral_ ? "mitral_valve" : "aortic_valve";
+    the.half_thickness = half_thickness_;
+    the.skirt = skirt_;
+    the.resistance = resistance_;
+    the.upstream = sides_.upstream;
+    the.downstream = sides_.downstream;
+    the.ball_radius = sides_.ball_radius;
+    the.boundaries = mesh_.boundaries;
+    the.n_nodes = mesh_.n_nodes;
+    the.n_cells = mesh_.n_cells;
+    the.band_edge = band_edge_ * half_thickness_;
+    return the;
+  }
+
+  void write_case() {
+    if (options_.solver == "none") return;
+    const double begin = steps_.seconds();
+    const SolverCase the = solver_case();
+    if (options_.solver == "openfoam") write_openfoam_case(the);
+    if (options_.solver == "svmultiphysics") write_svmultiphysics_case(the);
+    if (options_.solver == "fenicsx") write_fenicsx_case(the);
+    steps_.say("case", "for " + options_.solver, steps_.seconds() - begin);
+  }
+
+  void write_report() {
+    const SolverCase the = solver_case();
+    Json json = {{"version", riis_version_string()}, {"gmsh", gmsh_}, {"valve", kind_}};
+    if (!options_.disease.empty()) json["disease"] = options_.disease;
+    json["unit"] = name_of(unit_);
+    json["wall"] = {{"file", options_.wall}, {"unit", name_of(frame_.unit)}, {"axes", frame_.axes}, {"landmarks_away_mm", frame_.away}};
+    json["half_thickness"] = half_thickness_;
+    json["band_edge"] = band_edge_;
+    json["largest_edge"] = largest_edge_;
+    json["skirt"] = skirt_;
+    json["resistance"] = resistance_;
+    json["n_nodes"] = mesh_.n_nodes;
+    json["n_cells"] = mesh_.n_cells;
+    for (const Boundary &boundary : mesh_.boundaries)
+      json["boundaries"].push_back({{"name", boundary.name}, {"group", boundary.group}, {"centre", boundary.centre},
+                                    {"area", boundary.area}, {"n_faces", boundary.n_faces}});
+    json["centre"] = centre_;
+    json["flow"] = flow_;
+    json["upstream"] = sides_.upstream;
+    json["downstream"] = sides_.downstream;
+    json["ball_radius"] = sides_.ball_radius;
+    json.update(report_);
+    json["solver"] = options_.solver;
+    json["seconds"] = steps_.seconds();
+    json["commands"] = steps_.commands();
+    write_text("patient.json", json.dump(2) + "\n");
+  }
+
+  void print_end() {
+    const double finer = std::pow(static_cast<double>(mesh_.n_nodes) / many_nodes, 1 / power_of_nodes);
+    steps_.say("edges", "the mesh has " + grouped(mesh_.n_nodes) + " nodes with --band-edge " + shown(band_edge_) + ", and would have about " +
+                            grouped(many_nodes) + " with " + printed("%.2f", finer * band_edge_));
+    steps_.say("done", "in " + printed("%.0f", steps_.seconds()) + " s. " + options_.folder + " has:");
+    const std::pair<std::string, const char *> files[] = {
+        {"mesh.msh", "the mesh for gmsh's readers; mesh.vtu for ParaView, and faces/ with its boundaries"},
+        {"placed.json", "the valve, for --valve of every command of riis; wall.stl is its wall"},
+        {"closed.vtu", "the marked mesh with the closed valve; open.vtu with the open valve"},
+        {"closed.png", "pictures of both"},
+        {"beat.pvd", "a beat for ParaView; leaflets.pvd has the leaflets"},
+        {"beat.mp4", "the beat as a movie"},
+        {"patient.json", "all numbers of this run, and its commands; logs/ has what they print"}};
+    for (const auto &[name, what] : files)
+      if (exists(name.c_str())) steps_.say("  " + name + std::string(13 - name.size(), ' '), what);
+    const std::string path = options_.folder + "/" + options_.solver;
+    if (options_.solver == "fenicsx") steps_.say("run", "python3 " + path + "/run.py, with a Python that has dolfinx");
+    else if (options_.solver != "none") steps_.say("run", path + "/Allrun");
+  }
+
+  const PatientOptions &options_;
+  PatientSteps steps_;
+  std::string gmsh_, kind_, landmarks_name_;
+  bool is_mitral_ = false;
+  LandmarkFile landmarks_;
+  PatientWall wall_;
+  WallFrame frame_;
+  std::vector<std::string> inputs_;
+  Unit unit_ = Unit::millimetre;
+  double millimetre_ = 1;  // in the folder's unit, as are the lengths below
+  double half_thickness_ = 0, skirt_ = 0, largest_edge_ = 0;
+  double band_edge_ = 0, resistance_ = 0, marks_seconds_ = 0;
+  std::array<double, 3> centre_{}, flow_{};
+  PatientMesh mesh_;
+  ValveSides sides_;
+  Json report_ = Json::object();
+};
+
+}  // namespace
+
+ExitCode run_patient(const PatientOptions &options) { return PatientRun(options).run(); }
+
+}  // namespace riis::program

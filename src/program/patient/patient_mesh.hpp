@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a wall with named ends, and a size field of riis size-field. Out: a volume mesh with named boundaries, made by gmsh, in the
+// files that solvers read.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "program/patient/flat_ends.hpp"
+#include "program/patient/solver_case.hpp"
+
+namespace riis::program {
+
+struct PatientMeshOptions {
+  std::string folder;       // which exists; the files go here
+  std::string field;        // the file of riis size-field
+  double largest_edge = 0;  // edge length outside the field's grid: --largest-edge of riis size-field
+  // Called with each command before it runs, as a user would type it.
+  std::function<void(const std::string &command)> announce = [](const std::string &) {};
+};
+
+struct PatientMesh {
+  std::vector<Boundary> boundaries;  // the inlet, the outlets, the wall
+  std::int64_t n_nodes = 0, n_cells = 0;
+  double volume = 0;                 // of all cells
+  double longest_edge = 0;           // of all cells
+  double least_quality = 0;          // of all cells: 3 times the radius of the inner sphere over that of the outer one
+  std::vector<std::string> written;  // paths of the files
+};
+
+// Refuses to go on if there is no gmsh in PATH, and says which package to install. Returns gmsh's version.
+std::string require_gmsh();
+
+// Makes the mesh. gmsh makes the surface anew with the field's edges and keeps the rims of the ends, and then fills it with
+// tetrahedra. All ends need a name. Writes into `folder`
+//   mesh.msh        ASCII gmsh 2.2: physical groups of the boundaries, and "blood" of the tetrahedra
+//   mesh.vtu        the tetrahedra, with GlobalNodeID and GlobalElementID
+//   faces/NAME.vtp  the triangles of a boundary, outwards, with GlobalNodeID, GlobalElementID and ModelFaceID
+//   gmsh/           what gmsh reads, and its logs
+// Refuses with gmsh's last message and its log if gmsh fails, and a mesh that is not closed or lost an end.
+PatientMesh mesh_patient(const PatientWall &wall, const PatientMeshOptions &options);
+
+}  // namespace riis::program

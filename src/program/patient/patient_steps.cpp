@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/patient/patient_steps.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <system_error>
+
+#include "program/base/other_program.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+
+namespace riis::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char *const marker_file = "UNFINISHED.txt", *const report_file = "patient.json";
+
+// What riis patient writes into the folder. Files with other names stay when the folder is taken over.
+const char *const own_names[] = {report_file,          "wall.stl",   "placed.json",   "params.json", "valve.dat",      "gmsh",
+                                 "mesh.msh",      "mesh.vtu",   "faces",         "closed.vtu",  "open.vtu",       "closed.png",
+                                 "open.png",      "beat.csv",   "beat.pvd",      "beat",        "leaflets.pvd",   "leaflets",
+                                 "beat.mp4",      "logs",       "openfoam",      "fenicsx",     "svmultiphysics", "landmarks.json",
+                                 "landmarks.csv", "beat_table.csv", "landmarks.mrk.json", "landmarks.fcsv"};
+
+[[noreturn]] void refuse_folder(const std::string &path, const std::string &reason) {
+  refuse_data("--output: " + path + ": " + reason);
+}
+
+// Refuses inputs that taking over the folder would remove.
+void check_inputs(const fs::path &folder, const std::string &path, const std::vector<std::string> &inputs) {
+  for (const std::string &input : inputs)
+    for (const char *const name : own_names) {
+      std::error_code error;
+      if (fs::equivalent(folder / name, input, error))
+        refuse_folder(path, "its " + std::string(name) + " is also read, and would be removed: copy it elsewhere");
+    }
+}
+
+std::string taken_folder(const std::string &path, bool replace, const std::vector<std::string> &inputs) {
+  std::error_code error;
+  const fs::path folder = fs::absolute(path).lexically_normal();
+  if (fs::exists(folder, error)) {
+    if (!fs::is_directory(folder, error)) refuse_folder(path, "is a file, not a folder");
+    const bool is_unfinished = fs::exists(folder / marker_file, error), is_own = is_unfinished || fs::exists(folder / report_file, error);
+    const bool is_empty = fs::is_empty(folder, error);
+    if (error) refuse_folder(path, "cannot be read: " + error.message());
+    if (!is_empty && !is_own) refuse_folder(path, "the folder is not empty, and riis patient did not make it: name another");
+    if (!is_empty && !is_unfinished && !replace)
+      refuse_folder(path, "the folder has the results of an earlier run: name another, or write --replace");
+    check_inputs(folder, path, inputs);
+    // The report goes first, so that a folder that loses its other files does not look finished.
+    for (const char *const name : own_names) fs::remove_all(folder / name, error);
+  } else {
+    fs::create_directory(folder, error);
+    if (error) refuse_folder(path, "cannot be made: " + error.message());
+  }
+  return folder.string();
+}
+
+}  // namespace
+
+PatientFolder::PatientFolder(const std::string &path, bool replace, const std::vector<std::string> &inputs)
+    : path_(taken_folder(path, replace, inputs)), locks_({(fs::path(path_) / marker_file).string()}) {
+  std::error_code error;
+  fs::current_path(path_, error);
+  if (error) refuse_folder(path, "cannot be entered: " + error.message());
+  write_text(marker_file, "riis patient has not finished this folder. If it no longer runs, run it again.\n");
+  fs::create_directory("logs", error);
+  if (error) refuse_folder(path, "cannot be written to: " + error.message());
+}
+
+void PatientFolder::finish() {
+  std::error_code error;
+  fs::remove(marker_file, error);
+  if (error) refuse_data(std::string(marker_file) + ": cannot be removed: " + error.message());
+}
+
+std::string command_text(const std::vector<std::string> &words) {
+  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::string("-_=.,/:+%@").find(static_cast<char>(c)) != std::string::npos; };
+  std::vector<std::string> typed;
+  for (const std::string &word : words) {
+    std::string text;
+    for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+    typed.push_back(!word.empty() && std::all_of(word.begin(), word.end(), is_plain) ? word : "'" + text + "'");
+  }
+  return joined_by(typed, " ");
+}
+
+PatientSteps::PatientSteps(bool quiet) : quiet_(quiet) {
+  std::error_code error;
+  program_ = fs::read_symlink("/proc/self/exe", error).string();
+  if (error) refuse_data("/proc/self/exe: cannot be read: " + error.message());
+}
+
+double PatientSteps::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+void PatientSteps::say(const std::string &label, const std::string &text, double seconds) {
+  if (quiet_) return;
+  std::string begin = label;
+  begin.resize(std::max<std::size_t>(10, begin.size() + 1), ' ');
+  write_text("-", begin + text + (seconds < 0 ? "" : " (" + printed("%.1f", seconds) + " s)") + "\n");
+}
+
+void PatientSteps::announce(const std::string &command) {
+  commands_.push_back(command);
+  if (!quiet_) write_text("-", "  $ " + command + "\n");
+}
+
+StepEnd PatientSteps::run(const std::string &name, const std::vector<std::string> &words) {
+  std::vector<std::string> typed = words;
+  typed.insert(typed.begin(), "riis");
+  announce(command_text(typed));
+  return run_silently(name, words);
+}
+
+StepEnd PatientSteps::run_silently(const std::string &name, const std::vector<std::string> &words) {
+  const double begin = seconds();
+  std::vector<std::string> all = words;
+  all.insert(all.begin(), program_);
+  std::string log;
+  const ProgramEnd end = run_program(all, nullptr, [&](const std::string &line) { log += line + "\n"; });
+  if (end.error != 0) refuse_data(program_ + ": cannot be run: " + system_text(end.error));
+  StepEnd made;
+  made.status = end.status;
+  const std::string own = "riis: ";
+  for (const std::string &line : end.messages) {
+    log += line + "\n";
+    made.messages.push_back(line.rfind(own, 0) == 0 ? line.substr(own.size()) : line);
+  }
+  write_text("logs/" + name + ".log", log);
+  made.seconds = seconds() - begin;
+  return made;
+}
+
+void PatientSteps::refuse(const std::string &name, const StepEnd &end, const std::string &cure) const {
+  const std::string reason = end.status < 0   ? "a signal ended the command of logs/" + name + ".log"
+                             : end.reason().empty() ? "the command of logs/" + name + ".log ended with status " + std::to_string(end.status)
+                                                    : end.reason();
+  throw Refusal{end.status == exit_wrong_usage ? exit_wrong_usage : exit_bad_data, reason + cure};
+}
+
+}  // namespace riis::program

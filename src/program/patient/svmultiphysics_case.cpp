@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/patient/svmultiphysics_case.hpp"
+
+#include <array>
+#include <variant>
+
+#include "common/xml_text.hpp"
+#include "program/base/quantities.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/cli/command_line.hpp"
+#include "program/commands/commands.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/patient/case_files.hpp"
+#include "program/patient/heartbeat.hpp"
+
+namespace riis::program {
+namespace {
+
+constexpr double solver_step = 0.002;  // s
+constexpr int steps_between_files = 10;
+// The triangles of the leaflets, in half thicknesses. K of the solver's own engine is then within 5 %, and riis as its engine is
+// exact (docs/export.md, "How fine the triangles must be"). Finer triangles would take the solver hours.
+constexpr double largest_edge = 0.5;
+// Processor time of a cell and a step, measured (docs/patient_svmultiphysics.md, "What it costs").
+constexpr double seconds_of_cell = 7e-5;
+constexpr int n_modes = 128;  // of a curve of pressure, which differs from its polygon by less than 0.5 mmHg
+
+constexpr double dyn_per_cm2 = 10;                                   // in a Pa
+constexpr double resistance_in_cgs = 1e-5, compliance_in_cgs = 1e5;  // of a Windkessel, in dyn, cm and s
+
+std::string element(const std::string &name, const std::string &value) {
+  return "<" + name + "> " + value + " </" + name + ">";
+}
+
+// Returns the curve as the solver reads it. It makes a Fourier series from the polygon.
+std::string temporal_values(const PressureCurve &curve) {
+  std::string text = std::to_string(curve.keys.size()) + ' ' + std::to_string(n_modes) + '\n';
+  for (const PressureCurve::Key &key : curve.keys)
+    text += shortest(key.time) + ' ' + printed("%.6g", mmHg * key.pressure * dyn_per_cm2) + '\n';
+  return text;
+}
+
+std::string condition(const std::string &face, const std::string &type, const std::string &lines) {
+  return "  <Add_BC name=\"" + face + "\">\n    " + element("Type", type) + "\n" + lines + "  </Add_BC>\n";
+}
+std::string driven(const std::string &face, const std::string &file) {
+  return condition(
+      face, "Neu",
+      "    " + element("Time_dependence", "Unsteady") + "\n    " + element("Temporal_values_file_path", file) + "\n");
+}
+std::string steady(const std::string &face, const std::string &type, double value) {
+  return condition(
+      face, type,
+      "    " + element("Time_dependence", "Steady") + "\n    " + element("Value", printed("%.6g", value)) + "\n");
+}
+
+// Returns the Windkessel of an outlet. Several outlets share the blood by their areas.
+std::string windkessel_of(const Boundary &outlet, double share) {
+  const Windkessel body;
+  std::string lines = "    " + element("Time_dependence", "RCR") + "\n    <RCR_values>\n";
+  for (const auto &[name, value] :
+       {std::pair("Proximal_resistance", resistance_in_cgs * body.proximal_resistance / share),
+        {"Capacitance", compliance_in_cgs * body.compliance * share},
+        {"Distal_resistance", resistance_in_cgs * body.distal_resistance / share},
+        {"Distal_pressure", dyn_per_cm2 * body.distal_pressure},
+        {"Initial_pressure", dyn_per_cm2 * body.initial_pressure}})
+    lines += "      " + element(name, printed("%.6g", value)) + "\n";
+  return condition(outlet.name, "Neu", lines + "    </RCR_values>\n");
+}
+
+std::string conditions_of(const SolverCase &solver, const Ends &ends) {
+  std::string text = steady("wall", "Dir", 0);
+  if (solver.is_mitral) {
+    text += steady("inlet", "Neu", dyn_per_cm2 * pressure_of_left_atrium);
+    for (const Boundary &outlet : ends.outlets) text += driven(outlet.name, "ventricle.dat");
+    return text;
+  }
+  text += driven("inlet", "ventricle.dat");
+  for (const Boundary &outlet : ends.outlets) text += windkessel_of(outlet, outlet.area / ends.outlet_area);
+  return text;
+}
+
+// Parses the words as the user would type them, so that the printed command does the same.
+ExportOptions export_of(std::vector<std::string> words) {
+  std::vector<char *> arguments;
+  for (std::string &word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const auto request = parse_command_line(static_cast<int>(words.size()), arguments.data());
+  return std::get<ExportOptions>(request.value());
+}
+
+std::string in_shell(const std::string &word) {
+  const bool is_plain = word.find_first_of(" '\"$&;()<>|*?`\\!#~") == std::string::npos;
+  if (is_plain) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+// Returns the words of the export. The files of the case's folder are in `folder`. The block of the export names the files of the
+// valve as the solver sees them, from its own folder.
+std::vector<std::string> export_words(const SolverCase &solver, const std::string &folder) {
+  std::vector<std::string> words = {"riis", "export", "valve", folder + "/mesh.vtu"};
+  const auto add = [&words](const char *option, const std::string &value) {
+    words.insert(words.end(), {option, value});
+  };
+  add("--unit", "cm");
+  add("--valve", folder + "/placed.json");
+  add("--half-thickness", shortest(solver.half_thickness));
+  add("--resistance", shortest(solver.resistance));
+  add("--density", shortest(solver.density));
+  add("--viscosity", shortest(solver.viscosity));
+  add("--time-step", shortest(solver_step));
+  add("--opening-seconds", shortest(motion_seconds));
+  add("--closing-seconds", shortest(motion_seconds));
+  add("--largest-edge", printed("%.3g", largest_edge * solver.half_thickness));
+  add("--name", solver.name);
+  add("--starts", solver.starts_closed ? "closed" : "open");
+  if (solver.skirt > 0) {
+    add("--skirt", shortest(solver.skirt));
+    add("--wall", folder + "/wall.stl");
+  }
+  return words;
+}
+
+std::string write_valve(const SolverCase &solver) {
+  std::string line = "cd " + in_shell(solver.solver) + " &&";
+  for (const std::string &word : export_words(solver, "..")) line += " " + in_shell(word);
+  print_line(line);
+  ExportOptions options = export_of(export_words(solver, solver.folder));
+  const std::string named = options.folder;
+  options.folder = solver.solver + "/" + named;
+  const UrisExport valve = write_uris(options, named);
+  if (!valve.failure.empty()) refuse_data(valve.failure);
+  return valve.block;
+}
+
+std::string faces_of(const SolverCase &solver) {
+  std::string text;
+  for (const Boundary &boundary : solver.boundaries) {
+    const std::string file = "mesh-complete/mesh-surfaces/" + boundary.name + ".vtp";
+    copy_into(solver, "faces/" + boundary.name + ".vtp", file);
+    text += "  <Add_face name=\"" + boundary.name + "\">\n    " + element("Face_file_path", file) + "\n  </Add_face>\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_svmultiphysics_case(const SolverCase &solver) {
+  const Ends ends = ends_of(solver, Unit::centimetre);
+  make_case_folder(solver);
+  copy_into(solver, "mesh.vtu", "mesh-complete/mesh-complete.mesh.vtu");
+  const std::string faces = faces_of(solver), valve = write_valve(solver);
+  write_into(solver, "ventricle.dat",
+             temporal_values(solver.is_mitral ? pressure_of_filling_ventricle() : pressure_of_left_ventricle()));
+  const int n_steps = static_cast<int>(beat_period / solver_step + 0.5);
+  const std::string step = shortest(solver_step);
+  write_into(solver, "solver.xml",
+             filled(case_texts().at("svmultiphysics/solver.xml"),
+                    {{"TITLE", "One beat of a " + in_xml(solver.kind) + " valve, written by riis patient."},
+                     {"STEPS", std::to_string(n_steps)},
+                     {"TIME_STEP", step},
+                     {"SAVE", std::to_string(steps_between_files)},
+                     {"FACES", faces},
+                     {"VALVE", valve},
+                     {"DENSITY", printed("%.6g", solver.density * factor_from_si(a_density, Unit::centimetre))},
+                     {"VISCOSITY", printed("%.6g", solver.viscosity * factor_from_si(a_viscosity, Unit::centimetre))},
+                     {"CONDITIONS", conditions_of(solver, ends)}}));
+  write_into(solver, "Allrun", filled(case_texts().at("svmultiphysics/Allrun"), {{"TIME_STEP", step}}));
+  make_runnable(solver, "Allrun");
+  print_line("a beat has " + std::to_string(n_steps) + " steps of " + step + " s; svMultiPhysics needs about " +
+             duration_text(seconds_of_cell * static_cast<double>(solver.n_cells) * n_steps) + " on one processor");
+}
+
+}  // namespace riis::program

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: the faces of a wall. Out: its flat ends, such as an inlet.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+class vtkPolyData;
+
+namespace riis::vtk {
+
+struct FlatParts {
+  std::vector<std::uint8_t> is_end;  // for each face, whether it belongs to an end
+  bool are_all = false;              // the faces have hardly any other part, as those of a box
+};
+
+// Finds the flat ends of a wall: connected faces in one plane that meet the rest of the wall at a sharp rim. The faces must share
+// their points.
+FlatParts flat_ends(vtkPolyData *faces);
+
+}  // namespace riis::vtk

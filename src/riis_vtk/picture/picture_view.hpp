@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// The view of a picture.
+// In: the direction of view, and the extents of the surface and the mesh. Out: the visible space, for the camera, the cut and the
+// scale bar. If the mesh extends beyond the panel, planes cut it, and dashed lines show the cuts.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <vtkPlane.h>
+#include <vtkSmartPointer.h>
+
+class vtkCamera;
+class vtkPointSet;
+class vtkPolyData;
+
+namespace riis::vtk {
+
+using Vector = std::array<double, 3>;
+
+struct Extent {
+  double lower, upper;
+  double middle() const { return 0.5 * lower + 0.5 * upper; }
+  double half() const { return 0.5 * upper - 0.5 * lower; }
+  bool meets(const Extent &other) const { return lower <= other.upper && other.lower <= upper; }
+};
+
+// Extents along the axes of a view: to the right, upwards, and away from the eye.
+using Extents = std::array<Extent, 3>;
+// Extents along x, y and z.
+using Bounds = std::array<Extent, 3>;
+
+// The unit vectors along a valve's own x, y and z, after its placement.
+using Axes = std::array<Vector, 3>;
+
+// Returns the mesh's axes, turned about an axis of any length other than 0.
+Axes axes_turned(const double axis[3], double degrees);
+
+// A view without perspective, so that lengths can be compared. right, up and away are perpendicular unit vectors.
+struct View {
+  std::array<Vector, 3> axes;
+
+  // `view` is RIIS_VTK_VIEW_*, but not one of three views. `valve` is used by the views that look by the valve's axes.
+  View(std::int32_t view, const Axes &valve);
+  const Vector &right() const { return axes[0]; }
+  const Vector &up() const { return axes[1]; }
+  const Vector &away() const { return axes[2]; }
+  Extents extents_of(vtkPointSet *data) const;
+  // Returns the extents of the whole box.
+  Extents extents_of(const Bounds &bounds) const;
+};
+
+// The part of space that a panel shows, along the axes of its view.
+struct Sight {
+  Extents shown;                  // x and y extend to the panel's edges; z is the depth of surface and mesh
+  std::array<Extent, 2> uncut;    // x and y at which the mesh is cut if it extends further
+  std::array<bool, 2> cut_below;  // whether the mesh is cut on the left, and below
+  std::array<bool, 2> cut_above;  // whether the mesh is cut on the right, and above
+  bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
+};
+
+// Returns a sight that contains the surface. Along an axis on which the mesh is not much larger, the sight also contains the
+// mesh. So pictures of a valve that moves in one mesh can be compared. Along other axes, the sight contains the surface's
+// neighbourhood.
+//   mesh    NULL if there is none
+//   aspect  the panel's width divided by its height
+//   least   the least half height of the panel, so that several views can have one scale
+Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, double least = 0);
+
+void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);
+
+// Returns planes for the mapper of the mesh. There are none if the whole mesh is in sight.
+std::vector<vtkSmartPointer<vtkPlane>> cutting_planes(const View &view, const Sight &sight);
+
+// Returns dashed lines where the planes cut the boundary. The lines are nearer to the eye than everything else.
+vtkSmartPointer<vtkPolyData> dashes_where_cut(const View &view, const Sight &sight, vtkPolyData *boundary);
+
+// Red, green and blue, each from 0 to 1.
+using Colour = std::array<double, 3>;
+
+}  // namespace riis::vtk

@@ -1,0 +1,320 @@
+# SPDX-License-Identifier: Apache-2.0
+"""test_openfoam_case.py WRITER: the case of OpenFOAM that riis patient writes: its dictionaries, its refusals, and its scripts.
+
+WRITER is write_solver_case. Stand-ins for OpenFOAM's programs run Allrun, so the test needs no OpenFOAM. If foamDictionary is
+installed, OpenFOAM's own parser reads the dictionaries also.
+"""
+import json
+import math
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+WRITER = ""
+RHO, MMHG = 1060.0, 133.322
+# The tools of the system that Allrun calls.
+TOOLS = "awk bash cat dirname env find grep mkdir python3 readlink rm sed seq sh sort tail touch".split()
+
+
+def parsed(text):
+    """Returns the entries of a dictionary of OpenFOAM: a dictionary or the words of an entry by each name."""
+    text = re.sub(r"//[^\n]*", "", text)
+    tokens = re.findall(r'"[^"]*"|[{}();]|[^\s{}();"]+', text)
+
+    def block(at):
+        made = {}
+        while at < len(tokens) and tokens[at] != "}":
+            name, words, at = tokens[at], [], at + 1
+            if tokens[at] == "{":
+                made[name], at = block(at + 1)
+                assert tokens[at] == "}", name
+                at += 1
+                continue
+            depth = 0
+            while tokens[at] != ";" or depth > 0:
+                depth += {"(": 1, "{": 1, ")": -1, "}": -1}.get(tokens[at], 0)
+                assert depth >= 0, f"{name}: a bracket too many"
+                words.append(tokens[at])
+                at += 1
+            made[name], at = words, at + 1
+        return made, at
+
+    made, at = block(0)
+    assert at == len(tokens), f"the end of the dictionary is at token {at} of {len(tokens)}"
+    return made
+
+
+def numbers(words):
+    return [float(word) for word in words if re.fullmatch(r"[-+.\de]+", word)]
+
+
+class OpenfoamCase(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, status=0, placed=None, **changes):
+        """Writes a case, and returns its folder and what the writer said."""
+        root = {"valve": "coapting", "unit": "mm", "axes": "LPS", "rotate": [0, 0.6, 0.8, 30], "translate": [10, -20, 1000],
+                "parameters": {"root_radius": 1.31, "cusp_0.sector": 130, "cusp_1.sector": 115, "cusp_2.sector": 115},
+                "warp": {"sources": [[10, -8, 1000], [22, -20, 1000], [10, -32, 1004], [0, -20, 1010]],
+                         "targets": [[10, -8, 1001], [22, -20, 1000], [10, -32, 1004], [0, -20, 1011]], "noise": 0.3}}
+        root.update(placed or {})
+        shutil.rmtree(self.folder / "openfoam", ignore_errors=True)
+        (self.folder / "placed.json").write_text(json.dumps(root), encoding="utf-8")
+        (self.folder / "mesh.msh").write_text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", encoding="utf-8")
+        case = {"folder": str(self.folder), "solver": str(self.folder / "openfoam"), "unit": "m", "kind": "coapting",
+                "is_mitral": False, "name": "aortic_valve", "half_thickness": 1e-3, "skirt": 6e-3, "resistance": 1e4,
+                "starts_closed": True, "upstream": [0.01, -0.02, 0.985], "downstream": [0.01, -0.02, 1.02],
+                "ball_radius": 4e-3, "n_nodes": 0, "n_cells": 0,
+                "boundaries": [{"name": "inlet", "area": 4e-4}, {"name": "outlet", "area": 5e-4}, {"name": "wall"}]}
+        case.update(changes)
+        for i, boundary in enumerate(case["boundaries"]):
+            boundary.update({"group": i + 1, "area": boundary.get("area", 1e-3)})
+        (self.folder / "case.json").write_text(json.dumps(case), encoding="utf-8")
+        done = subprocess.run([WRITER, "openfoam", self.folder / "case.json"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return self.folder / "openfoam", done.stderr
+
+    def dictionary(self, case, name):
+        path = case / name
+        made = parsed(path.read_text(encoding="utf-8"))
+        if shutil.which("foamDictionary"):
+            environment = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ}
+            done = subprocess.run(["foamDictionary", path, "-disableFunctionEntries", "-keywords"], capture_output=True,
+                                  text=True, check=False, env=environment)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertEqual(set(done.stdout.split()), set(made), done.stdout)
+        return made
+
+    def test_an_aortic_valve_has_its_pressures_and_its_skirt(self):
+        case, _ = self.write()
+        valve = self.dictionary(case, "system/fvOptions")["aortic_valve"]
+        self.assertEqual(valve["type"], ["riisValve"])
+        for key, number in (("rho", 1060), ("resistance", 1e4), ("halfThickness", 1e-3)):
+            self.assertEqual(numbers(valve[key]), [number])
+        self.assertEqual(valve["valve"], {"kind": ["coapting"], "root_radius": ["1.31"], "cusp_0.sector": ["130"],
+                                          "cusp_1.sector": ["115"], "cusp_2.sector": ["115"]})
+        self.assertEqual(valve["placement"]["scale"], ["0.01"])
+        for found, expected in zip(numbers(valve["placement"]["translation"]), (0.01, -0.02, 1)):
+            self.assertAlmostEqual(found, expected, 12)
+        self.assertEqual(valve["skirt"], {"patch": ["wall"], "longest": ["0.006"]})
+        targets = numbers(valve["warp"]["targets"])
+        self.assertEqual(len(targets), 12)
+        self.assertAlmostEqual(targets[11], 1.011, 12)
+        self.assertAlmostEqual(numbers(valve["warp"]["noise"])[0], 3e-4, 12)
+        law = valve["opening"]
+        self.assertEqual((law["law"], law["flowPatch"], law["forward"]), (["switch"], ["inlet"], ["in"]))
+        self.assertGreater(numbers(law["openAbove"])[0], 0)
+        self.assertEqual(numbers(law["upstream"]["centre"]), [0.01, -0.02, 0.985])
+        patches = self.dictionary(case, "0/p")["boundaryField"]
+        table = numbers(patches["inlet"]["p0"])
+        # The ventricle exceeds the pressure of the arteries, and returns to its first pressure, so beats can follow each other.
+        highest = max(table[1::2]) * RHO / MMHG
+        self.assertTrue(110 < highest < 130, highest)
+        self.assertEqual((table[0], table[-2], table[1]), (0, 0.8, table[-1]))
+        self.assertEqual(numbers(patches["inlet"]["value"]), [table[1]])
+        self.assertEqual(patches["outlet"]["type"], ["riisWindkessel"])
+        solver = self.dictionary(case, "system/fvSolution")["solvers"]["p"]
+        self.assertEqual((solver["solver"], solver["netSource"], solver["tolerance"]), (["riisSource"], ["no"], ["1e-7"]))
+        control = self.dictionary(case, "system/controlDict")
+        self.assertEqual((control["startFrom"], control["endTime"]), (["latestTime"], ["0.8"]))
+        self.assertEqual(control["functions"]["valve"]["valve"], ["aortic_valve"])
+        for name in ("0/U", "constant/transportProperties", "constant/turbulenceProperties", "system/fvSchemes",
+                     "system/decomposeParDict"):
+            self.dictionary(case, name)
+        self.assertEqual((case / "mesh.msh").read_bytes(), (self.folder / "mesh.msh").read_bytes())
+        self.assertTrue(os.access(case / "Allrun", os.X_OK))
+        for path in case.rglob("*"):
+            if path.is_file():
+                self.assertFalse(re.search(r"@[A-Z_]+@", path.read_text(encoding="utf-8")), path)
+
+    def test_outlets_share_the_arteries_by_area(self):
+        case, _ = self.write()
+        whole = self.dictionary(case, "0/p")["boundaryField"]["outlet"]
+        case, _ = self.write(boundaries=[{"name": "inlet", "area": 4e-4}, {"name": "outlet", "area": 4.5e-4},
+                                         {"name": "outlet_2", "area": 1.5e-4}, {"name": "wall"}])
+        patches = self.dictionary(case, "0/p")["boundaryField"]
+        parts = [patches["outlet"], patches["outlet_2"]]
+        for key in ("proximalResistance", "distalResistance"):
+            together = 1 / sum(1 / numbers(part[key])[0] for part in parts)
+            self.assertTrue(math.isclose(together, numbers(whole[key])[0], rel_tol=1e-5), key)
+            self.assertTrue(math.isclose(numbers(parts[1][key])[0], 3 * numbers(parts[0][key])[0], rel_tol=1e-5), key)
+        self.assertTrue(math.isclose(sum(numbers(part["compliance"])[0] for part in parts), numbers(whole["compliance"])[0],
+                                     rel_tol=1e-5))
+        self.assertIn("flow_outlet_2", self.dictionary(case, "system/controlDict")["functions"])
+
+    def test_a_mitral_valve_lies_between_atrium_and_ventricle(self):
+        case, _ = self.write(kind="mitral", name="mitral_valve", is_mitral=True, half_thickness=1.5e-3,
+                             placed={"valve": "mitral", "parameters": {"skirt_length": 0.3}})
+        valve = self.dictionary(case, "system/fvOptions")["mitral_valve"]
+        self.assertEqual(valve["valve"], {"kind": ["mitral"], "skirt_length": ["0.3"]})
+        self.assertNotIn("skirt", valve)  # the valve keeps its own
+        self.assertGreater(numbers(valve["opening"]["closeBelow"])[0], 0)
+        patches = self.dictionary(case, "0/p")["boundaryField"]
+        self.assertEqual(patches["inlet"]["p0"][0], "constant")
+        atrium = numbers(patches["inlet"]["p0"])[0]
+        ventricle = numbers(patches["outlet"]["p0"])[1::2]
+        self.assertTrue(min(ventricle) < atrium < max(ventricle))
+
+    def test_refusals(self):
+        _, said = self.write(1, unit="mm")
+        self.assertIn("its mesh is in millimetres, and this solver needs metres", said)
+        _, said = self.write(1, starts_closed=False)
+        self.assertIn("starts with a closed valve", said)
+        _, said = self.write(1, boundaries=[{"name": "inlet"}, {"name": "aorta"}, {"name": "wall"}])
+        self.assertIn("its boundary 'aorta' is neither inlet, outlet nor wall", said)
+        pairs = {"sources": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "targets": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}
+        _, said = self.write(1, placed={"warp": {**pairs, "coordinates": "valve"}})
+        self.assertIn("the warp's landmarks are in the valve's coordinates", said)
+        _, said = self.write(1, placed={"warp": {**pairs, "open": {"targets": pairs["targets"], "sources": pairs["sources"]}}})
+        self.assertIn("the warp moves", said)
+
+    # ---- Allrun and report.py ----
+
+    def tools(self, *names):
+        """Makes a folder for PATH with tools of the system and stand-ins for the named programs of OpenFOAM."""
+        folder = self.folder / "bin"
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        for tool in TOOLS:
+            found = shutil.which(tool)
+            if found:
+                (folder / tool).symlink_to(found)
+        stand_ins = {
+            "gmshToFoam": "mkdir -p constant/polyMesh\n"
+                          "echo 'note \"nPoints:8000 nCells:40000 nFaces:9\";' >constant/polyMesh/owner\n"
+                          "printf 'inlet\\n{\\n type patch;\\n}\\nwall\\n{\\n type patch;\\n}\\n' >constant/polyMesh/boundary",
+            "checkMesh": "echo 'Mesh OK.'",
+            "foamDictionary": "sed -n \"s/^ *$3 \\([^;]*\\);.*/\\1/p\" \"$1\" | tail -n 1",
+            "pimpleFoam": f"python3 {pathlib.Path(__file__).resolve()} --beat \"$@\"",
+            "decomposePar": "for i in $(seq 0 3); do mkdir -p processor$i/0; done",
+            "reconstructPar": ":",
+            "mpirun": "echo \"mpirun $2\"; shift 2; \"$@\"",
+        }
+        for name in names:
+            path = folder / name
+            path.write_text(f"#!/bin/bash\n{stand_ins[name]}\n", encoding="utf-8")
+            path.chmod(0o755)
+        return folder
+
+    def run_case(self, case, *words, tools, **environment):
+        root = self.folder / "foam/etc"
+        root.mkdir(parents=True, exist_ok=True)
+        (root / "controlDict").touch()
+        plugin = self.folder / "plugin"
+        plugin.mkdir(exist_ok=True)
+        (plugin / "libriisFvOption.so").touch()
+        return subprocess.run([case / "Allrun", *words], capture_output=True, text=True, check=False, cwd="/",
+                              env={"PATH": str(tools), "HOME": str(self.folder), "WM_PROJECT_DIR": str(root.parent),
+                                   "RIIS_OPENFOAM": str(plugin), **environment})
+
+    def test_what_is_missing_is_named_with_its_command(self):
+        case, _ = self.write()
+        done = self.run_case(case, tools=self.tools())
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("OpenFOAM is missing", done.stderr)
+        self.assertIn("this command installs it: sudo apt-get install openfoam", done.stderr)
+        tools = self.tools("pimpleFoam")
+        done = self.run_case(case, tools=tools, RIIS_OPENFOAM=str(self.folder))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("./run openfoam plugin", done.stderr)
+        done = self.run_case(case, "four", tools=tools)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("'four' is not a number of processes", done.stderr)
+        tools = self.tools("pimpleFoam", "gmshToFoam", "checkMesh", "foamDictionary")
+        done = self.run_case(case, "4", tools=tools)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("mpirun is missing", done.stderr)
+        (case / "processor0").mkdir()
+        (case / "processor1").mkdir()
+        done = self.run_case(case, tools=tools)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("this run began with 2 processes. ./Allrun 2 goes on", done.stderr)
+
+    programs = ("pimpleFoam", "gmshToFoam", "checkMesh", "foamDictionary", "decomposePar", "reconstructPar", "mpirun")
+
+    def test_a_beat_and_its_table(self):
+        case, _ = self.write()
+        done = self.run_case(case, tools=self.tools(*self.programs))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("40000 cells, 800 steps of 0.001 s from 0 s to 0.8 s, on 1 process", done.stdout)
+        self.assertIn("this takes about 3 minutes", done.stdout)  # 5e-6 s of 40,000 cells and 800 steps are 160 s
+        self.assertIn("type wall;", (case / "constant/polyMesh/boundary").read_text(encoding="utf-8").split("wall\n")[1])
+        # The stand-in's beat: 100 ml/s for 0.2 s, then 10 ml/s back for 0.1 s, and at 90 mmHg for 0.5 s a leak of
+        # 1.01 times the forecast of 1.5 ml/s.
+        for text in ("forward volume .* 20 ml +met", "backward volume .* 1.757 ml +met: below 12 %, 8.8",
+                     "largest flow .* 100 ml/s", "mean gradient.* 5 mmHg", "leak at 90 mmHg",
+                     "leak over the forecast.* 1.01 +met", "closed band .* 0.5 m/s +met",
+                     "while the valve moves .* 2 m/s +met", "above 3 m/s meanwhile .* 0 ms +met", "1.0e-07 +met"):
+            self.assertRegex(done.stdout, text)
+        self.assertTrue((case / "aortic_valve.foam").exists())
+
+    def test_a_run_on_four_processes(self):
+        case, _ = self.write()
+        done = self.run_case(case, "4", tools=self.tools(*self.programs))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("on 4 processes", done.stdout)
+        self.assertIn("mpirun 4", (case / "log.pimpleFoam").read_text(encoding="utf-8"))
+
+    def test_what_is_out_of_its_bounds_is_marked(self):
+        for fault, text in (("leak", "leak over the forecast.*MISSED"), ("balance", "inflow less outflow.*MISSED"),
+                            ("band", "closed band.*MISSED"), ("moving", "while the valve moves.*MISSED"),
+                            ("back", "backward volume.*MISSED")):
+            case, _ = self.write()
+            done = self.run_case(case, tools=self.tools(*self.programs), FAULT=fault)
+            self.assertEqual(done.returncode, 1, fault)
+            self.assertRegex(done.stdout, text)
+
+    def test_a_run_that_was_cut_off_goes_on(self):
+        case, _ = self.write()
+        tools = self.tools(*self.programs)
+        done = self.run_case(case, tools=tools, CUT_AT="0.4")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("pimpleFoam failed", done.stderr)
+        done = self.run_case(case, tools=tools)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("400 steps of 0.001 s from 0.4 s to 0.8 s", done.stdout)
+        self.assertRegex(done.stdout, "forward volume .* 20 ml")
+
+
+def stand_in_beat():
+    """Writes the tables of a beat and a log as pimpleFoam with the plug-in does, from the last written time on."""
+    fault = os.environ.get("FAULT", "")
+    start = max([float(path.name) for path in pathlib.Path().glob("0.*") if path.is_dir()] + [0])
+    end = float(os.environ.get("CUT_AT", "0.8"))
+    print("riis aortic_valve: the closed valve has 0.001 m2 in the mesh, and is expected to drop 0.8 of (R / eps) u")
+    rows, flows, speeds = [], [], []
+    for step in range(round(1000 * start) + 1, round(1000 * end) + 1):
+        time = step / 1000
+        opening = 1 if 100 < step <= 400 else 0
+        flow = 1e-4 if 100 < step <= 300 else (-1e-5 if fault != "back" else -1e-4) if 300 < step <= 400 else 0
+        difference = 5 * MMHG if opening else -90 * MMHG
+        if not opening:
+            flow = difference * 1e-3 * 1e-3 / 1e4 / 0.8 * (1.01 if fault != "leak" else 1.1)
+        speed = 3 if fault == "band" else 0.5
+        rows.append([time, opening, difference, flow, 0, 0, 0, 0, 0, speed])
+        flows.append([time, flow, -flow + (1e-11 if fault != "balance" else 1e-8)])
+        speeds.append([time, "mag(U)", 0, "(0 0 0)", 9 if fault == "moving" else 2, "(1 1 1)"])
+    name = f"{start:g}"
+    for folder, file, table in (("valve", "riisValve.dat", rows), ("fastest", "fieldMinMax.dat", speeds),
+                                ("flow_inlet", "surfaceFieldValue.dat", [row[:2] for row in flows]),
+                                ("flow_outlet", "surfaceFieldValue.dat", [[row[0], row[2]] for row in flows])):
+        path = pathlib.Path("postProcessing", folder, name, file)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("# Time\n" + "".join("\t".join(map(str, row)) + "\n" for row in table), encoding="utf-8")
+    pathlib.Path(f"{end:g}").mkdir(exist_ok=True)
+    return 0 if end >= 0.8 else 1
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "--beat":
+        sys.exit(stand_in_beat())
+    WRITER = sys.argv.pop(1)
+    unittest.main()

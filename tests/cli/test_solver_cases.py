@@ -1,0 +1,362 @@
+# SPDX-License-Identifier: Apache-2.0
+"""test_solver_cases.py WRITE_SOLVER_CASE TEXTS: reads the folders of solvers back, and runs stand-ins of the solvers."""
+import importlib.util
+import json
+import math
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import types
+import unittest
+import xml.etree.ElementTree as xml
+
+WRITE, TEXTS = "", pathlib.Path()
+MMHG = 133.322
+LAST_Z = 3.0
+
+# The names that Parameters.cpp of svMultiPhysics b5fbed0 knows in each element, as far as a fluid and a valve have them.
+KNOWN = {
+    "svMultiPhysicsFile": "GeneralSimulationParameters Add_mesh Add_URIS_mesh Add_equation",
+    "GeneralSimulationParameters":
+        "Check_IEN_order Continue_previous_simulation Convert_BIN_to_VTK_format Debug Increment_in_saving_restart_files"
+        " Increment_in_saving_VTK_files Name_prefix_of_saved_VTK_files Number_of_initialization_time_steps"
+        " Number_of_spatial_dimensions Number_of_time_steps Overwrite_restart_file Restart_file_name Save_averaged_results"
+        " Save_results_in_folder Save_results_to_VTK_format Searched_file_name_to_trigger_stop"
+        " Spectral_radius_of_infinite_time_step Start_saving_after_time_step Time_step_size Verbose Warning",
+    "Add_mesh": "Mesh_file_path Mesh_scale_factor Add_face Domain",
+    "Add_face": "Face_file_path",
+    "Add_URIS_mesh": "Add_URIS_face Mesh_scale_factor Thickness Closed_thickness Resistance Valve_starts_as_closed Invert_normal"
+                     " Positive_flow_normal_file_path Scaffold_file_path Include_URIS_velocity",
+    "Add_URIS_face": "Face_file_path Open_motion_file_path Close_motion_file_path",
+    "Add_equation": "Coupled Min_iterations Max_iterations Tolerance Use_taylor_hood_type_basis Density Viscosity"
+                    " Backflow_stabilization_coefficient Output LS Add_BC Initialize_RCR_from_flow",
+    "Viscosity": "Value",
+    "Output": "Velocity Pressure Traction WSS Vorticity Divergence",
+    "LS": "Linear_algebra Absolute_tolerance Krylov_space_dimension Max_iterations NS_CG_max_iterations NS_CG_tolerance"
+          " NS_GM_max_iterations NS_GM_tolerance Tolerance",
+    "Linear_algebra": "Preconditioner",
+    "Add_BC": "Type Time_dependence Value Temporal_values_file_path RCR_values",
+    "RCR_values": "Capacitance Distal_resistance Distal_pressure Initial_pressure Proximal_resistance",
+}
+
+
+def vtk_array(kind, name, values, components=1):
+    text = " ".join(map(repr, values))
+    return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">{text}</DataArray>\n'
+
+
+def duct(folder, scale):
+    """Writes a duct of tetrahedra along z, with the files that riis patient leaves. Returns the number of nodes and of cells."""
+    n, low, high = (7, 7, 12), (-1.05, -1.05, -2.0), (1.05, 1.05, LAST_Z)
+
+    def number(i, j, k):
+        return i + (n[0] + 1) * (j + (n[1] + 1) * k)
+
+    points = [scale * (low[axis] + (high[axis] - low[axis]) * at[axis] / n[axis])
+              for at in ((i, j, k) for k in range(n[2] + 1) for j in range(n[1] + 1) for i in range(n[0] + 1))
+              for axis in range(3)]
+    cells = []
+    for k in range(n[2]):
+        for j in range(n[1]):
+            for i in range(n[0]):
+                for way in ((0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2)):
+                    at, corners = [i, j, k], [number(i, j, k)]
+                    for axis in way:
+                        at[axis] += 1
+                        corners.append(number(*at))
+                    cells.append(corners if way in ((0, 1, 2), (1, 2, 0), (2, 0, 1)) else [corners[0], corners[2], corners[1],
+                                                                                         corners[3]])
+    n_nodes = len(points) // 3
+    folder.mkdir(parents=True)
+    (folder / "mesh.vtu").write_text(
+        '<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>\n'
+        f'<Piece NumberOfPoints="{n_nodes}" NumberOfCells="{len(cells)}">\n'
+        f'<PointData>{vtk_array("Int32", "GlobalNodeID", range(1, n_nodes + 1))}</PointData>\n'
+        f'<CellData>{vtk_array("Int32", "GlobalElementID", range(1, len(cells) + 1))}</CellData>\n'
+        f'<Points>{vtk_array("Float64", "Points", points, 3)}</Points>\n'
+        f'<Cells>{vtk_array("Int64", "connectivity", [node for cell in cells for node in cell])}'
+        f'{vtk_array("Int64", "offsets", range(4, 4 * len(cells) + 1, 4))}'
+        f'{vtk_array("UInt8", "types", [10] * len(cells))}</Cells>\n'
+        "</Piece></UnstructuredGrid></VTKFile>\n", encoding="ascii")
+    (folder / "faces").mkdir()
+    for name in ("inlet", "outlet", "outlet_2", "wall"):
+        (folder / "faces" / f"{name}.vtp").write_text(f"the face {name}\n", encoding="ascii")
+    for name in ("mesh.msh", "wall.stl"):
+        (folder / name).write_text(f"the file {name}\n", encoding="ascii")
+    unit = {1.0: "cm", 0.01: "m"}[scale]
+    placed = {"valve": "trileaflet", "unit": unit, "axes": "LPS", "rotate": [0.0, 0.0, 1.0, 0.0], "translate": [0.0, 0.0, 0.0],
+              "parameters": {}}
+    (folder / "placed.json").write_text(json.dumps(placed), encoding="ascii")
+    return n_nodes, len(cells)
+
+
+class Cases(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def numbers(self, solver, **changes):
+        """Writes the files of a patient, and returns the numbers of the case."""
+        scale = {"svmultiphysics": 1.0, "fenicsx": 0.01}[solver]
+        folder = self.folder / f"patient {len(list(self.folder.iterdir()))}"
+        n_nodes, n_cells = duct(folder, scale)
+        boundaries = [{"name": name, "group": group, "area": area}
+                      for name, group, area in (("inlet", 1, 4.4), ("outlet", 2, 4.4), ("wall", 3, 42.0))]
+        return {"folder": str(folder), "solver": str(folder / solver), "unit": "cm" if scale == 1 else "m", "kind": "trileaflet",
+                "is_mitral": False, "name": "aortic_valve", "half_thickness": 0.3 * scale, "skirt": 0.0, "resistance": 1e4,
+                "starts_closed": True, "upstream": [0.0, 0.0, -1.5 * scale], "downstream": [0.0, 0.0, 2.5 * scale],
+                "ball_radius": 0.4 * scale, "boundaries": boundaries, "n_nodes": n_nodes, "n_cells": n_cells, **changes}
+
+    def write(self, solver, numbers, status=0):
+        path = self.folder / "case.json"
+        path.write_text(json.dumps(numbers), encoding="ascii")
+        # The forecast of the drop would take seconds. It needs a Python, which this name is not.
+        done = subprocess.run([WRITE, solver, path], capture_output=True, text=True, check=False, timeout=300,
+                              env={**os.environ, "RIIS_PYTHON": "/no/python"})
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done.stderr
+
+    def refused(self, solver, text, **changes):
+        message = self.write(solver, self.numbers(solver, **changes), status=1)
+        self.assertIn(text, message)
+
+    # ---- svMultiPhysics ----
+
+    def read(self, numbers):
+        """Returns the parsed solver.xml, after a check of its names and files."""
+        folder = pathlib.Path(numbers["solver"])
+        tree = xml.parse(folder / "solver.xml").getroot()
+        n_files = 0
+        for element in tree.iter():
+            known = KNOWN.get(element.tag, "").split()
+            for child in element:
+                self.assertIn(child.tag, known, f"in {element.tag}")
+            if element.tag.endswith("file_path"):
+                path = element.text.strip()
+                self.assertFalse(path.startswith("/"), path)
+                self.assertTrue((folder / path).is_file(), path)
+                n_files += 1
+        self.assertGreater(n_files, 10)
+        return tree
+
+    @staticmethod
+    def value(element, path):
+        return float(element.find(path).text)
+
+    def test_aortic(self):
+        numbers = self.numbers("svmultiphysics")
+        said = self.write("svmultiphysics", numbers)
+        self.assertRegex(said, r"(?m)^riis: cd '.*/svmultiphysics' && riis export valve ../mesh.vtu --unit cm --valve ")
+        self.assertRegex(said, r"a beat has 400 steps of 0.002 s; svMultiPhysics needs about [0-9.]+ (seconds|minutes|hours)")
+        tree, folder = self.read(numbers), pathlib.Path(numbers["solver"])
+        step, n_steps = self.value(tree, ".//Time_step_size"), self.value(tree, ".//Number_of_time_steps")
+        self.assertAlmostEqual(step * n_steps, 0.8)
+        # The mesh is that of the patient.
+        source = pathlib.Path(numbers["folder"])
+        self.assertEqual((folder / "mesh-complete/mesh-complete.mesh.vtu").read_bytes(), (source / "mesh.vtu").read_bytes())
+        faces = {face.get("name"): face.find("Face_file_path").text.strip() for face in tree.iter("Add_face")}
+        self.assertEqual(sorted(faces), ["inlet", "outlet", "wall"])
+        for name, path in faces.items():
+            self.assertEqual((folder / path).read_text(), f"the face {name}\n")
+        # Units are g, cm and s.
+        self.assertAlmostEqual(self.value(tree, ".//Density"), 1.06)
+        self.assertAlmostEqual(self.value(tree, ".//Viscosity/Value"), 0.035)
+        valve = tree.find("Add_URIS_mesh")
+        self.assertEqual(valve.get("name"), "aortic_valve")
+        self.assertAlmostEqual(self.value(valve, "Resistance"), 1e5)
+        self.assertAlmostEqual(self.value(valve, "Closed_thickness"), 0.3)
+        self.assertEqual(valve.find("Valve_starts_as_closed").text.strip(), "true")
+        for element in valve.iter("Open_motion_file_path"):
+            n_frames = int((folder / element.text.strip()).read_text().split()[0])
+            self.assertAlmostEqual((n_frames - 1) * step, 0.04)
+        # The ventricle drives the inlet, the body is behind the outlet, and blood rests at the wall.
+        conditions = {condition.get("name"): condition for condition in tree.iter("Add_BC")}
+        self.assertEqual(sorted(conditions), sorted(faces))
+        self.assertEqual(conditions["wall"].find("Type").text.strip(), "Dir")
+        self.assertEqual(conditions["inlet"].find("Time_dependence").text.strip(), "Unsteady")
+        curve = (folder / conditions["inlet"].find("Temporal_values_file_path").text.strip()).read_text().splitlines()
+        keys = [tuple(map(float, line.split())) for line in curve[1:]]
+        self.assertEqual(int(curve[0].split()[0]), len(keys))
+        self.assertEqual((keys[0][0], keys[-1][0], keys[0][1]), (0, 0.8, keys[-1][1]))
+        self.assertAlmostEqual(max(pressure for _, pressure in keys) / (10 * MMHG), 120, delta=0.01)
+        # A flow of 83 ml/s through the Windkessel leaves a mean pressure of 80 to 130 mmHg: the unit is dyn s/cm5.
+        body = conditions["outlet"].find("RCR_values")
+        mean = 83 * (self.value(body, "Proximal_resistance") + self.value(body, "Distal_resistance")) / (10 * MMHG)
+        self.assertTrue(80 < mean < 130, mean)
+        decay = self.value(body, "Distal_resistance") * self.value(body, "Capacitance")
+        self.assertTrue(1 < decay < 3, decay)
+        self.assertAlmostEqual(self.value(body, "Initial_pressure") / (10 * MMHG), 80, delta=0.01)
+
+    def test_two_outlets(self):
+        one, two = self.numbers("svmultiphysics"), self.numbers("svmultiphysics", starts_closed=False, name="second")
+        two["boundaries"][1]["area"] = 3.0
+        two["boundaries"].append({"name": "outlet_2", "group": 4, "area": 1.4})
+        bodies = []
+        for numbers in (one, two):
+            self.write("svmultiphysics", numbers)
+            tree = self.read(numbers)
+            bodies.append([{child.tag: float(child.text) for child in body} for body in tree.iter("RCR_values")])
+        self.assertEqual((len(bodies[0]), len(bodies[1])), (1, 2))
+        for name in ("Proximal_resistance", "Distal_resistance"):
+            self.assertAlmostEqual(sum(1 / body[name] for body in bodies[1]) * bodies[0][0][name], 1, delta=1e-4)
+        self.assertAlmostEqual(sum(body["Capacitance"] for body in bodies[1]) / bodies[0][0]["Capacitance"], 1, delta=1e-4)
+        self.assertEqual(tree.find("Add_URIS_mesh").get("name"), "second")
+        self.assertEqual(tree.find("Add_URIS_mesh/Valve_starts_as_closed").text.strip(), "false")
+
+    def test_mitral(self):
+        numbers = self.numbers("svmultiphysics", is_mitral=True, name="mitral_valve")
+        self.write("svmultiphysics", numbers)
+        tree = self.read(numbers)
+        conditions = {condition.get("name"): condition for condition in tree.iter("Add_BC")}
+        self.assertAlmostEqual(self.value(conditions["inlet"], "Value") / (10 * MMHG), 10, delta=0.01)
+        self.assertEqual(conditions["outlet"].find("Temporal_values_file_path").text.strip(), "ventricle.dat")
+        self.assertIsNone(tree.find(".//RCR_values"))
+
+    def test_allrun(self):
+        numbers = self.numbers("svmultiphysics")
+        self.write("svmultiphysics", numbers)
+        folder = pathlib.Path(numbers["solver"])
+        stand_in = self.folder / "solver"
+        # It has two steps of backward flow, and one of forward flow, which it writes twice as a continued run does.
+        stand_in.write_text("#!/bin/sh\ncp \"$1\" ran.xml && mkdir -p 1-procs && : >1-procs/stFile_last.bin\n"
+                            "printf 'step time inlet outlet wall\\n\\n 1 .002 1.5 -1.5 0\\n 2 .004 0.5 -0.5 0\\n"
+                            " 3 .006 -100 100 0\\n 3 .006 -400 400 0\\n' >1-procs/B_NS_Velocity_flux.txt\n", encoding="ascii")
+        stand_in.chmod(0o755)
+
+        def allrun(*words, status=0, program=str(stand_in)):
+            done = subprocess.run([folder / "Allrun", *words], capture_output=True, text=True, check=False,
+                                  env={**os.environ, "SVMULTIPHYSICS": program})
+            self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+            return done.stdout + done.stderr
+
+        self.assertIn("the program '/no/solver' is missing. Write SVMULTIPHYSICS=PATH/svmultiphysics ./Allrun",
+                      allrun(status=1, program="/no/solver"))
+        self.assertIn("'two' is not a number of ranks: write ./Allrun 2", allrun("two", status=2))
+        self.assertIn("ended with the status 1", allrun(status=1, program="false"))
+        self.assertIn("0.8 ml forward, 0.0 ml back, at most 400 ml/s at 0.006 s", allrun())
+        self.assertIn("<Continue_previous_simulation> false", (folder / "ran.xml").read_text())
+        self.assertIn("the run goes on", allrun())
+        self.assertIn("<Continue_previous_simulation> true", (folder / "ran.xml").read_text())
+        self.assertIn("1-procs has a run on another number of ranks. Continue it by ./Allrun 1 or remove it",
+                      allrun("2", status=1))
+
+    def test_refusals(self):
+        self.refused("svmultiphysics", "its mesh is in metres, and this solver needs centimetres", unit="m")
+        self.refused("fenicsx", "its mesh is in millimetres, and this solver needs metres", unit="mm")
+        for solver in ("svmultiphysics", "fenicsx"):
+            whole = self.numbers(solver)["boundaries"]
+            self.refused(solver, "at least one outlet, not 1, 0 and 1", boundaries=whole[:2])
+            self.refused(solver, "not 1, 1 and 0", boundaries=[whole[0], whole[2]])
+            self.refused(solver, "not 2, 1 and 1", boundaries=[whole[0], *whole])
+            self.refused(solver, "its boundary 'rim' is neither inlet, outlet nor wall",
+                         boundaries=[*whole, {"name": "rim", "group": 9, "area": 1}])
+            numbers = self.numbers(solver)
+            pathlib.Path(numbers["solver"]).mkdir()
+            (pathlib.Path(numbers["solver"]) / "result").touch()
+            self.assertIn("a case is there already: remove this folder", self.write(solver, numbers, status=1))
+            numbers = self.numbers(solver, skirt=0.1)
+            for name in ("faces/outlet.vtp", "wall.stl"):
+                (pathlib.Path(numbers["folder"]) / name).unlink()
+            self.assertRegex(self.write(solver, numbers, status=1), r"(outlet.vtp|wall.stl): cannot be copied: No such file")
+        self.refused("svmultiphysics", "svMultiPhysics would never open the valve", half_thickness=5.0)
+
+    # ---- dolfinx ----
+
+    def test_fenicsx(self):
+        numbers = self.numbers("fenicsx", skirt=0.005)
+        self.assertRegex(self.write("fenicsx", numbers), r"a beat has 400 steps of 0.002 s; dolfinx needs about [0-9.]+ ")
+        folder = pathlib.Path(numbers["solver"])
+        for name in ("mesh.msh", "placed.json", "wall.stl"):
+            self.assertEqual((folder / name).read_bytes(), (folder.parent / name).read_bytes())
+        self.assertEqual((folder / "run.py").read_bytes(), (TEXTS / "fenicsx/run.py").read_bytes())
+        case = json.loads((folder / "case.json").read_text())
+        self.assertEqual(case["boundaries"], {"inlet": 1, "outlet": 2, "wall": 3})
+        for name in ("half_thickness", "skirt", "resistance", "upstream", "downstream", "ball_radius", "unit", "starts_closed"):
+            self.assertEqual(case[name], numbers[name])
+        self.assertEqual((case["density"], case["viscosity"]), (1060, 3.5e-3))
+        self.assertAlmostEqual(case["steps"] * case["time_step"], case["period"])
+        self.assertAlmostEqual(max(pressure for _, pressure in case["pressures"]["inlet"]) / MMHG, 120)
+        self.assertEqual(list(case["windkessels"]), ["outlet"])
+        numbers = self.numbers("fenicsx", is_mitral=True)
+        self.write("fenicsx", numbers)
+        case = json.loads((pathlib.Path(numbers["solver"]) / "case.json").read_text())
+        self.assertEqual((sorted(case["pressures"]), case["windkessels"]), (["inlet", "outlet"], {}))
+        self.assertEqual(case["law"]["close_below"], 1e-4)
+        self.assertFalse((pathlib.Path(numbers["solver"]) / "wall.stl").exists())
+
+    def test_missing_packages(self):
+        numbers = self.numbers("fenicsx")
+        self.write("fenicsx", numbers)
+        # The empty modules stand for packages that are there.
+        there = self.folder / "modules"
+        there.mkdir()
+        (there / "basix.py").write_text("raise ImportError('none', name='basix')\n", encoding="ascii")
+        done = subprocess.run([sys.executable, "-B", pathlib.Path(numbers["solver"]) / "run.py"], capture_output=True, text=True,
+                              check=False, env={**os.environ, "PYTHONPATH": str(there)})
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"^run.py: .* lacks basix. Debian 13 has it: sudo apt-get install --no-install-recommends ")
+
+    def program(self):
+        """Returns run.py as a module, with empty modules in place of dolfinx."""
+        if not importlib.util.find_spec("numpy"):
+            self.skipTest("there is no NumPy")
+        numbers = self.numbers("fenicsx")
+        self.write("fenicsx", numbers)
+
+        class Anything(types.ModuleType):
+            def __getattr__(self, name):
+                if name.startswith("__"):
+                    raise AttributeError(name)
+                return "0.9.0" if name == "__version__" else Anything(name)
+
+            __version__ = "0.9.0"
+
+        names = ("basix", "basix.ufl", "dolfinx", "dolfinx.fem", "dolfinx.fem.petsc", "dolfinx.io", "gmsh", "mpi4py", "ufl",
+                 "riis")
+        before = {name: sys.modules.get(name) for name in names}
+        self.addCleanup(lambda: [sys.modules.pop(name) if old is None else sys.modules.__setitem__(name, old)
+                                 for name, old in before.items()])
+        sys.modules.update({name: Anything(name) for name in names})
+        spec = importlib.util.spec_from_file_location("run", pathlib.Path(numbers["solver"]) / "run.py")
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module
+
+    def test_program(self):
+        run = self.program()
+        # Both forms of STL have the same triangles.
+        corners = [(0.5, 0.25, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 2.0)]
+        binary, text = self.folder / "binary.stl", self.folder / "text.stl"
+        binary.write_bytes(b"solid".ljust(80) + struct.pack("<I", 2)
+                           + 2 * struct.pack("<12fH", 0, 0, 1, *(x for corner in corners for x in corner), 0))
+        rows = "".join("vertex {} {} {}\n".format(*corner) for corner in corners)
+        facet = f"facet normal 0 0 1\nouter loop\n{rows}endloop\nendfacet\n"
+        text.write_text("solid w\n" + 2 * facet + "endsolid w\n", encoding="ascii")
+        for path in (binary, text):
+            self.assertEqual(run.read_stl(path).tolist(), [[list(corner) for corner in corners]] * 2)
+        # The curve repeats, and is linear between its keys.
+        pressure = run.curve([[0, 10], [0.2, 30], [0.8, 10]])
+        for now, expected in ((0.1, 20), (0.9, 20), (0.5, 20), (1.6, 10)):
+            self.assertAlmostEqual(float(pressure(now)), expected)
+        # Without flow the Windkessel decays with its time constant, and a steady flow gives the sum of both resistances.
+        body = run.Windkessel((2.0, 50.0, 0.01, 0.0), 100.0)
+        for _ in range(200):
+            last = body.pressure(0.0)
+        self.assertAlmostEqual(last, 100 * math.exp(-200 * run.DT / 0.5), delta=0.2)
+        for _ in range(20000):
+            last = body.pressure(3.0)
+        self.assertAlmostEqual(last, 3.0 * 52, delta=1e-6)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    WRITE, TEXTS = sys.argv[1], pathlib.Path(sys.argv[2])
+    if not shutil.which(WRITE):
+        sys.exit(f"test_solver_cases.py: {WRITE} is missing")
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
