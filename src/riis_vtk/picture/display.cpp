@@ -8,6 +8,7 @@
 #include "riis_vtk/picture/drawing.hpp"
 
 #include <X11/Xlib.h>
+#include <dlfcn.h>
 
 namespace riis::vtk {
 namespace {
@@ -26,6 +27,15 @@ Display *open_display() {
   }
 }
 
+// Returns whether VTK's OpenGL can draw on the display. The OpenGL library in use says this: some, such as that of the program's
+// archive, draw by X alone and do without the server's extension. VTK has loaded the library.
+bool has_opengl(Display *display) {
+  int opcode = 0, event = 0, error = 0;
+  using Query = int(Display *, int *, int *);
+  auto *query = reinterpret_cast<Query *>(dlsym(RTLD_DEFAULT, "glXQueryExtension"));
+  return query ? query(display, &error, &event) != 0 : XQueryExtension(display, "GLX", &opcode, &event, &error) != 0;
+}
+
 }  // namespace
 
 HeldDisplay::HeldDisplay() {
@@ -35,8 +45,7 @@ HeldDisplay::HeldDisplay() {
   if (!display_) {
     fail(RIIS_UNAVAILABLE, joined("a picture needs an X display: DISPLAY ", name, " cannot be opened", advice));
   }
-  int opcode = 0, event = 0, error = 0;
-  if (!XQueryExtension(display_, "GLX", &opcode, &event, &error)) {
+  if (!has_opengl(display_)) {
     XCloseDisplay(display_);
     fail(RIIS_UNAVAILABLE, joined("a picture needs OpenGL: DISPLAY ", name, " has no GLX extension", advice));
   }
