@@ -220,6 +220,16 @@ openfoam_source() {
   touch "$folder/with_dynamicMesh"
 }
 
+# install_library FOLDER [OPTION...]: compiles the library alone in FOLDER/library, and installs it to FOLDER/riis. The options
+# are those of CMake, such as -D RIIS_WITH_FORTRAN=ON. The commands of other solvers use it too.
+install_library() {
+  local folder=$1
+  shift
+  cmake --preset library -G Ninja -B "$folder/library" -D CMAKE_INSTALL_PREFIX="$folder/riis" "$@" &&
+    cmake --build "$folder/library" --parallel "$n_jobs" &&
+    cmake --install "$folder/library"
+}
+
 openfoam_build() { install_library "$of_work" && openfoam_build_plugin "$of_work" all; }
 
 openfoam_environment() {
