@@ -64,7 +64,7 @@ PYTHON
 
 # libraries FILE...: prints the libraries that the files need, without those of the C library and of OpenGL.
 libraries() {
-  ldd "$@" | awk '$2 == "=>" { if ($3 !~ /^\//) { print "no " $1 > "/dev/stderr"; exit 1 } print $3 }' | sort -u |
+  ldd "$@" | awk '$2 == "=>" { if ($3 !~ /^\//) { print "there is no " $1 > "/dev/stderr"; exit 1 } print $3 }' | sort -u |
     grep -v -E '/(libc|libm|libpthread|libdl|librt|libresolv|libutil|libnsl|libGL|libGLX|libOpenGL|libGLdispatch)\.so\.[0-9]+$'
 }
 
@@ -84,10 +84,11 @@ collect() {
   # Xvfb starts xkbcomp in the folder in which it runs itself.
   relative "$tree/lib/Xvfb" /usr/bin .
   cp -RL /usr/share/X11/xkb "$tree/share/X11/xkb"
+  libraries "$work/riis/bin/riis" /usr/bin/Xvfb /usr/bin/xkbcomp "$work/libGL.so.1" >"$work/libraries.txt"
   while IFS= read -r file; do
     cp -L "$file" "$tree/lib"
     licence "$file"
-  done < <(libraries "$work/riis/bin/riis" /usr/bin/Xvfb /usr/bin/xkbcomp "$work/libGL.so.1")
+  done <"$work/libraries.txt"
   cp "$work/libGL.so.1" "$tree/lib"
   for file in libGLX.so.0 libOpenGL.so.0; do ln -s libGL.so.1 "$tree/lib/$file"; done
   for file in libGL libX11-6 xvfb x11-xkb-utils xkb-data libgl1-mesa-dri libembree-dev; do

@@ -269,7 +269,10 @@ python_wheels() {
   rm -rf out/wheels
   mkdir -p out/wheels
   for wheel in "$python_folder"/repaired/riis-*.whl "$python_folder"/repaired-abi3/riis-*.whl; do
-    [[ $wheel == *-manylinux_2_35_x86_64.whl ]] || { echo "./run python: $wheel needs a later C library than 2.35" >&2; exit 1; }
+    [[ $wheel =~ -manylinux_2_([0-9]+)_x86_64\.whl$ ]] && ((BASH_REMATCH[1] <= 35)) || {
+      echo "./run python wheels: $wheel needs a C library later than 2.35" >&2
+      exit 1
+    }
     cp "$wheel" out/wheels
     say "out/wheels/$(basename "$wheel"), $(($(stat -c %s "$wheel") / 1000)) kB"
   done

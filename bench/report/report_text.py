@@ -158,7 +158,8 @@ class figure:
             print("==> matplotlib (python3-matplotlib) is missing: the page is made without plots")
             return None
         matplotlib.use("Agg")
-        matplotlib.rcParams.update({"svg.hashsalt": "riis", "font.size": 9.5, "axes.prop_cycle": matplotlib.cycler(color=COLOURS)})
+        cycle = matplotlib.cycler(color=COLOURS)
+        matplotlib.rcParams.update({"svg.hashsalt": "riis", "font.size": 9.5, "axes.prop_cycle": cycle})
         import matplotlib.pyplot
 
         return matplotlib.pyplot
@@ -176,7 +177,7 @@ class figure:
 
     @staticmethod
     def lines(panels, across, up, path, ticks=None):
-        """Draws lines, with one key below all panels. panels: titles and lines. A line is a label, points and a style, and has the
+        """Draws lines, with one key below all panels. panels: titles and lines. A line is a label, points and a style. It has the
         same colour and marker in all panels. ticks: values on the axes, instead of powers of ten."""
         pyplot = figure._pyplot()
         if not pyplot:

@@ -75,13 +75,16 @@ demo_states() {
 # column for each opening. Titles name the rows and columns.
 demo_openings_picture() {
   local valve view opening inputs=() parts='' tiles='' layout='' titles='' n=0 row
+  local -A seen_from=([side]='from the side' [top]='from above')
   for opening in "${demo_openings[@]}"; do
-    titles+=",$(demo_title "opening $opening" "$((200 + n++ * 320 + 160))-text_w/2" 14)"
+    titles+=",$(demo_title "opening $opening" "$((200 + n * 320 + 160))-text_w/2" 14)"
+    n=$((n + 1))
   done
   n=0
   for valve in "${demo_valves[@]}"; do
     for view in side top; do
-      titles+=",$(demo_title "$valve" 14 "$((50 + n / 5 * 256 + 96))"),$(demo_title "from the $view" 14 "$((50 + n / 5 * 256 + 126))")"
+      row=$((50 + n / 5 * 256 + 96))
+      titles+=",$(demo_title "$valve" 14 "$row"),$(demo_title "${seen_from[$view]}" 14 $((row + 30)))"
       for opening in "${demo_openings[@]}"; do
         inputs+=(-i "out/${valve}_${opening}_$view.png")
         parts+="[$n]crop=iw/2:0.8*ih:iw/2:0.1*ih,scale=320:-1[t$n];"

@@ -10,18 +10,23 @@ openfoam_plugin=src/openfoam
 # shellcheck source=examples/openfoam/follow.sh
 . "$openfoam_here/follow.sh"
 
-# ./run openfoam [plugin [FOLDER] | --short | --size CENTIMETRES | --headers FOLDER]
+# ./run openfoam [plugin [FOLDER] | patient | --short | --size CENTIMETRES | --headers FOLDER]
 #   Builds the plug-in for OpenFOAM, and runs a beating valve in OpenFOAM. It compares marks on 1, 2 and 4 ranks, compares
 #   pressure drops with OpenFOAM's porosity, and checks forces and a restart. It leaves plots in out/openfoam. It fetches
 #   OpenFOAM's headers (45 MB), and is left out if there is no package openfoam. --size 0.1 makes edges of 0.1 cm. --headers only
 #   compiles the plug-in, against the headers of another OpenFOAM. plugin only builds the plug-in, and installs it where the
-#   cases of riis patient look for it: in FOLDER, by default ~/.local/lib/riis/openfoam.
+#   cases of riis patient look for it: in FOLDER, by default ~/.local/lib/riis/openfoam. patient runs a beat of a synthetic
+#   patient from landmarks to the table, five minutes of an idle processor, and fails if a number is out of its bounds.
 run_openfoam() {
   of_size=0.16 of_time_step=1e-3 of_half_thickness=1.2e-3
   case $* in
     '') ;;
     plugin | 'plugin '*)
       openfoam_install_plugin "${2:-$HOME/.local/lib/riis/openfoam}"
+      return
+      ;;
+    patient)
+      openfoam_patient
       return
       ;;
     --short) of_size=0.25 of_time_step=2e-3 of_half_thickness=1.8e-3 ;;
@@ -90,9 +95,31 @@ openfoam_install_plugin() {
   openfoam_has_source || exit
   step "build the library" install_library "$of_work/static" -D BUILD_SHARED_LIBS=OFF
   step "build the plug-in" openfoam_build_plugin "$of_work/static" riisFvOption foamDigest
-  mkdir -p "$1"
-  cp "$of_work"/static/plugin/lib{riisFvOption,foamDigest}.so "$1"
+  if [[ ! $1 -ef $of_work/static/plugin ]]; then
+    mkdir -p "$1"
+    cp "$of_work"/static/plugin/lib{riisFvOption,foamDigest}.so "$1"
+  fi
   say "the plug-in is in $1"
+}
+
+# Follows docs/patient_openfoam.md with the patient of docs/patient.md. The case is cut off once, and goes on.
+openfoam_patient() {
+  local folder=$PWD/$build/openfoam/patient status=0
+  openfoam_install_plugin "$PWD/$build/openfoam/static/plugin"
+  packages=("${demo_packages[@]}" python3)
+  install_missing
+  step "compile the program" build_demo
+  rm -rf "$folder"
+  mkdir -p "$folder"
+  python3 -B examples/patient/make_patient.py "$folder"
+  step "from landmarks to a case" "$build/bin/riis" patient "$folder/root.stl" "$folder/landmarks.mrk.json" \
+    --output "$folder/case" --solver openfoam
+  export RIIS_OPENFOAM=$PWD/$build/openfoam/static/plugin
+  timeout 40 "$folder/case/openfoam/Allrun" >/dev/null 2>&1 || say "the beat was cut off"
+  step "a beat" "$folder/case/openfoam/Allrun" || status=$?
+  grep -c 'continues at time' "$folder/case/openfoam/log.pimpleFoam"
+  python3 "$folder/case/openfoam/report.py" "$folder/case/openfoam" || status=$?
+  return "$status"
 }
 
 # openfoam_build_plugin FOLDER [TARGET...]: compiles the plug-in in FOLDER/plugin, with the library in FOLDER/riis.
@@ -661,6 +688,11 @@ of_height() {
     grep -q "leaflet_height $2;" "$of_cases/$1/system/fvOptions"
 }
 
+# of_skirt NAME ENTRY: makes a case whose valve has a skirt, to which ENTRY gives bad input.
+of_skirt() {
+  of_bad "$1" && foamDictionary "$of_cases/$1/system/fvOptions" -entry aorticValve/skirt -add "$2" >/dev/null
+}
+
 # of_arteries NAME ENTRIES: makes a case with arteries at the outlet, to which ENTRIES gives bad input.
 of_arteries() {
   of_bad "$1" && of_set "$1" system/controlDict libs '("libriisFvOption.so")' &&
@@ -674,6 +706,14 @@ openfoam_refusals() {
     of_refused "an unknown valve" unknown-valve "RIIS_INVALID_PARAMETER: 'pulmonary' is not a kind of valve" &&
     of_bad unknown-parameter && of_set unknown-parameter "$dict" aorticValve/valve/leaflet_hight 1 &&
     of_refused "an unknown parameter" unknown-parameter "'leaflet_hight' is not a parameter of the trileaflet valve" &&
+    of_skirt skirt-patch '{ patch aorta; longest 0.005; }' &&
+    of_refused "a skirt to an unknown patch" skirt-patch "patch is 'aorta', and the mesh has no such patch" &&
+    of_skirt skirt-key '{ patch wall; length 0.005; }' &&
+    of_refused "an unknown key of the skirt" skirt-key "unknown key 'length'" &&
+    of_skirt skirt-zero '{ patch wall; longest 0; }' &&
+    of_refused "a skirt without length" skirt-zero 'longest is 0, and must be positive' &&
+    of_skirt skirt-inlet '{ patch inlet; longest 0.005; }' &&
+    of_refused "a skirt that misses its patch" skirt-inlet 'wall is not within longest, 0.005' &&
     of_bad no-resistance && foamDictionary "$of_cases/no-resistance/$dict" -entry aorticValve/resistance -remove >/dev/null &&
     of_refused "a missing key" no-resistance "Entry 'resistance' not found in dictionary" &&
     of_bad unknown-key && of_set unknown-key "$dict" aorticValve/opening/closesBelow 0 &&

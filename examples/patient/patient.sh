@@ -82,7 +82,7 @@ random_patients() {
   for seed in $(seq "$1"); do
     step "patient $seed" random_patient "$seed" "$folder/$seed"
     inputs+=(-i "$folder/$seed/closed.png")
-    tiles+="[$n]scale=320:-1,pad=iw:286:0:30:white,drawtext=text='patient $seed':fontsize=22:fontcolor=0x333333:x=(w-text_w)/2:y=6[t$n];"
+    tiles+="[$n]scale=320:-1,pad=iw:286:0:30:white,$(demo_title "patient $seed" "(w-text_w)/2" 4)[t$n];"
     place=$((n / 5))
     layout+="|$((n % 5 * 320))_$((place * 286))"
     n=$((n + 1))

@@ -74,8 +74,8 @@ def main(words: list[str] | None = None) -> int:
             None if getattr(options, name) is None else os.path.abspath(getattr(options, name)) for name in names
         )
         page = Page(
-            path, saved=saved, unit=options.unit, folder=options.folder, cells_where=options.cells_where, wall=wall, placed=placed,
-            landmarks=landmarks,
+            path, saved=saved, unit=options.unit, folder=options.folder, cells_where=options.cells_where, wall=wall,
+            placed=placed, landmarks=landmarks,
         )  # fmt: skip
         page.serve(port=options.port, browser=not options.no_browser)
     except (RuntimeError, OSError) as error:

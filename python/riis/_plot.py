@@ -161,19 +161,27 @@ def _check_of_mesh(marks: Marks | None, mesh: Mesh | None) -> None:
         )
 
 
+def point_size_of(n_marks: int, height: int) -> float:
+    """Returns the size of a marked node in pixels. Few nodes are drawn large, and many so small that they do not become one."""
+    return max(2.0, min(11.0, 350.0 / max(n_marks, 1) ** 0.5)) * max(height, 1) / 768.0
+
+
 def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: Marks | None) -> None:
-    """Draws or replaces the leaflets and the marked nodes."""
+    """Draws or replaces the leaflets and the marked nodes. Leaflets with marked nodes on both sides are translucent."""
     pyvista = _pyvista()
+    has_marks = mesh is not None and marks is not None and len(marks) > 0
     plotter.add_mesh(
         coloured(surface_to_pyvista(surface)), scalars="colour", rgb=True, show_scalar_bar=False, ambient=0.3,
-        name="riis leaflets", reset_camera=False,
+        opacity=0.4 if has_marks else 1.0, name="riis leaflets", reset_camera=False,
     )
-    if mesh is not None and marks is not None and len(marks) > 0:
+    if has_marks:
+        assert mesh is not None and marks is not None
         nodes = pyvista.PolyData(numpy.array(mesh.xyz[marks.ids]))
         nodes.point_data["distance"] = numpy.array(marks.distance)
         plotter.add_mesh(
-            nodes, scalars="distance", cmap="viridis", clim=[0.0, surface.half_thickness], point_size=3,
-            render_points_as_spheres=True, opacity=0.35, scalar_bar_args=_BAR, name="riis marks", reset_camera=False,
+            nodes, scalars="distance", cmap="plasma", clim=[0.0, surface.half_thickness],
+            point_size=point_size_of(len(marks), plotter.window_size[1]), render_points_as_spheres=True,
+            scalar_bar_args=_BAR, name="riis marks", reset_camera=False,
         )
     else:
         plotter.remove_actor("riis marks", reset_camera=False)
@@ -189,7 +197,8 @@ def plot(
     interactive: bool = False,
     unit: str | None = None,
 ) -> Any:
-    """Draws a surface, coloured by leaflet, the marked nodes, coloured by distance, and a scale bar.
+    """Draws a surface, coloured by leaflet, the marked nodes, coloured by distance, and a scale bar. With marked nodes the
+    surface is translucent.
 
     mesh, marks  the mesh and the marks of a marking, both or neither. The mesh must still have the nodes of the marking
     screenshot   a .png file to write; no window opens in this case

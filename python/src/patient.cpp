@@ -368,8 +368,8 @@ Returns whether the sizes fit, and the factor by which the valve's scale would h
               "unit: str | None, axes: str | None, flow: typing.Any, noise: float | None, held: "
               "collections.abc.Iterable[str], warp: str, nodes: typing.Any) -> dict[str, typing.Any]"),
       "Does the work of riis.place, whose result has these fields.");
-  module.def("read_landmarks", &read_landmarks, nb::arg("path").none(), nb::arg("content").none(), nb::arg("unit").none(),
-             nb::arg("axes").none(),
+  module.def("read_landmarks", &read_landmarks, nb::arg("path").none(), nb::arg("content").none(),
+             nb::arg("unit").none(), nb::arg("axes").none(),
              nb::sig("def read_landmarks(path: str, content: str, unit: str | None, axes: str | None) -> dict[str, "
                      "typing.Any]"),
              "Returns the names and points of a file of landmarks, and what else it states. parameters is JSON.");

@@ -34,6 +34,8 @@ from selenium.webdriver.common.keys import Keys
 from tube import mesh as mesh_of_tube
 
 N_MOVES = 50
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT_CENTRE = (-14.3, -172.6, -1083.4)  # of the annulus in examples/patient/make_patient.py
 
 
 def tube(n_across=41, n_along=61, scale=1.0):
@@ -301,7 +303,7 @@ def write_and_reopen(browser, folder, program):
     browser.write("#slider-opening", "0.9")
     browser.wait(lambda: browser.get("digest") != digest, "another opening gives other marks")
     browser.rest()
-    browser.unfold("Mesh, surface")
+    browser.unfold("Mesh, wall, landmarks")
     browser.write("#open-view", "valve.view.json")
     browser.wait(lambda: "opened" in browser.get("message"), "the saved view opens")
     browser.rest()
@@ -441,6 +443,71 @@ def bad_input(browser, folder):
     say("bad files and values give a message; a mesh in millimetres gives a light, and a click cures it")
 
 
+def patient(folder, program):
+    """From a patient's wall, by clicks on landmarks, to a placed valve with a skirt in a mesh. The copied command gives its
+    marks."""
+    folder = folder / "patient"
+    folder.mkdir()
+    subprocess.run([sys.executable, ROOT / "examples/patient/make_patient.py", folder], check=True)
+    wall = pyvista.read(folder / "root.stl")
+    grid = pyvista.ImageData(dimensions=(40, 40, 40), spacing=3 * [1.0], origin=numpy.array(ROOT_CENTRE) - 20.0)
+    grid.cast_to_unstructured_grid().save(folder / "box.vtu")
+    server, browser = Server(folder, "--wall", folder / "root.stl", "--unit", "mm"), Browser(folder.parent)
+    try:
+        browser.open(server.address)
+        browser.unfold("Landmarks and wall")
+        browser.rest()
+        browser.shot("9-patient-first")
+        browser.press("#landmark-nadir_right")
+        browser.click_picture(0, 40)
+        browser.wait(lambda: browser.get("landmark") == "nadir_left", "the next landmark is chosen")
+        point = [float(text) for text in browser.get("landmarks")[0]["value"].split(",")]
+        found = pyvista.PolyData(numpy.array([point])).compute_implicit_distance(wall)
+        assert abs(found.point_data["implicit_distance"][0]) < 0.1, point
+        browser.click_picture(40, 60)
+        browser.wait(lambda: browser.get("landmarks")[1]["set"], "a second landmark")
+        browser.shot("9-patient-picked")
+        browser.press("#place-landmarks")
+        browser.refused("missing; pick them on the wall")
+        browser.press("#undo")
+        browser.press("#undo")
+        browser.wait(lambda: not any(row["set"] for row in browser.get("landmarks")), "undo removes both landmarks")
+        browser.unfold("Mesh, wall, landmarks")
+        browser.write("#open-landmarks", "landmarks.mrk.json")
+        browser.wait(lambda: sum(row["set"] for row in browser.get("landmarks")) == 6, "the landmarks of the file")
+        browser.press("#place-landmarks")
+        browser.wait(lambda: browser.get("found").get("title") == "Placed by landmarks", "the valve is placed")
+        browser.rest()
+        browser.shot("9-patient-placed")
+        browser.press("#skirt-on")
+        browser.wait(lambda: browser.get("skirt_on"), "the skirt")
+        browser.write("#open-mesh", "box.vtu")
+        browser.wait(lambda: "box.vtu" in browser.get("mesh_text"), "the mesh")
+        browser.write("#slider-opening", "0.4")
+        browser.rest()
+        assert browser.get("skirt_on") and browser.get("n_marked") > 500
+        browser.shot("9-patient-in-its-mesh")
+        browser.press("#text-command")
+        browser.wait(lambda: browser.get("text_shown"), "the command")
+        command = browser.get("text")
+        browser.press("#text-close")
+        if program:
+            path = os.pathsep.join([str(pathlib.Path(program).resolve().parent), os.environ["PATH"]])
+            subprocess.run(["sh", "-c", command], check=True, stdout=subprocess.DEVNULL, env=os.environ | {"PATH": path})
+            assert digest_of(pyvista.read(folder / "valve.vtu")) == browser.get("digest"), "the command gives other marks"
+            say("the command copied from the patient's page gives the same bits, with its warp and skirt")
+        browser.write("#picture-width", "3840")
+        browser.write("#picture-height", "2160")
+        time.sleep(1.0)
+        browser.press("#write-picture")
+        browser.wait(lambda: "valve.png" in browser.get("message"), "the picture", 300)
+        assert pyvista.read(folder / "valve.png").dimensions[:2] == (3840, 2160)
+        say("landmarks place the valve in its wall, and a picture has 3840 x 2160 pixels")
+    finally:
+        browser.driver.quit()
+        server.end()
+
+
 def status_of(server, path, **headers):
     request = urllib.request.Request(server.root + path, headers={name.replace("_", "-"): text for name, text in headers.items()})
     try:
@@ -546,6 +613,7 @@ def main(folder, program=None):
         two_browsers(browser, server, folder)
         bad_input(browser, folder)
         disease(browser)
+        patient(folder, program)
         complaints = [line["message"] for line in browser.driver.get_log("browser") if line["level"] == "SEVERE"]
         assert not complaints, json.dumps(complaints, indent=2)
         browser.driver.quit()

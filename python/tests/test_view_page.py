@@ -11,6 +11,7 @@ import shutil
 import signal
 import subprocess
 import sys
+from random import Random
 
 import numpy
 import pytest
@@ -28,6 +29,7 @@ from riis.__main__ import main  # noqa: E402
 from riis.view import guard, reading, scene  # noqa: E402
 from riis.view.model import Model  # noqa: E402
 from riis.view.page import Page  # noqa: E402
+from test_view_patient import ROOT, synthetic_patient  # noqa: E402
 
 
 def box(n=12):
@@ -353,6 +355,156 @@ def test_leaflets_and_bumps_have_sliders(tmp_path):
     asyncio.run(use())
 
 
+def test_a_patient_on_the_page(tmp_path, capsys):
+    """From a wall and clicks on it to a placed valve with a skirt, in a mesh that is opened last. The copied command gives the
+    marks on the screen, and each refusal is a message."""
+    try:
+        scene.check_of_graphics()
+    except RuntimeError as missing:
+        pytest.skip(str(missing))
+    make = synthetic_patient()
+    root, rng = make.Root(), Random(1)
+    make.N_ANGLES, make.SPACING = 60, 1.5
+    make.write_stl(tmp_path / "root.stl", make.wall_triangles(root, make.waves(rng)))
+    make.write_landmarks(tmp_path / "landmarks.mrk.json", root, rng, 0.3)
+    grid = pyvista.ImageData(dimensions=(16, 16, 16), spacing=3 * [2.6], origin=numpy.array(root.centre) - 16.0)
+    grid.cast_to_unstructured_grid().save(tmp_path / "box.vtu")
+
+    async def use():
+        page = Page(None, wall=str(tmp_path / "root.stl"), folder=str(tmp_path))
+
+        def tell(function, *values):
+            page.state.message = ""
+            page._told(function)(*values)
+            return page.state.message
+
+        async def tell_task(work):
+            page.state.message = ""
+            page._begin_task(work)
+            while page._tasks:
+                await asyncio.wait(page._tasks)
+            return page.state.message
+
+        assert await tell_task(page._read(**page._begin._asdict())) == ""
+        state = page.state
+        assert state.mesh_text == "wall root.stl: 7,920 triangles, unit not known" and state.has_wall and state.wall == "cut"
+        assert not page.model.can_undo and page.model.valves[0].origin != (0.0, 0.0, 0.0)
+        assert "so choose mm, cm or m first" in tell(page._on_place_landmarks)
+        state.unit = "mm"
+        assert tell(page._changed_unit) == "" and page.model.unit == "mm" and page.model.valves[0].scale == 10.0
+
+        # A click in the cut sets the chosen landmark on the wall, and chooses the next one that is missing.
+        assert tell(page._on_landmark, "nadir_right") == "" and state.tool == "landmark"
+        assert "the click met no wall" in tell(page._on_click, 0.01, 0.01)
+        assert tell(page._on_click, 0.5, 0.5) == "" and state.landmark == "nadir_left"
+        at = numpy.array(page.model.landmarks.points["nadir_right"])
+        assert page.model.wall.surface.closest_points(at[None]).distance[0] < 1e-3 * 76
+        assert tell(page._on_set_landmark, "nadir_right", "1, 2, 3") == "" and state.landmarks[0]["value"] == "1, 2, 3"
+        assert tell(page._on_undo) == "" and numpy.array_equal(page.model.landmarks.points["nadir_right"], at)
+        assert tell(page._on_set_landmark, "nadir_right", "x, 2") == "nadir_right: 'x' is not a number"
+        assert tell(page._on_remove_landmark, "nadir_right") == "" and not page.model.landmarks.points
+        assert "missing; pick them on the wall" in tell(page._on_place_landmarks)
+
+        # The landmarks of a file place the valve, and the table has the residuals.
+        page._on_open("landmarks", "landmarks.mrk.json")
+        assert state.axes == "LPS" and sum(row["set"] for row in state.landmarks) == 6
+        assert tell(page._on_place_landmarks) == "" and state.found["title"] == "Placed by landmarks"
+        found = page.model.valves[0].found
+        assert state.found["head"] == ["landmark", "residual mm", "warped mm"] and len(state.found["rows"]) == 6
+        assert float(state.found["rows"][0][1]) == pytest.approx(found.residuals[0], rel=6e-3)
+        assert tell(page._on_report) == "" and state.text == found.report()
+        centre = [float(text) for text in state.placement[0]["values"]]
+        assert state.placement[0]["label"] == "Centre in mm" and numpy.allclose(centre, page.model.valves[0].origin, rtol=1e-5)
+        assert not any("e" in text for text in state.placement[0]["values"])
+
+        # All lengths are in millimetres, and R has its unit.
+        slider = next(k for k, one in enumerate(state.sliders) if one and one["name"] == "annulus")
+        assert state.sliders[slider]["unit"] == "mm" and state[f"slider_{slider}"] == pytest.approx(
+            10.0 * page.model.values(0)["annulus"])
+        assert tell(page._on_set, "annulus", "25.5") == "" and page.model.values(0)["annulus"] == 2.55 and state.found == {}
+        assert "cm" not in {one["unit"] for one in state.sliders if one} | {row["unit"] for row in state.rows}
+        assert tell(page._on_set, "coaptation_height", "90").endswith(" (lengths of parameters in centimetres)")
+        assert "no report" in tell(page._on_report)
+        assert tell(page._on_undo) == "" and state.found["title"] == "Placed by landmarks"
+        assert state.resistance_unit == "kg/(m s)" and tell(page._on_set, "resistance", "2e5 g/(cm s)") == ""
+        assert page.model.valves[0].resistance == pytest.approx(2e4) and state.resistance == "20000"
+        assert "resistance" in tell(page._on_set, "resistance", "much")
+
+        # The skirt, and then the mesh: the valve, the wall and the landmarks stay.
+        page._on_skirt(True, None)
+        assert state.skirt_on and page.model.valves[0].skirt > 0.5
+        assert "longest" in tell(page._on_skirt, True, "0.2") and page.model.valves[0].skirt > 0.5
+        assert "there is no mesh that could have marks" in tell(page._on_write, "mesh")
+        assert "open a mesh first" in tell(page._on_open, "cells", "a=1")
+        before = page.model._now()
+        assert await tell_task(page._read(str(tmp_path / "box.vtu"))) == ""
+        assert page.model.valves == before.valves and page.model.landmarks == before.landmarks and page.model.wall is before.wall
+        assert "box.vtu: 4,096 nodes" in state.mesh_text and "wall root.stl" in state.mesh_text
+        page._settle()
+        assert len(page.model.update().marked) > 30
+        page.model.set(0, "opening", 0.3)
+        page.model.set(0, "offset", 0.5)
+        state.replace = True
+        for name, ending in (("placed", ".placed.json"), ("command", ".sh"), ("python", ".py")):
+            assert tell(page._on_text, name) == ""
+            page._on_write_text()
+            assert (tmp_path / f"valve{ending}").exists()
+        assert riis.read_placed(tmp_path / "valve.placed.json").valve.kind == "coapting"
+        assert tell(page._on_text, "openfoam") == "" and "        patch wall;" in state.text and "        targets" in state.text
+        program = os.environ.get("RIIS_PROGRAM") or shutil.which("riis") or str(ROOT / "build/bin/riis")
+        if os.access(program, os.X_OK):
+            path = os.pathsep.join([os.path.dirname(program), os.environ["PATH"]])
+            subprocess.run(["sh", tmp_path / "valve.sh"], check=True, stdout=subprocess.DEVNULL, env=os.environ | {"PATH": path})
+            made, shown = pyvista.read(tmp_path / "valve.vtu").point_data, page.model.update()
+            assert numpy.array_equal(numpy.flatnonzero(made["riis_marked"]), shown.marked)
+            assert numpy.array_equal(made["riis_distance"][shown.marked], shown.distance)
+
+        # A picture has the size that is asked for, and no lights in it.
+        state.picture_width, state.picture_height = "700", "300"
+        page.scene.show_lights(page.model.lights())
+        seen = page.scene._actors["riis handle"].GetVisibility()
+        assert "wrote" in tell(page._on_write, "picture")
+        picture = pyvista.read(tmp_path / "valve.png")
+        assert picture.dimensions[:2] == (700, 300) and page.scene.size == (900, 700)
+        assert page.scene._actors["riis handle"].GetVisibility() == seen == 1
+        red = numpy.asarray(picture.point_data["PNGImage"])
+        assert not (red[:, :3] == (213, 0, 0)).all(axis=1).any()  # the colour of lights
+        for side, message in (("5000", "it must be a whole number of pixels from 64 to 4096"), ("?", "'?' is not a number")):
+            state.picture_width = side
+            assert message in tell(page._on_write, "picture")
+
+        # The files of landmarks and of the view open again.
+        assert "wrote" in tell(page._on_write, "landmarks") and "wrote" in tell(page._on_write, "view")
+        placed = riis.place(tmp_path / "valve.mrk.json", "coapting", warp="smoothed")
+        assert numpy.allclose(placed.residuals, found.residuals, atol=1e-3)
+        command = page.model.command()
+        page.model.place(0, numpy.array(page.model.valves[0].origin) + 0.05)
+        assert "opened" in await tell_task(page._reopen(str(tmp_path / "valve.view.json")))
+        assert page.model.command() == command
+        assert tell(page._on_open, "placed", "valve.placed.json") == "" and len(page.model.valves) == 1
+        assert page.model.valves[0].placed is not None and f"--valve={tmp_path}/valve.placed.json" in page.model.command()
+        assert tell(page._on_skirt, False) == "" and page.model.valves[0].skirt == 0.0
+
+        # A fit, on a thread.
+        (tmp_path / "points.csv").write_text("x,y,z\n" + "\n".join(
+            ",".join(map(repr, point)) for point in page.model.surface(0).vertices[::40].tolist()) + "\n")
+        assert "is warped to landmarks" in tell(page._on_fit, "points.csv")
+        state.warp = "none"
+        assert tell(page._on_place_landmarks) == ""
+        assert "write the path" in tell(page._on_fit, " ") and "there is no such file" in tell(page._on_fit, "none.csv")
+        state.fit_sizes = ["root_radius"]
+        page._on_fit("points.csv")
+        await asyncio.sleep(0.01)
+        assert "a fit is running" in tell(page._on_fit, "points.csv")
+        while page._tasks:
+            await asyncio.wait(page._tasks)
+        assert state.found["title"] == "Fitted to points" and state.found["rows"][0][1].endswith(" mm")
+        page.scene.close()
+
+    asyncio.run(use())
+    assert "Traceback" not in capsys.readouterr().err
+
+
 def test_missing_graphics_name_their_packages(monkeypatch):
     monkeypatch.delenv("VTK_DEFAULT_OPENGL_WINDOW", raising=False)
     monkeypatch.setattr(scene, "_egl_works", lambda: False)
@@ -406,6 +558,11 @@ def test_wrong_words(tmp_path, capsys):
         (["view", "--open", str(tmp_path / "no.json")], "no.json: there is no such file"),
         (["view", "--folder", str(tmp_path / "no")], "--folder: "),
         (["view", "--port", "65536"], "--port: is 65536; it must be from 0 to 65535"),
+        (["view", "--wall", str(tmp_path / "no.stl")], "no.stl: there is no such file"),
+        (["view", "--wall", __file__, "--landmarks", str(tmp_path / "no.csv")], "no.csv: there is no such file"),
+        (["view", "--valve", "mitral", "--wall", __file__], "--valve: mitral is not a placed valve, FILE.json; the page has the"),
+        (["view", "--landmarks", __file__], "--valve and --landmarks need MESH or --wall, in which the valve is shown"),
+        (["view", "--open", __file__, "--wall", __file__], "--open has no effect with --wall, --valve and --landmarks"),
     ):
         assert main(words) == 2
         assert text in capsys.readouterr().err
@@ -447,6 +604,42 @@ def test_files_that_are_no_meshes(tmp_path):
         reading.read_surface(str(tmp_path / "text.vtu"))
     with pytest.raises(reading.Refusal, match="scale: 'wide' is not a number"):
         reading.number_of("wide", "scale")
+
+
+def test_walls_and_points_from_files(tmp_path):
+    """Walls are surfaces, or the boundaries of meshes. Points are surfaces, or rows of numbers. Other files are refused."""
+    ball = pyvista.Sphere(radius=2.0)
+    for name in ("ball.stl", "ball.vtp", "ball.ply"):
+        ball.save(tmp_path / name)
+        found = reading.read_wall(str(tmp_path / name))
+        assert found.path == str(tmp_path / name) and len(found.triangles) == ball.n_cells
+        assert numpy.allclose([found.lower, found.upper], [ball.points.min(axis=0), ball.points.max(axis=0)], atol=1e-5)
+    grid = box(5)
+    grid.save(tmp_path / "box.vtu")
+    found = reading.read_wall(str(tmp_path / "box.vtu"))
+    assert len(found.triangles) == 2 * 6 * 16 and numpy.allclose(found.sides, (4.0, 4.0, 4.0))
+    assert found.surface.closest_points(numpy.array([[0.0, 0.0, 0.5]])).distance[0] == pytest.approx(2.0)
+    (tmp_path / "no.stl").write_text("")
+    (tmp_path / "no.txt").write_text("no")
+    pyvista.PolyData(numpy.eye(3)).save(tmp_path / "points.vtp")
+    for name, text in (
+        ("none.stl", "there is no such file"), ("no.stl", "has no triangles"), ("points.vtp", "has no triangles"),
+        ("no.txt", "a wall is a surface, .stl, .vtp, .obj, .ply, or a mesh, .vtu"),
+    ):  # fmt: skip
+        with pytest.raises(reading.Refusal, match=text) as refused:
+            reading.read_wall(str(tmp_path / name))
+        assert str(tmp_path / name) in str(refused.value)
+    (tmp_path / "some.csv").write_text("x,y,z\n# none\n1,2,3\n\n4;5;6\n")
+    assert reading.read_points(str(tmp_path / "some.csv")).tolist() == [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]
+    assert reading.read_points(str(tmp_path / "ball.stl")).n_points > 100
+    for name, content, text in (
+        ("a.csv", "1,2\n", "line 1 has 2 columns; it must have x, y and z"), ("a.csv", "1,2,b\n", "line 1: 'b' is not a number"),
+        ("a.csv", "# none\n", "has no points"), ("a.msh", "", "points are a surface, .*, or rows of x, y and z"),
+        ("a.stl", "", "has no points"),
+    ):  # fmt: skip
+        (tmp_path / name).write_text(content)
+        with pytest.raises(reading.Refusal, match=text):
+            reading.read_points(str(tmp_path / name))
 
 
 @pytest.mark.parametrize("kinds", [["mitral"], ["coapting", "bileaflet"]])

@@ -230,7 +230,7 @@ def test_a_flow_becomes_two_points(patient, wall, tmp_path):
 
 @pytest.mark.parametrize("change, message", [
     (lambda m, p: m.place_by_landmarks(0), "landmarks: nadir_right, nadir_left, .* are missing; pick them on the wall"),
-    (lambda m, p: m.set_landmark("nadir_lefft", (0, 0, 0)), "name: 'nadir_lefft' is no landmark of the kind coapting; it has nadir_"),
+    (lambda m, p: m.set_landmark("nadir_lefft", (0, 0, 0)), "name: 'nadir_lefft' is no landmark of the kind coapting; it has"),
     (lambda m, p: m.set_landmark("", (0, 0, 0)), "name: is ''; it must be the name of a landmark"),
     (lambda m, p: m.set_landmark("nadir_left", (0, 0)), r"nadir_left: is \(0, 0\); it must be three finite numbers"),
     (lambda m, p: m.remove_landmark("nadir_left"), "name: 'nadir_left' is not set; the landmarks are none"),
@@ -342,7 +342,7 @@ def test_a_skirt_reaches_the_wall(patient, wall):
     model.read_landmarks(patient / "landmarks.mrk.json")
     model.place_by_landmarks(i, warp="smoothed")
     assert len(model.update().marked) == 0 and light(model, "inside").level == "good"
-    assert "there is no mesh, only a wall" in light(model, "sealed").text
+    assert light(model, "sealed").text == "whether the valve seals needs a mesh, and there is only a wall"
     wide = light(model, "wall")
     gap = model.surface(i).gap(wall.surface)
     assert f"the wall is {shown(gap.least)} to {shown(gap.most)} mm from the attachment" in wide.text
@@ -510,6 +510,32 @@ def test_a_session_of_a_patient_opens_as_it_was(patient, wall, mesh, tmp_path):
         model.save(tmp_path / "patient.view.json")
         again = view.Model.load(tmp_path / "patient.view.json", arrays)
         assert again.command_files() == model.command_files() and again.command() == model.command()
+
+
+def test_openfoam_gets_the_warp_and_the_skirt(patient, wall, tmp_path):
+    """The dictionary has the landmarks in metres, also after the valve was moved by hand, and the longest skirt."""
+    model = model_of(patient, wall)
+    model.add("coapting")
+    model.read_landmarks(patient / "landmarks.mrk.json")
+    found = model.place_by_landmarks(0, warp="smoothed")
+    model.set_skirt(0, 6.0)
+    shift = numpy.array([0.1, 0.2, -0.1])
+    for moved in (numpy.zeros(3), shift):
+        model.place(0, numpy.array(model.valves[0].origin) + moved)
+        text = model.openfoam()
+        assert text.count("{") == text.count("}")
+        assert "    skirt\n    {\n        patch wall;\n        longest 0.006;\n    }\n" in text
+        entry = text[text.index("        targets") : text.index("        noise")]
+        rows = [[float(word) for word in line.strip(" ()").split()] for line in entry.splitlines() if line.startswith(12 * " ")]
+        assert numpy.allclose(rows, 1e-3 * (found.points + moved), rtol=1e-12)
+        assert f"noise {1e-3 * found.warp_noise:.6g}"[:12] in text
+        (tmp_path / "placed.json").write_text(model.placed_file(0))
+        assert json.loads((tmp_path / "placed.json").read_text())["warp"].get("coordinates", "mesh") == "mesh"
+        again = riis.read_placed(tmp_path / "placed.json")
+        bare = riis.Surface(again.valve, half_thickness=1.0, **again.placement).vertices
+        model.set_skirt(0, 0.0)
+        assert numpy.allclose(bare, model.surface(0).vertices, atol=1e-9)
+        model.undo()
 
 
 # ---- Fits ----

@@ -220,7 +220,7 @@ void riisValve::readSkirt(const dictionary &dict) {
   const scalar longest = positive(dict, "longest");
   const riisPtr<riis_surface> wall = wallAtRest(dict);
   check(riis_valve_set_skirt_to_wall(valve_.get(), wall.get(), longest, &placementAtRest_), dict);
-  riis_gap widest;
+  riis_gap widest = {};
   scalar widestAt = 0;
   for (int i = 0; i < nOpenings; ++i) {
     const scalar opening = scalar(i) / (nOpenings - 1);

@@ -105,7 +105,10 @@ TEST(test_flow) {
   riis_valve_destroy(&valve);
   assert_true(fabs(json_number(orifice, "area") - expected.area) <= 1e-12);
   assert_true(fabs(json_number(orifice, "effective_area") - expected.effective_area) <= 1e-12);
-  assert_true(fabs(json_number(program_out, "leak") - 20 * flow) <= 1e-12);
+  /* The leak passes the closed area, and the box has only the middle of the leaflets. */
+  const double closed_area = json_number(program_out, "closed_area"), area = flow * 500 / 0.1;
+  assert_true(closed_area > 0.2 * area && closed_area < area);
+  assert_true(fabs(json_number(program_out, "leak") - 20 * 0.1 / 500 * closed_area) <= 1e-12);
   const double half_thickness = json_number(program_out, "half_thickness");
   assert_true(fabs(json_number(cells, "mean") * json_number(cells, "mean_edge") - 2 * half_thickness) <= 1e-12);
   assert_true(json_number(cells, "least") <= json_number(cells, "mean") && json_number(cells, "n_edges") > 0);
@@ -326,6 +329,69 @@ TEST(test_flow_of_several_valves) {
   RUN_FINE("mark", "--case", scratch_path("no_points.json"));
   assert_null(strstr(program_out, "orifice"));
   assert_null(strstr(program_out, "across"));
+}
+
+/* Returns the closed area of plates at these heights in the box. They reach beyond the box, whose section has 1.6 x 1.6. */
+static double closed_area_of_plates(int n, const double *heights, const char *half_thickness) {
+  char text[1024] = "";
+  for (int i = 0; i < n; ++i) {
+    const double z = heights[i];
+    const int at = 4 * i;
+    snprintf(text + strlen(text), sizeof text - strlen(text),
+             "v -1 -1 %.17g\nv 1 -1 %.17g\nv 1 1 %.17g\nv -1 1 %.17g\nf %d %d %d\nf %d %d %d\n", z, z, z, z, at + 1,
+             at + 2, at + 3, at + 1, at + 3, at + 4);
+  }
+  scratch_write_text("plates.obj", text);
+  RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--surface", scratch_path("plates.obj"),
+           "--leaflets", "connected", "--half-thickness", half_thickness, "--stats", "-");
+  return json_number(program_out, "closed_area");
+}
+
+/* A plate has its own area in the mesh. Two plates that touch have the area of one. The second plate counts more with its
+ * distance, by the integral of K between the plates, and fully from a distance of two half thicknesses on. */
+TEST(test_closed_area_of_plates) {
+  const double one = 1.6 * 1.6, eps = 0.15, pi = acos(-1.0);
+  for (int i = 0; i < 5; ++i) {
+    const double gap = (const double[]){0, 1e-6, 0.05, 0.12, 0.35}[i], heights[2] = {-0.1, -0.1 + gap};
+    const double share = gap < 2 * eps ? gap / (2 * eps) + sin(pi * gap / (2 * eps)) / pi : 1;
+    const double found = closed_area_of_plates(i == 0 ? 1 : 2, heights, "0.15");
+    if (fabs(found / (one * (1 + share)) - 1) > 5e-3)
+      fail_msg("gap %g: area %.6g for %.6g", gap, found, one * (1 + share));
+  }
+}
+
+/* Two leaflets that touch count once: half of their coaptation within half a half thickness does not count. Half a
+ * tube around the free edges also counts, 0.467 half thicknesses for each length: the integral of K there over R / eps. */
+TEST(test_closed_area_of_a_coaptation) {
+  const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 2.3};
+  assert_int_equal(shim_write_box(scratch_path("wide.vtu"), SHIM_RAW, 32, lower, upper, 0), 1);
+  static const char *const kinds[2] = {"coapting", "mitral_coapting"};
+  for (int i = 0; i < 2; ++i) {
+    riis_valve *valve = NULL;
+    riis_surface *surface = NULL;
+    riis_surface_info info;
+    riis_coaptation contact;
+    riis_attachment attachment;
+    expect_fine(riis_valve_create(kinds[i], &valve));
+    expect_fine(riis_surface_create(valve, NULL, &surface));
+    expect_fine(riis_surface_get_info(surface, &info, sizeof info));
+    expect_fine(
+        riis_surface_get_coaptation(surface, info.half_thickness / 2, RIIS_ALL_LEAFLETS, &contact, sizeof contact));
+    expect_fine(riis_surface_get_attachment(surface, &attachment, sizeof attachment));
+    double rim = contact.edge / 2;
+    for (int64_t e = 0; e < attachment.n_edges; ++e) {
+      const double *p = attachment.edges + 6 * e;
+      rim += hypot(hypot(p[3] - p[0], p[4] - p[1]), p[5] - p[2]);
+    }
+    const double expected = info.area - contact.area / 2 + 0.467 * info.half_thickness * rim;
+    riis_surface_destroy(&surface);
+    riis_valve_destroy(&valve);
+    RUN_FINE("check", "leaks", scratch_path("wide.vtu"), "--between", ENDS, "--valve", kinds[i], "--opening", "0",
+             "--stats", "-");
+    const double found = json_number(program_out, "closed_area");
+    if (fabs(found / expected - 1) > 0.03 || contact.area / 2 < 0.06 * expected)
+      fail_msg("%s: %g, expected %g, contact %g", kinds[i], found, expected, contact.area);
+  }
 }
 
 int main(void) { return run_cases(write_box, scratch_teardown); }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --picture without a display, and without a program that makes one, ends with one line and exit code 1. With a display, each --picture writes one file with its own
- * view. */
+ * --picture without a display, and without a program that makes one, ends with one line and exit code 1. With a display, each
+ * --picture writes one file with its own view. */
 #include <riis/riis_vtk.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,9 +21,11 @@ TEST(test_without_display) {
     if (before[i]) snprintf(kept[i], sizeof kept[i], "%s", before[i]);
   unsetenv("DISPLAY");
   setenv("PATH", "/nowhere", 1);
-  RUN_REFUSED(1, "DISPLAY is not set, and Xvfb, which makes one without a screen, is not on the PATH; on Debian the package "
-                 "xvfb has it",
-              "mark", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
+  RUN_REFUSED(
+      1,
+      "DISPLAY is not set, and Xvfb, which makes one without a screen, is not on the PATH; on Debian the package "
+      "xvfb has it",
+      "mark", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
   assert_int_equal(scratch_exists("none.png"), 0);
   /* The refusal comes before any work. The mesh is also missing, but the message does not name it. */
   RUN_REFUSED(1, "DISPLAY is not set", "mark", scratch_path("missing.vtu"), "--picture", scratch_path("none.png"));
@@ -122,7 +124,8 @@ static void draw_by_c(const riis_surface_options *placement, const char *unit, i
   expect_fine(riis_surface_get_info(surface, &info, sizeof info));
   const double scale = unit ? placement->scale : 1;
   snprintf(title, sizeof title, unit ? "%s %.2f cm2\nhalf thickness %.3g mm" : "%s %.3g\nhalf thickness %.3g",
-           "Mitral valve, opening 0.5, orifice", orifice.area / (scale * scale), (unit ? 10 : 1) * info.half_thickness / scale);
+           "Mitral valve, opening 0.5, orifice", orifice.area / (scale * scale),
+           (unit ? 10 : 1) * info.half_thickness / scale);
   options.title = title;
   options.leaflet_names = (const char *const[]){"anterior", "posterior"};
   options.n_leaflet_names = 2;
@@ -203,19 +206,20 @@ TEST(test_looks) {
 TEST(test_refused_looks) {
   static const struct {
     const char *option, *value, *text;
-  } bad[] = {
-      {"--picture-size", "1600", "--picture-size: 1600 is not WIDTHxHEIGHT, such as 1920x1080"},
-      {"--picture-size", "1600x", "--picture-size: 1600x is not WIDTHxHEIGHT"},
-      {"--picture-size", "wide", "--picture-size: wide is not WIDTHxHEIGHT"},
-      {"--picture-size", "1600x99999", "--picture-size: 1600x99999: 99999 is not from 64 to 8192 pixels"},
-      {"--picture-size", "63x64", "--picture-size: 63x64: 63 is not from 64 to 8192 pixels"},
-      {"--picture-size", "1e3x800", "--picture-size"},
-      {"--picture-background", "red", "--picture-background: red is not white, black, transparent, or six hexadecimal digits"},
-      {"--picture-background", "12345g", "--picture-background: 12345g is not"},
-      {"--picture-background", "", "--picture-background: "},
-      {"--picture-captions", "some", "--picture-captions: some not in {all,scale,none}"},
-      {"--picture-panels", "left", "--picture-panels: left not in {both,valve,marks}"},
-      {"--picture-panels", "marks", "--picture-panels marks: riis surface has no mesh, and marks nothing"}};
+  } bad[] = {{"--picture-size", "1600", "--picture-size: 1600 is not WIDTHxHEIGHT, such as 1920x1080"},
+             {"--picture-size", "1600x", "--picture-size: 1600x is not WIDTHxHEIGHT"},
+             {"--picture-size", "wide", "--picture-size: wide is not WIDTHxHEIGHT"},
+             {"--picture-size", "1600x99999", "--picture-size: 1600x99999: 99999 is not from 64 to 8192 pixels"},
+             {"--picture-size", "63x64", "--picture-size: 63x64: 63 is not from 64 to 8192 pixels"},
+             {"--picture-size", "1e3x800", "--picture-size: 1e3x800 is not WIDTHxHEIGHT"},
+             {"--picture-size", "-64x64", "--picture-size: -64x64 is not WIDTHxHEIGHT"},
+             {"--picture-background", "red",
+              "--picture-background: red is not white, black, transparent, or six hexadecimal digits"},
+             {"--picture-background", "12345g", "--picture-background: 12345g is not"},
+             {"--picture-background", "", "--picture-background: "},
+             {"--picture-captions", "some", "--picture-captions: some not in {all,scale,none}"},
+             {"--picture-panels", "left", "--picture-panels: left not in {both,valve,marks}"},
+             {"--picture-panels", "marks", "--picture-panels marks: riis surface has no mesh, and marks nothing"}};
   for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i)
     RUN_REFUSED(2, bad[i].text, "surface", "--valve", "aortic", "--picture", scratch_path("no.png"), bad[i].option,
                 bad[i].value);
@@ -223,10 +227,10 @@ TEST(test_refused_looks) {
               "--picture-size", "100x100");
   RUN_REFUSED(2, "--picture-captions has no effect without --picture", "surface", "--output", scratch_path("no.vtp"),
               "--picture-captions", "none");
-  RUN_REFUSED(2, "--picture-background: a movie cannot be transparent", "mark", scratch_path("in.vtu"), "--times", "0,1",
-              "--movie", scratch_path("no.gif"), "--picture-background", "transparent");
-  RUN_REFUSED(2, "--picture-size: both numbers must be even for the movie ", "mark", scratch_path("in.vtu"), "--times", "0,1",
-              "--movie", scratch_path("no.mp4"), "--picture-size", "101x100");
+  RUN_REFUSED(2, "--picture-background: a movie cannot be transparent", "mark", scratch_path("in.vtu"), "--times",
+              "0,1", "--cycle", "no.csv", "--movie", scratch_path("no.gif"), "--picture-background", "transparent");
+  RUN_REFUSED(2, "--picture-size: both numbers must be even for the movie ", "mark", scratch_path("in.vtu"), "--times",
+              "0,1", "--cycle", "no.csv", "--movie", scratch_path("no.mp4"), "--picture-size", "101x100");
   assert_int_equal(scratch_exists("no.png"), 0);
 }
 

@@ -359,7 +359,17 @@ TEST(other_commands_take_the_placed_valve) {
   if (!strstr(foam, "scale           0.01;") || !strstr(foam, "kind            trileaflet;") ||
       !strstr(foam, "translation     ("))
     fail_msg("OpenFOAM: %s", foam);
+  /* The skirt ends at the mesh's wall. Its longest length is in metres, and the landmarks are in millimetres. A kind without a
+   * skirt and a valve with a skirt of its own get none. */
+  assert_non_null(strstr(foam, "skirt\n{\n    patch           wall;\n    longest         0.006;\n}\n"));
   free(foam);
+  const char *const landmarks = json_of("a.json", "mm", 10, "LPS", 1, "");
+  RUN_FINE("place", landmarks, "--valve", "trileaflet", "--foam", "-", "--skirt", "4", "--quiet");
+  assert_non_null(strstr(program_out, "    longest         0.004;\n"));
+  RUN_FINE("place", landmarks, "--valve", "trileaflet", "--foam", "-", "--set", "skirt_length=0.3", "--quiet");
+  assert_non_null(strstr(program_out, "    skirt_length 0.3;\n"));
+  assert_null(strstr(program_out, "longest"));
+  RUN_REFUSED(2, "--skirt requires --foam", "place", landmarks, "--valve", "trileaflet", "--skirt", "4");
   RUN_FINE("params", "--valve", placed);
   expect_sizes(program_out);
   RUN_FINE("check", "crossings", "--valve", placed);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """test_openfoam_case.py WRITER: the case of OpenFOAM that riis patient writes: its dictionaries, its refusals, and its scripts.
 
-WRITER is write_openfoam_case. Stand-ins for OpenFOAM's programs run Allrun, so the test needs no OpenFOAM. If foamDictionary is
+WRITER is write_solver_case. Stand-ins for OpenFOAM's programs run Allrun, so the test needs no OpenFOAM. If foamDictionary is
 installed, OpenFOAM's own parser reads the dictionaries also.
 """
 import json
@@ -18,8 +18,7 @@ import unittest
 WRITER = ""
 RHO, MMHG = 1060.0, 133.322
 # The tools of the system that Allrun calls.
-TOOLS = ("awk bash basename cat chmod compgen dirname env find grep mkdir mkfifo nproc python3 readlink rm sed seq sh sleep sort tail "
-         "touch").split()
+TOOLS = "awk bash cat dirname env find grep mkdir python3 readlink rm sed seq sh sort tail touch".split()
 
 
 def parsed(text):
@@ -70,11 +69,16 @@ class OpenfoamCase(unittest.TestCase):
         shutil.rmtree(self.folder / "openfoam", ignore_errors=True)
         (self.folder / "placed.json").write_text(json.dumps(root), encoding="utf-8")
         (self.folder / "mesh.msh").write_text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", encoding="utf-8")
-        case = {"upstream": [0.01, -0.02, 0.985], "downstream": [0.01, -0.02, 1.02],
+        case = {"folder": str(self.folder), "solver": str(self.folder / "openfoam"), "unit": "m", "kind": "coapting",
+                "is_mitral": False, "name": "aortic_valve", "half_thickness": 1e-3, "skirt": 6e-3, "resistance": 1e4,
+                "starts_closed": True, "upstream": [0.01, -0.02, 0.985], "downstream": [0.01, -0.02, 1.02],
+                "ball_radius": 4e-3, "n_nodes": 0, "n_cells": 0,
                 "boundaries": [{"name": "inlet", "area": 4e-4}, {"name": "outlet", "area": 5e-4}, {"name": "wall"}]}
         case.update(changes)
+        for i, boundary in enumerate(case["boundaries"]):
+            boundary.update({"group": i + 1, "area": boundary.get("area", 1e-3)})
         (self.folder / "case.json").write_text(json.dumps(case), encoding="utf-8")
-        done = subprocess.run([WRITER, self.folder, self.folder / "case.json"], capture_output=True, text=True, check=False)
+        done = subprocess.run([WRITER, "openfoam", self.folder / "case.json"], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, status, done.stderr)
         return self.folder / "openfoam", done.stderr
 
@@ -83,8 +87,8 @@ class OpenfoamCase(unittest.TestCase):
         made = parsed(path.read_text(encoding="utf-8"))
         if shutil.which("foamDictionary"):
             environment = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ}
-            done = subprocess.run(["foamDictionary", path, "-disableFunctionEntries", "-keywords"], capture_output=True, text=True,
-                                  check=False, env=environment)
+            done = subprocess.run(["foamDictionary", path, "-disableFunctionEntries", "-keywords"], capture_output=True,
+                                  text=True, check=False, env=environment)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.assertEqual(set(done.stdout.split()), set(made), done.stdout)
         return made
@@ -93,7 +97,8 @@ class OpenfoamCase(unittest.TestCase):
         case, _ = self.write()
         valve = self.dictionary(case, "system/fvOptions")["aortic_valve"]
         self.assertEqual(valve["type"], ["riisValve"])
-        self.assertEqual(numbers(valve["rho"]) + numbers(valve["resistance"]) + numbers(valve["halfThickness"]), [1060, 1e4, 1e-3])
+        for key, number in (("rho", 1060), ("resistance", 1e4), ("halfThickness", 1e-3)):
+            self.assertEqual(numbers(valve[key]), [number])
         self.assertEqual(valve["valve"], {"kind": ["coapting"], "root_radius": ["1.31"], "cusp_0.sector": ["130"],
                                           "cusp_1.sector": ["115"], "cusp_2.sector": ["115"]})
         self.assertEqual(valve["placement"]["scale"], ["0.01"])
@@ -183,7 +188,8 @@ class OpenfoamCase(unittest.TestCase):
             if found:
                 (folder / tool).symlink_to(found)
         stand_ins = {
-            "gmshToFoam": "mkdir -p constant/polyMesh; echo 'note \"nPoints:8000 nCells:40000 nFaces:9\";' >constant/polyMesh/owner\n"
+            "gmshToFoam": "mkdir -p constant/polyMesh\n"
+                          "echo 'note \"nPoints:8000 nCells:40000 nFaces:9\";' >constant/polyMesh/owner\n"
                           "printf 'inlet\\n{\\n type patch;\\n}\\nwall\\n{\\n type patch;\\n}\\n' >constant/polyMesh/boundary",
             "checkMesh": "echo 'Mesh OK.'",
             "foamDictionary": "sed -n \"s/^ *$3 \\([^;]*\\);.*/\\1/p\" \"$1\" | tail -n 1",
@@ -213,7 +219,8 @@ class OpenfoamCase(unittest.TestCase):
         case, _ = self.write()
         done = self.run_case(case, tools=self.tools())
         self.assertEqual(done.returncode, 1)
-        self.assertIn("OpenFOAM is missing. On Debian 12 and 13 this command installs it: sudo apt-get install openfoam", done.stderr)
+        self.assertIn("OpenFOAM is missing", done.stderr)
+        self.assertIn("this command installs it: sudo apt-get install openfoam", done.stderr)
         tools = self.tools("pimpleFoam")
         done = self.run_case(case, tools=tools, RIIS_OPENFOAM=str(self.folder))
         self.assertEqual(done.returncode, 1)
@@ -242,8 +249,9 @@ class OpenfoamCase(unittest.TestCase):
         self.assertIn("type wall;", (case / "constant/polyMesh/boundary").read_text(encoding="utf-8").split("wall\n")[1])
         # The stand-in's beat: 100 ml/s for 0.2 s, then 10 ml/s back for 0.1 s, and at 90 mmHg for 0.5 s a leak of
         # 1.01 times the forecast of 1.5 ml/s.
-        for text in ("forward volume .* 20 ml +met", "backward volume .* 1.757 ml +met: below 12 %, 8.8", "largest flow .* 100 ml/s",
-                     "mean gradient.* 5 mmHg", "leak at 90 mmHg", "leak over the forecast.* 1.01 +met", "closed band .* 0.5 m/s +met",
+        for text in ("forward volume .* 20 ml +met", "backward volume .* 1.757 ml +met: below 12 %, 8.8",
+                     "largest flow .* 100 ml/s", "mean gradient.* 5 mmHg", "leak at 90 mmHg",
+                     "leak over the forecast.* 1.01 +met", "closed band .* 0.5 m/s +met",
                      "while the valve moves .* 2 m/s +met", "above 3 m/s meanwhile .* 0 ms +met", "1.0e-07 +met"):
             self.assertRegex(done.stdout, text)
         self.assertTrue((case / "aortic_valve.foam").exists())
@@ -281,7 +289,7 @@ def stand_in_beat():
     fault = os.environ.get("FAULT", "")
     start = max([float(path.name) for path in pathlib.Path().glob("0.*") if path.is_dir()] + [0])
     end = float(os.environ.get("CUT_AT", "0.8"))
-    print("riis aortic_valve: the closed valve has 0.001 m2 in the mesh, and is expected to drop 0.8 of (R / eps) u, u = flow / area")
+    print("riis aortic_valve: the closed valve has 0.001 m2 in the mesh, and is expected to drop 0.8 of (R / eps) u")
     rows, flows, speeds = [], [], []
     for step in range(round(1000 * start) + 1, round(1000 * end) + 1):
         time = step / 1000

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// write_solver_case svmultiphysics|fenicsx CASE.json: writes a solver's folder from the numbers of a SolverCase, and ends
-// as the program riis does. test_solver_cases.py calls it.
+// write_solver_case svmultiphysics|fenicsx|openfoam CASE.json: writes a solver's folder from the numbers of a SolverCase, and
+// ends as the program riis does. test_solver_cases.py and test_openfoam_case.py call it.
 #include <iostream>
 #include <string>
 
 #include "program/base/refusal.hpp"
 #include "program/input/json.hpp"
 #include "program/patient/fenicsx_case.hpp"
+#include "program/patient/openfoam_case.hpp"
 #include "program/patient/svmultiphysics_case.hpp"
 
 namespace {
@@ -49,6 +50,7 @@ int main(int argc, char **argv) {
     const SolverCase numbers = case_of(parse_json_file(argv[2], "a case"));
     if (solver == "svmultiphysics") write_svmultiphysics_case(numbers);
     if (solver == "fenicsx") write_fenicsx_case(numbers);
+    if (solver == "openfoam") write_openfoam_case(numbers);
     return exit_fine;
   } catch (const Refusal &refusal) {
     std::cerr << "riis: " << refusal.text << std::endl;

@@ -116,7 +116,8 @@ int64_t shim_compare_outside(const char *path, int64_t *n_faces, int64_t *n_inwa
   return static_cast<int64_t>(different.size());
 }
 
-int shim_flat_ends(int64_t n_points, const double *xyz, int64_t n_triangles, const int64_t *corners, unsigned char *is_end) {
+int shim_flat_ends(int64_t n_points, const double *xyz, int64_t n_triangles, const int64_t *corners,
+                   unsigned char *is_end) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   for (int64_t i = 0; i < n_points; ++i) points->InsertNextPoint(xyz + 3 * i);

@@ -135,7 +135,8 @@ TEST(test_ball_and_box) {
     for (int64_t i = 0; i < 3 * n_made; ++i)
       for (int64_t j = 0; j < corners[i]; ++j)
         if (fabs(xyz[3 * j] - xyz[3 * corners[i]]) + fabs(xyz[3 * j + 1] - xyz[3 * corners[i] + 1]) +
-                fabs(xyz[3 * j + 2] - xyz[3 * corners[i] + 2]) < 1e-9) {
+                fabs(xyz[3 * j + 2] - xyz[3 * corners[i] + 2]) <
+            1e-9) {
           corners[i] = j;
           break;
         }

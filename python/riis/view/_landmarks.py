@@ -23,7 +23,8 @@ from riis.view._history import Snapshot, Valves
 from riis.view._landmark_files import FLOW, LandmarkSet, canonical, missing, next_name, role_of, roles_of
 from riis.view._numbers import in_unit, with_unit
 from riis.view._valves import (
-    PlacedSource, ValveState, WarpState, check_kind, parameters_of, point, refuse, values_that_were_set, vector,
+    PlacedSource, ValveState, WarpState, check_kind, parameters_of, point, refuse, rotation_of, turned,
+    values_that_were_set, vector,
 )
 from riis.view._walls import MOST_BEYOND, Wall, checked_skirt
 
@@ -57,6 +58,17 @@ class LandmarkedValves(Valves):
         states = self.valves if wall is not None else tuple(_changed(state, skirt=0.0) for state in self.valves)
         self._change_to(self._now()._replace(wall=wall, valves=states))
 
+    def stand_in_wall(self, i: int) -> None:
+        """Puts a valve into the middle of the wall, with its axis along the wall's longest side. The axis points upwards."""
+        if self._wall is None:
+            raise refuse("wall: is None; there is no wall in which the valve could stand")
+        points = self._wall.points
+        middle = points.mean(axis=0)
+        along = numpy.linalg.svd((points - middle)[:: 1 + len(points) // 20_000], full_matrices=False)[2][0]
+        state = self._at(i).state
+        axis = along if along[2] >= 0.0 else -along
+        self._replace(i, ("place", i), rotation=rotation_of(turned(state.matrix, axis, None)), origin=vector(middle))
+
     def set_skirt(self, i: int, longest: Any) -> None:
         """Gives a valve a skirt that reaches the wall and no farther, or no skirt for 0.
 
@@ -73,10 +85,11 @@ class LandmarkedValves(Valves):
             if state.skirt > 0.0 and self._wall is not None:
                 widest = self._wall.widest(state)
                 if widest.is_missed or widest.gap > (1.0 + MOST_BEYOND) * state.skirt:
-                    found = "missed" if widest.is_missed else f"up to {with_unit(widest.gap, self._unit)} away as the valve opens"
+                    longest, gap = with_unit(state.skirt, self._unit), with_unit(widest.gap, self._unit)
+                    found = "missed" if widest.is_missed else f"up to {gap} away as the valve opens"
                     raise refuse(
-                        f"skirt: of the valve {state.name} is {with_unit(state.skirt, self._unit)} at most, and the wall is {found}: "
-                        "take a longer skirt, as the light wall proposes"
+                        f"skirt: of the valve {state.name} is {longest} at most, and the wall is {found}: take a longer skirt, "
+                        "as the light wall proposes"
                     )
 
     def gap_ribbon(self, i: int) -> tuple[Reals, Ids]:
@@ -211,7 +224,7 @@ class LandmarkedValves(Valves):
         if state.surface is not None:
             raise refuse(f"i: valve {i} is a surface from a file, which has no landmarks")
         if self._unit is None:
-            raise refuse("unit: is None; landmarks need the unit of the mesh")
+            raise refuse("unit: is None; landmarks need the unit of the mesh, so choose mm, cm or m first")
         valve = _changed(state, warp=None, opening=0.0).valve()
         assert valve is not None
         for name in state.sized:  # cusps that an earlier place found unequal begin equal
@@ -241,7 +254,8 @@ class LandmarkedValves(Valves):
         others = [name for name in mine.points if role_of(name, kind) is None]
         if others:
             raise refuse(
-                f"landmarks: a {kind} valve has no {others[0]}: choose the kind of valve to which the landmarks belong, or delete it"
+                f"landmarks: a {kind} valve has no {others[0]}: choose the kind of valve to which the landmarks belong, or "
+                "delete it"
             )
         points = {name: at for name, at in mine.points.items() if name not in FLOW}
         ends = [mine.points[name] for name in FLOW if name in mine.points]
@@ -341,8 +355,8 @@ class LandmarkedValves(Valves):
             raise refuse("unit: is None; a placed file states the unit, so choose the unit of the mesh first")
         if state.scale != UNITS[self._unit]:
             raise refuse(
-                f"scale: of valve {i} is {state.scale:.9g}, and a placed file has the scale of its unit, {UNITS[self._unit]:g} for "
-                f"{self._unit}: set the scale to it, and change the sizes instead"
+                f"scale: of valve {i} is {state.scale:.9g}, and a placed file has the scale of its unit, {UNITS[self._unit]:g} "
+                f"for {self._unit}: set the scale to it, and change the sizes instead"
             )
         if isinstance(state.found, PlaceResult):
             return with_parameters(state.found._file, valve)
@@ -351,11 +365,11 @@ class LandmarkedValves(Valves):
 
 def _placed_text(state: ValveState, unit: str, axes: str | None) -> str:
     root: dict[str, Any] = {
-        "valve": state.kind, "unit": unit, "axes": axes or "mesh", "rotate": list(state.rotation), "translate": list(state.origin),
-        "parameters": files.nested(state.parameters),
+        "valve": state.kind, "unit": unit, "axes": axes or "mesh", "rotate": list(state.rotation),
+        "translate": list(state.origin), "parameters": files.nested(state.parameters),
     }  # fmt: skip
-    if state.warp is not None:
-        root["warp"] = warp_object(state.warp)
+    if state.warp is not None:  # in the mesh, as riis place writes it and OpenFOAM takes it
+        root["warp"] = warp_object(state.warp.in_mesh(state.placement))
     return json.dumps(root, indent=2) + "\n"
 
 
@@ -384,8 +398,8 @@ def _in_unit(before: Snapshot, unit: str | None) -> Snapshot:
         factor = UNITS[unit] / (state.scale if before.unit is None else UNITS[before.unit])
         warp = None if state.warp is None else state.warp.in_own_frame(state.placement)
         states.append(_changed(
-            state, scale=in_unit(state.scale, factor), half_thickness=in_unit(state.half_thickness, factor), warp=warp, found=None,
-            skirt=in_unit(state.skirt, factor),
+            state, scale=in_unit(state.scale, factor), half_thickness=in_unit(state.half_thickness, factor), warp=warp,
+            found=None, skirt=in_unit(state.skirt, factor),
         ))  # fmt: skip
     landmarks = before.landmarks
     if landmarks.noise is not None and before.unit is not None:

@@ -131,7 +131,8 @@ def unit(scene: Scene) -> Light:
         advice, label = f"scale the valve by {factor:g}", f"scale the valve by {factor:g}"
     else:
         words = WORDS_OF_UNITS[name]
-        advice, label = f"the {scene.word} looks as if it were in {words}: scale the valve by {factor:g}", f"The {scene.word} is in {words}"
+        advice = f"the {scene.word} looks as if it were in {words}: scale the valve by {factor:g}"
+        label = f"The {scene.word} is in {words}"
     return Light("unit", "warn" if fits else "bad", sizes, advice, (label, "unit"), valve=scene.number, value=factor)
 
 
@@ -152,8 +153,8 @@ def inside(scene: Scene) -> Light:
     no_marks = n_marked == 0 and not scene.whole.is_missing
     if no_marks or is_out.all():
         places = (
-            f"the valve is at {scene.place((info.lower + info.upper) / 2)}, the {scene.word} from {scene.place(scene.box.lower)} to "
-            f"{scene.place(scene.box.upper)}"
+            f"the valve is at {scene.place((info.lower + info.upper) / 2)}, the {scene.word} from {scene.place(scene.box.lower)} "
+            f"to {scene.place(scene.box.upper)}"
         )
         return Light("inside", "bad", f"no node is marked: {places}" if no_marks else f"the valve is outside: {places}",
                      "move the valve, or click three points of the annulus", cure, valve=scene.number)
@@ -164,15 +165,16 @@ def inside(scene: Scene) -> Light:
         return Light("inside", "warn", outside, "move or turn the valve, or make it smaller",
                      points=points[:: 1 + len(points) // _MOST_DRAWN], valve=scene.number)
     if scene.whole.is_missing:
-        return Light("inside", "good", f"the valve lies inside the wall; {outside}", valve=scene.number)
+        text = "the valve lies inside the wall"
+        return Light("inside", "good", text + (f"; {outside}" if share > 0.0005 else ""), valve=scene.number)
     text = f"{counted(n_marked, 'node')} {'is' if n_marked == 1 else 'are'} marked"
     return Light("inside", "good", text + (f"; {outside}" if share > 0.0005 else ""),
                  valve=scene.number)
 
 
-def _no_edges(scene: Scene) -> str:
+def _no_edges(scene: Scene, what: str) -> str:
     if scene.whole.is_missing:
-        return "there is no mesh, only a wall, so nothing is marked"
+        return f"{what} needs a mesh, and there is only a wall"
     if not scene.region.has_cells:
         return "there are no volume cells near the valve, so the edges of the mesh are unknown"
     return "the mesh has cells of a type whose edges the view does not know"
@@ -188,7 +190,7 @@ def half_thickness(scene: Scene) -> Light:
                      "make it thinner", (f"Set the half thickness to {scene.length(better)}", "half_thickness"),
                      valve=scene.number, value=better)
     if not scene.region.has_edges:
-        return Light("half_thickness", "off", _no_edges(scene), valve=scene.number)
+        return Light("half_thickness", "off", _no_edges(scene, "the light of the half thickness"), valve=scene.number)
     if len(scene.marks) == 0:
         return Light("half_thickness", "off", "no node is marked", valve=scene.number)
     scene.region.adjacency()
@@ -204,9 +206,11 @@ def half_thickness(scene: Scene) -> Light:
     )
     better = rounded_up(1.01 * leaks.half_thickness)
     if better > LARGEST_HALF_THICKNESS * side:
-        return Light("half_thickness", "bad", text, f"the mesh is too coarse for this valve: a half thickness of {scene.length(better)} "
-                     "would be needed, so refine the mesh near the leaflets", points=ends.mean(axis=1), edges=ends,
-                     valve=scene.number)
+        advice = (
+            f"the mesh is too coarse for this valve: a half thickness of {scene.length(better)} would be needed, so refine the "
+            "mesh near the leaflets"
+        )
+        return Light("half_thickness", "bad", text, advice, points=ends.mean(axis=1), edges=ends, valve=scene.number)
     return Light("half_thickness", "bad", text, f"a half thickness of {scene.length(better)} closes them, or a finer mesh",
                  (f"Set the half thickness to {scene.length(better)}", "half_thickness"), points=ends.mean(axis=1), edges=ends,
                  valve=scene.number, value=better)
@@ -324,7 +328,8 @@ def _ring(scene: Scene, boundary: Surface) -> Light:
     found = boundary.closest_points(ring, side=True, point=False, normal=False, triangle_id=False, leaflet_id=False)
     assert found.side is not None and found.distance is not None
     gap = numpy.where(found.side > 0, -found.distance, found.distance)
-    text = f"the wall is {shown(float(gap.min()))} to {scene.length(float(gap.max()))} from the {'housing' if height else 'annulus'}"
+    least, most = shown(float(gap.min())), scene.length(float(gap.max()))
+    text = f"the wall is {least} to {most} from the {'housing' if height else 'annulus'}"
     # If the wall meets one of the housing's circles at each angle, it seals the valve. The housing's normals point outwards.
     reach = (1.0 + state.offset) * state.half_thickness if height > 0.0 else _beyond_rim(state)
     is_open = (gap.reshape(len(levels), 72) > reach).all(axis=0)
@@ -337,7 +342,7 @@ def _ring(scene: Scene, boundary: Surface) -> Light:
 def sealed(scene: Scene) -> Light:
     """Judges whether unmarked nodes join the two sides of the valve, and shows the way."""
     if not scene.region.has_edges:
-        return Light("sealed", "off", _no_edges(scene), valve=scene.number)
+        return Light("sealed", "off", _no_edges(scene, "whether the valve seals"), valve=scene.number)
     if len(scene.marks) == 0:
         return Light("sealed", "off", "no node is marked", valve=scene.number)
     ends = _sides(scene)
@@ -378,7 +383,8 @@ def sealed(scene: Scene) -> Light:
     better = rounded_up(1.01 * found.distance)
     cure = None
     if better <= min(LARGEST_HALF_THICKNESS * scene.largest_side, 2.0 * scene.state.half_thickness):
-        advice, cure = f"a half thickness of {scene.length(better)} closes it", (f"Set the half thickness to {scene.length(better)}", "sealed")
+        length = scene.length(better)
+        advice, cure = f"a half thickness of {length} closes it", (f"Set the half thickness to {length}", "sealed")
     return Light("sealed", "bad", f"leaking: {text}", advice, cure, points=points, edges=edges, valve=scene.number, value=better)
 
 

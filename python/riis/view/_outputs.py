@@ -156,7 +156,9 @@ def command_of(
         if _times_of_surfaces(states) is not None:  # the case has times, so the program writes a series
             output = os.path.splitext(output)[0] + ".pvd"
         return shlex.join([program, "mark", "--case", case, "--output", output])
-    words = [program, "surface"] if facts.is_wall_alone else [program, "mark", "MESH.vtu" if path is None else os.path.abspath(path)]
+    words = [program, "mark", "MESH.vtu" if path is None else os.path.abspath(path)]
+    if facts.is_wall_alone:
+        words = [program, "surface"]
     if facts.cells_where is not None:
         words.append(f"{OPTION}={facts.cells_where}")
     with_unit = has_unit(states, unit)
@@ -312,6 +314,16 @@ def _foam_law(state: ValveState) -> list[str]:
     ]
 
 
+def _foam_warp(state: ValveState, metres: float) -> list[str]:
+    if state.warp is None:
+        return []
+    warp, lines = state.warp.in_mesh(state.placement), ["    warp", "    {"]
+    for name, points in (("sources", warp.sources), ("targets", warp.targets)):
+        lines += [f"        {name}", "        ("]
+        lines += [f"            {_foam(metres * x for x in point)}" for point in points.tolist()] + ["        );"]
+    return [*lines, f"        noise {metres * warp.noise!r};", "    }"]
+
+
 def openfoam_of(states: tuple[ValveState, ...], unit: str | None, density: float) -> str:
     if not density > 0.0 or not math.isfinite(density):
         raise refuse(f"density: is {density!r}; it must be above 0")
@@ -320,12 +332,6 @@ def openfoam_of(states: tuple[ValveState, ...], unit: str | None, density: float
     for k, state in enumerate(states):
         if state.surface is not None:
             raise refuse(f"valve {k}: is a surface from a file; OpenFOAM's plug-in takes only the kinds {', '.join(KINDS)}")
-        if state.warp is not None or state.skirt > 0.0:
-            part = "a warp" if state.warp is not None else "a skirt to a wall"
-            raise refuse(
-                f"valve {k}: has {part}, which these lines cannot hold: save the placed valve, and take it to riis patient, whose "
-                "--solver openfoam writes a whole case"
-            )
         lines += [state.name, "{", "    type riisValve;", '    libs ("libriisFvOption.so");', "",
                   f"    rho {density!r};                  // [kg/m3]",
                   f"    resistance {state.resistance!r};  // [kg/(m s)]",
@@ -336,6 +342,10 @@ def openfoam_of(states: tuple[ValveState, ...], unit: str | None, density: float
                   for name, value in state.parameters.items()]
         lines += ["    }", "    placement", "    {", f"        scale {metres * state.scale!r};",
                   f"        rotationAxis {_foam(state.rotation[:3])};", f"        rotationAngle {state.rotation[3]!r};",
-                  f"        translation {_foam(metres * x for x in state.origin)};", "    }", "    opening", "    {"]
+                  f"        translation {_foam(metres * x for x in state.origin)};", "    }"]
+        lines += _foam_warp(state, metres)
+        if state.skirt > 0.0:  # the wall is a patch of the mesh
+            lines += ["    skirt", "    {", "        patch wall;", f"        longest {metres * state.skirt!r};", "    }"]
+        lines += ["    opening", "    {"]
         lines += [f"        {line}" for line in _foam_law(state)] + ["    }", "}", ""]
     return "\n".join(lines)

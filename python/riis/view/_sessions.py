@@ -41,7 +41,8 @@ def _unpacked(value: Any) -> Any:
 def _warp_in_session(warp: WarpState | None) -> dict[str, Any] | None:
     if warp is None:
         return None
-    return {"sources": _packed(warp.sources), "targets": _packed(warp.targets), "noise": warp.noise, "is_in_mesh": warp.is_in_mesh}
+    sources, targets = _packed(warp.sources), _packed(warp.targets)
+    return {"sources": sources, "targets": targets, "noise": warp.noise, "is_in_mesh": warp.is_in_mesh}
 
 
 def _placed_in_session(source: PlacedSource, state: ValveState) -> dict[str, Any]:
@@ -53,7 +54,8 @@ def _placed_in_session(source: PlacedSource, state: ValveState) -> dict[str, Any
 
 
 def session_of(
-    states: tuple[ValveState, ...], facts: Facts, n_nodes: int, time: float, landmarks: LandmarkSet, page: Mapping[str, Any] | None
+    states: tuple[ValveState, ...], facts: Facts, n_nodes: int, time: float, landmarks: LandmarkSet,
+    page: Mapping[str, Any] | None,
 ) -> str:
     valves = []
     for state in states:
@@ -165,8 +167,8 @@ def _state_from(value: Mapping[str, Any]) -> ValveState:
         name=check_valve_name(value["name"]), kind=value["kind"], opening=share(value["opening"], "opening"),
         half_thickness=above_zero(value["half_thickness"], "half_thickness"),
         resistance=at_least_zero(value["resistance"], "resistance"), scale=above_zero(value["scale"], "scale"),
-        rotation=_rotation_from(value["rotate"]), origin=vector(value["origin"]), parameters=_parameters_from(value["parameters"]),
-        warp=warp, skirt=at_least_zero(value.get("skirt", 0.0), "skirt"),
+        rotation=_rotation_from(value["rotate"]), origin=vector(value["origin"]),
+        parameters=_parameters_from(value["parameters"]), warp=warp, skirt=at_least_zero(value.get("skirt", 0.0), "skirt"),
         placed=None if value.get("placed") is None else _placed_from(value["placed"], warp),
         triangulation=value["triangulation"], time=number(value["time"], "time"),
         offset=number(value.get("offset", 0.0), "offset"),  # sessions of earlier versions have none

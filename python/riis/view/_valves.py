@@ -125,6 +125,17 @@ class WarpState:
         )
         return WarpState(sources, targets, self.noise / scale, False)
 
+    def in_mesh(self, placement: Mapping[str, Any]) -> WarpState:
+        """Returns the same warp in the mesh, where a placement puts the valve."""
+        if self.is_in_mesh:
+            return self
+        scale, origin = float(placement["scale"]), numpy.array(placement["translation"])
+        matrix = matrix_of((*vector(placement["rotation_axis"]), float(placement["rotation_angle"])))
+        sources, targets = (
+            numpy.ascontiguousarray(scale * points @ matrix.T + origin) for points in (self.sources, self.targets)
+        )
+        return WarpState(sources, targets, scale * self.noise, True)
+
 
 @dataclass(frozen=True, eq=False)
 class PlacedSource:

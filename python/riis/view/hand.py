@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy
 
+from riis._errors import InvalidParameterError
 from riis.view import reading, rows, saving
 from riis.view._numbers import in_unit
 from riis.view._part import Part
@@ -21,6 +22,7 @@ class Hand(Part):
     """The part of a Page that answers sliders, fields, clicks and drags."""
 
     _set_landmark_at: Any
+    _show_landmarks: Any
 
     # sliders and parameters
 
@@ -32,7 +34,15 @@ class Hand(Part):
             return
         self._slider_values[k] = value
         own = self._in_own_unit(name, value)
-        self._move(lambda: self.model.set(self.state.current, name, own), ("set", self.state.current, name))
+        self._move(lambda: self._set_own(name, own), ("set", self.state.current, name))
+
+    def _set_own(self, name: str, value: Any) -> None:
+        """Sets a value. A refusal of a parameter's length says that it is in centimetres, if the screen has another unit."""
+        try:
+            self.model.set(self.state.current, name, value)
+        except InvalidParameterError as error:
+            hint = "" if self._valve().scale == 1.0 else " (lengths of parameters in centimetres)"
+            raise reading.Refusal(f"{error}{hint}") from error
 
     def _in_own_unit(self, name: str, value: float) -> float:
         """Returns a number on the screen in the unit of the parameter. On the screen, all lengths have the mesh's unit."""
@@ -80,7 +90,7 @@ class Hand(Part):
             ]
             if not numbers:
                 raise reading.Refusal(f"{name}: is empty; it must be a number")
-            self.model.set(self.state.current, name, numbers if len(numbers) > 1 else numbers[0])
+            self._set_own(name, numbers if len(numbers) > 1 else numbers[0])
         self._renew_all()
 
     def _set_resistance(self, text: str) -> None:
@@ -191,7 +201,7 @@ class Hand(Part):
         if self.scene is not None and self.state.tool != PLACING and self.state.landmark:
             with self.state as state:
                 state.landmark = ""
-            self.scene.show_landmarks(self.model.landmarks.points)
+            self._show_landmarks()
             self._moved.set()
         if self.scene is not None and self.state.tool != "click" and self._clicks:
             self._clicks = []
@@ -244,6 +254,14 @@ class Hand(Part):
         self._need_model()
         self._look(how)
         self._moved.set()
+
+    def _look_at_all(self) -> None:
+        """Looks at the whole mesh or wall, in which the valve is not yet placed."""
+        lower, upper = self.model.bounds if self.model.wall is None else (self.model.wall.lower, self.model.wall.upper)
+        valve = self._valve()
+        reach = 0.45 * float(numpy.linalg.norm(upper - lower))
+        self.scene.look("oblique", 0.5 * (lower + upper), valve.axis, valve.reference, reach)
+        self.scene.cut_here(valve.origin, valve.axis)
 
     def _look(self, how: str) -> None:
         valve = self._valve()

@@ -360,7 +360,7 @@ class Model(BumpedValves, LandmarkedValves):
             box = _box_of_band(placed.surface)
             lower, upper = numpy.minimum(lower, box[0]), numpy.maximum(upper, box[1])
         if not self._placed:
-            lower = upper = sum(self.bounds) / 2.0
+            lower = upper = (self.bounds[0] + self.bounds[1]) / 2.0
         return self._mesh.region(lower, upper)
 
     def update(self) -> Shown:

@@ -109,6 +109,7 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
         self._busy = ""  # the name of the present long task, as a sentence
         self._wanted_size: tuple[int, int] | None = None  # a browser requested it during a movie
         self._shown: Any = None
+        self._shows_gap = False
         self._build()
 
     # the page's variables and functions
@@ -330,7 +331,7 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
         if not model.valves:
             model.add(self.state.kind)
             if model.wall is not None:
-                model.move_inside(0)
+                model.stand_in_wall(0)
         model.forget_steps()  # the page always has a valve, so undo must not remove the first one
         scene = Scene(model, grid, wall=wall, size=self.scene.size if self.scene is not None else (900, 700))
         self._pause()
@@ -338,8 +339,11 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
         if self.scene is not None:
             self.scene.close()
         self.model, self.scene, self._grid, self._shown, self._clicks = model, scene, grid, None, []
-        if model.wall is not None and grid is None:
-            self.state.wall = "clear"
+        if model.wall is not None:
+            is_placed = model.valves[0].placed is not None
+            self.state.wall = "clear" if is_placed else "cut"  # landmarks are picked on the inside
+            if not is_placed or model.landmarks.points:
+                self.state.panels = [*(name for name in self.state.panels if name != "patient"), "patient"]
         self.scene.show_wall(self.state.wall)
         self.scene.show_cells(self.state.cells)
         with self.state:
@@ -348,7 +352,10 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
             self.state.tool, self.state.n_clicks = "look", 0
             self.state.time, self.state.cycle, self.state.curves = float(model.time), "", []
         self._refresh()
-        self._look("oblique")
+        if model.wall is not None and model.valves[0].placed is None and not model.valves[0].parameters:
+            self._look_at_all()
+        else:
+            self._look("oblique")
         self._renew_all()
 
     async def _reopen(self, path: str, mesh: str | None = None, cells_where: str | None = None) -> None:
@@ -465,7 +472,7 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
             legend += [{"label": rows.leaflet_name(valve.kind, leaflet), "colour": colour_of(k, leaflet)} for leaflet in shown]
         if self._grid is not None:
             legend += [{"label": "marked cells", "colour": "#56b4e9"}, {"label": "partly marked", "colour": "#f0e442"}]
-        return legend + ([{"label": "gap to the wall", "colour": GAP}] if self.model.wall is not None else [])
+        return legend + ([{"label": "gap to the wall", "colour": GAP}] if self._shows_gap else [])
 
     def _renew_all(self) -> None:
         """Shows the model after a larger change than a move of a slider."""
@@ -506,6 +513,7 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
         self.scene.show_lights([])
         self.scene.show_gap([], [])
         self._show_bump()
+        self._show_landmarks()
         valve = self._valve()
         with self.state as state:
             if state.sliders and state.sliders[0]["name"] == "opening" and self._slider_values[0] != valve.opening:
@@ -530,7 +538,9 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
             self._end_drag()
         lights = self.model.lights()
         self.scene.show_lights(lights)
-        self.scene.show_gap(*self.model.gap_ribbon(self.state.current))
+        points, triangles = self.model.gap_ribbon(self.state.current)
+        self.scene.show_gap(points, triangles)
+        self._shows_gap = len(triangles) > 0
         self.scene.rest()
         valve = self._valve()
         self.scene.show_handle(valve.origin, valve.axis, 1.2 * self._reach())

@@ -8,9 +8,11 @@ import functools
 import os
 from typing import Any
 
+from riis._errors import Error
 from riis.view import reading, rows
-from riis.view._lights import rounded_up
 from riis.view._landmark_files import missing, role_of
+from riis.view._lights import rounded_up
+from riis.view._numbers import shown
 from riis.view._part import Part
 
 PLACING = "landmark"  # the tool that sets landmarks
@@ -33,16 +35,22 @@ class Patient(Part):
         state.unit, state.axes = model.unit, landmarks.axes
         state.has_wall = model.wall is not None
         state.skirt_on = valve.skirt > 0.0
-        state.skirt = rows.shown(valve.skirt, 6) if valve.skirt > 0.0 else ""
-        state.resistance = rows.shown(valve.resistance, 6)
+        state.skirt = shown(valve.skirt, 6) if valve.skirt > 0.0 else ""
+        state.resistance = shown(valve.resistance, 6)
         state.resistance_unit = "kg/(m s)" if model.unit else "in units of the mesh"
         state.sizes_to_fit = [] if valve.surface is not None else [
-            name for name, known in valve.valve().parameters.items() if known.n_values == 1 and name not in ("opening", "skirt_length")
+            name for name, known in valve.valve().parameters.items()
+            if known.n_values == 1 and name not in ("opening", "skirt_length")
         ]  # fmt: skip
         if state.fit_kind != valve.kind:
             state.fit_kind, state.fit_sizes = valve.kind, model.sizes_to_fit(state.current)
         self.scene.renew_wall()
-        self.scene.show_landmarks(landmarks.points, state.landmark)
+        self._show_landmarks()
+
+    def _show_landmarks(self) -> None:
+        """Draws the landmarks while their panel is unfolded."""
+        is_unfolded = "patient" in self.state.panels
+        self.scene.show_landmarks(self.model.landmarks.points if is_unfolded else {}, self.state.landmark)
 
     # landmarks
 
@@ -52,7 +60,7 @@ class Patient(Part):
         with self.state as state:
             is_chosen = state.tool == PLACING and state.landmark == name
             state.landmark, state.tool, state.message = ("", "look", "") if is_chosen else (name, PLACING, "")
-        self.scene.show_landmarks(self.model.landmarks.points, self.state.landmark)
+        self._show_landmarks()
         self._moved.set()
 
     def _set_landmark_at(self, point: Any) -> None:
@@ -120,7 +128,7 @@ class Patient(Part):
         self._begin_change()
         try:
             self.model.place_by_landmarks(self.state.current, warp=self.state.warp)
-        except reading.Error as error:
+        except Error as error:
             raise reading.Refusal(_said_for_the_page(str(error))) from error
         self._refresh()
         self._look("oblique")

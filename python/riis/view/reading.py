@@ -38,8 +38,8 @@ def read_mesh(path: str, progress: dict[str, float] | None = None, *, cells_wher
         raise Refusal(f"{path}: there is no such file")
     if ending in SURFACES:
         raise Refusal(
-            f"{path}: is a surface, and MESH has volume cells. Give it as the wall: riis view --wall {shlex.quote(path)}. gmsh or "
-            "your mesher fills a closed surface with cells; docs/patient.md has the commands"
+            f"{path}: is a surface, and MESH has volume cells. Give it as the wall: riis view --wall {shlex.quote(path)}. Or "
+            "gmsh or your mesher fills a closed surface with cells; docs/patient.md has the commands"
         )
     if os.path.isdir(path) or ending not in BY_VTK + BY_MESHIO:
         text = f"{path}: riis view reads {', '.join(BY_VTK + BY_MESHIO)}"
@@ -181,7 +181,7 @@ def read_points(path: str) -> Any:
     if not os.path.isfile(path):
         raise Refusal(f"{path}: there is no such file")
     if ending in (".csv", ".txt", ".xyz"):
-        points = []
+        points: list[list[float]] = []
         with open(path, encoding="utf-8", errors="replace") as file:
             for number, line in enumerate(file, 1):
                 cells = [cell for cell in re.split(r"[,;\s]+", line) if cell]

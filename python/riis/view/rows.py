@@ -63,8 +63,8 @@ def half_thickness_of(valve: Any, unit: str) -> dict[str, Any]:
     value = float(valve.half_thickness)
     middle = 10.0 ** round(math.log10(value))
     return {
-        "name": "half_thickness", "label": "half thickness ε", "unit": unit, "least": 0.0, "greatest": 1e60, "low": 0.05 * middle,
-        "high": 4.0 * middle, "step": 0.005 * middle, "value": value,
+        "name": "half_thickness", "label": "half thickness ε", "unit": unit, "least": 0.0, "greatest": 1e60,
+        "low": 0.05 * middle, "high": 4.0 * middle, "step": 0.005 * middle, "value": value,
         "description": "nodes closer than this to a leaflet are marked; in the mesh's unit",
     }  # fmt: skip
 
@@ -165,7 +165,8 @@ def landmarks_of(kind: str, points: Any) -> list[dict[str, Any]]:
         done.update(mine)
         if role.is_list:
             is_needed = any(role_of(name, kind) == role for name in needed)
-            rows.append(row(role.name, f"{role.text}: press to add one", role.name, is_needed) | {"label": f"+ {role.name}"})
+            adding = row(role.name, f"{role.text}: press to add one", role.name, is_needed)
+            rows.append(adding | {"label": f"+ {adding['label']}"})
         elif not mine:
             rows.append(row(role.name, role.text, role.name, role.name in needed))
     return rows + [row(name, "this kind of valve has no such landmark", name, False) for name in points if name not in done]
@@ -222,7 +223,7 @@ def line_of(label: str, times: Any, values: Any, colour: str, unit: str = "", *,
     values = numpy.nan_to_num(numpy.asarray(values, float))
     if top == 0.0:
         top = max(float(values.max()), 1e-300)
-        label += f", at most {float(f'{top:.3g}'):,g} {unit}"
+        label += f", at most {shown(top)} {unit}"
     x, y = 300 * (times - times[0]) / (times[-1] - times[0]), 41 - 38 * values / top
     return {"label": label, "colour": colour, "points": " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True))}
 

@@ -12,7 +12,8 @@ from typing import Any
 import numpy
 
 import riis
-from riis.view import reading, rows
+from riis.view import reading
+from riis.view._numbers import shown
 from riis.view._part import Part
 from riis.view.scene import LEAST_SIDE, MOST_SIDE
 
@@ -125,7 +126,7 @@ class Files(Part):
             side = reading.number_of(self.state[f"picture_{name}"], f"{name} of the picture")
             if not (LEAST_SIDE <= side <= MOST_SIDE and side == int(side)):
                 raise reading.Refusal(
-                    f"{name} of the picture: is {rows.shown(side, 6)}; it must be a whole number of pixels from {LEAST_SIDE} to "
+                    f"{name} of the picture: is {shown(side, 6)}; it must be a whole number of pixels from {LEAST_SIDE} to "
                     f"{MOST_SIDE}"
                 )
             sides.append(int(side))

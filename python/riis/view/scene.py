@@ -26,6 +26,7 @@ WALLS = ("cut", "clear", "none")
 CELLS = ("partly", "marked", "none")
 LOOKS = ("oblique", "top", "side")
 LEAST_SIDE, MOST_SIDE = 64, 4096  # of a picture, in pixels
+_LETTER = 15  # size of the names of landmarks, in pixels
 _HELPERS = ("riis light ", "riis gap", "riis handle", "riis points", "riis bump")  # that a report does not show
 SLOW = 0.12  # seconds; if a picture takes longer while a hand moves, the next picture has fewer pixels
 MANY_MARKED = 400_000  # if more cells are marked, they are drawn only while the hand rests
@@ -117,7 +118,7 @@ class Scene:
         self._actors: dict[str, Any] = {}
         self._wall_actors: dict[str, Any] = {}
         self._placed: Any = None
-        self._labels: Any = None
+        self._labels: list[Any] = []
         plotter.set_background("white")
         self.renew_wall()
 
@@ -353,9 +354,11 @@ class Scene:
         """Draws landmarks as points with their names. The chosen one is red."""
         for name in ("riis landmarks", "riis chosen landmark"):
             self._drop(name)
-        if self._labels is not None:
-            self.plotter.remove_actor(self._labels, reset_camera=False)
-            self._labels = None
+        for label in self._labels:
+            self.plotter.renderer.RemoveViewProp(label)
+        self._labels = [self._label_of(name.replace("_", " "), at) for name, at in landmarks.items()]
+        for label in self._labels:
+            self.plotter.renderer.AddViewProp(label)
         for name, colour, points in (
             ("riis landmarks", LANDMARK, [at for one, at in landmarks.items() if one != chosen]),
             ("riis chosen landmark", CHOSEN, [at for one, at in landmarks.items() if one == chosen]),
@@ -363,12 +366,21 @@ class Scene:
             if points:
                 self._put(name, self._pv.PolyData(numpy.array(points, float)), color=colour, point_size=13,
                           render_points_as_spheres=True, lighting=False, pickable=False)
-        if landmarks:
-            self._labels = self.plotter.add_point_labels(
-                numpy.array(list(landmarks.values()), float), [name.replace("_", " ") for name in landmarks], font_size=15,
-                text_color="#111111", shape_color="white", shape_opacity=0.65, shape="rounded_rect", margin=2, show_points=False,
-                always_visible=True, reset_camera=False, pickable=False, bold=False,
-            )  # fmt: skip
+    def _label_of(self, text: str, at: Any) -> Any:
+        """Returns a text beside a point, in front of everything."""
+        from vtkmodules.vtkRenderingCore import vtkTextActor
+
+        label = vtkTextActor()
+        label.SetInput(f"  {text} ")
+        label.GetPositionCoordinate().SetCoordinateSystemToWorld()
+        label.GetPositionCoordinate().SetValue(*(float(x) for x in at))
+        look = label.GetTextProperty()
+        look.SetFontSize(_LETTER)
+        look.SetVerticalJustificationToCentered()
+        look.SetColor(0.07, 0.07, 0.07)
+        look.SetBackgroundColor(1.0, 1.0, 1.0)
+        look.SetBackgroundOpacity(0.6)
+        return label
 
     def show_points(self, points: Any) -> None:
         """Draws points that were clicked."""
@@ -595,23 +607,20 @@ class Scene:
         """During this context, lines, points and letters are larger by a factor."""
         looks = [actor.GetProperty() for actor in self._actors.values() if hasattr(actor, "GetProperty")]
         sizes = [(look, look.GetLineWidth(), look.GetPointSize()) for look in looks]
-        letters = None
-        if self._labels is not None:
-            letters = self._labels.GetMapper().GetLabelTextProperty()
-        font = 0 if letters is None else letters.GetFontSize()
+        letters = [label.GetTextProperty() for label in self._labels]
         try:
             for look, width, point_size in sizes:
                 look.SetLineWidth(factor * width)
                 look.SetPointSize(factor * point_size)
-            if letters is not None:
-                letters.SetFontSize(max(6, round(factor * font)))
+            for letter in letters:
+                letter.SetFontSize(max(6, round(factor * _LETTER)))
             yield
         finally:
             for look, width, point_size in sizes:
                 look.SetLineWidth(width)
                 look.SetPointSize(point_size)
-            if letters is not None:
-                letters.SetFontSize(font)
+            for letter in letters:
+                letter.SetFontSize(_LETTER)
 
     def close(self) -> None:
         self.plotter.close()

@@ -62,8 +62,8 @@ class File {
 [[noreturn]] void refuse(const std::string &what) {
   const char *display = std::getenv("DISPLAY");
   const bool is_set = display != nullptr && *display != '\0';
-  refuse_data("a picture needs an X display: DISPLAY " + (is_set ? display + std::string(" cannot be used") : "is not set") +
-              ", and " + name_of_server + what);
+  refuse_data("a picture needs an X display: DISPLAY " +
+              (is_set ? display + std::string(" cannot be used") : "is not set") + ", and " + name_of_server + what);
 }
 
 std::optional<std::string> variable(const char *name) {
@@ -223,8 +223,7 @@ void check_virtual_display() {
     refuse(", which makes one without a screen, is not on the PATH; on Debian the package xvfb has it");
 }
 
-VirtualDisplay::VirtualDisplay()
-    : display_before_(variable("DISPLAY")), key_before_(variable("XAUTHORITY")) {
+VirtualDisplay::VirtualDisplay() : display_before_(variable("DISPLAY")), key_before_(variable("XAUTHORITY")) {
   check_virtual_display();
   File key(file_with_key()), messages(memfd_create("riis-xvfb", MFD_CLOEXEC));
   if (!key.is_open() || !messages.is_open()) refuse(" cannot be started: " + system_text(errno));
@@ -235,8 +234,7 @@ VirtualDisplay::VirtualDisplay()
   if (server.display.empty() && server.error == 0 && Clock::now() < end) server = start({}, key, messages, end);
   if (server.error != 0) refuse(" cannot be started: " + system_text(server.error));
   if (server.display.empty()) {
-    if (Clock::now() >= end)
-      refuse(" was not ready within " + std::to_string(longest_start.count() / 1000) + " s");
+    if (Clock::now() >= end) refuse(" was not ready within " + std::to_string(longest_start.count() / 1000) + " s");
     const std::string reason = reason_of(messages.number());
     refuse(" ends" + (reason.empty() ? "" : ": " + reason));
   }

@@ -131,7 +131,7 @@ void check_style(const Command &command, const MarkOptions &options) {
   const bool is_odd = style.size && (style.size->width % 2 != 0 || style.size->height % 2 != 0);
   if (is_odd && has_ending(movie, ".mp4"))
     refuse_usage("--picture-size: both numbers must be even for the movie " + movie);
-  if (style.panels == RIIS_VTK_PANELS_MARKS && !options.needs_mesh)
+  if (style.panels == RIIS_VTK_PANELS_MARKS && options.mesh.empty() && options.series.case_file.empty())
     refuse_usage("--picture-panels marks: riis surface has no mesh, and marks nothing");
 }
 

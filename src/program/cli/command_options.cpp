@@ -270,8 +270,12 @@ void declare_loudness(Command &command, ValveOptions &options) {
 // Reads a text such as 3840x2160.
 PictureSize parse_size(const std::string &text, const std::string &subject) {
   const std::vector<std::string> sides = split(text, "x");
+  const auto is_number = [](const std::string &side) {
+    return !side.empty() && side.size() < 8 && side.find_first_not_of("0123456789") == std::string::npos;
+  };
+  if (sides.size() != 2 || !is_number(sides[0]) || !is_number(sides[1]))
+    refuse_usage(subject + ": " + text + " is not WIDTHxHEIGHT, such as 1920x1080");
   PictureSize size;
-  if (sides.size() != 2) refuse_usage(subject + ": " + text + " is not WIDTHxHEIGHT, such as 1920x1080");
   size.width = parse_integer(sides[0], subject);
   size.height = parse_integer(sides[1], subject);
   for (const std::int32_t side : {size.width, size.height})

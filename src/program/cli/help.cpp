@@ -75,9 +75,12 @@ riis help patient explains the steps. The program gmsh makes the mesh.)"},
     {"view", R"(Examples:
   riis view root.vtu
   riis view root.vtu --unit mm --folder results --no-browser
+  riis view --wall root.stl --landmarks landmarks.mrk.json
+  riis view root.vtu --valve placed.json --wall root.stl
   riis view --open valve.view.json
-A page in the browser has the mesh, the valve and sliders for its sizes. Other options: --port N, and --cells-where NAME=VALUES
-as in riis mark. RIIS_PYTHON names the Python that has the package riis; python3 unless set.)"},
+A page in the browser has the mesh, the wall, the valve and sliders for its sizes. Landmarks are picked on the wall, and place
+the valve. Other options: --port N, and --cells-where NAME=VALUES as in riis mark. RIIS_PYTHON names the Python that has the
+package riis; python3 unless set.)"},
     {"help", R"(Examples:
   riis help units)"},
     {"riis", R"(Examples:
@@ -186,6 +189,7 @@ frame and unit, the skirt reaches that wall, and no farther. FILE may also be a 
 then the longest skirt to accept. The program prints the gap. A wall that is missed, or farther away at any opening, is refused.
 With --surface FILE, the skirt leads from the points whose point array riis_attached is not 0. Without this array, it leads from
 the closed line of open edges that encloses the largest area. In a case, "skirt" and "wall" are keys of a valve.
+riis place --foam writes a skirt for OpenFOAM, which ends at the patch wall of the mesh. There, --skirt is the longest length.
 )"},
     {"warp", "a valve that meets a patient's landmarks",
      R"(

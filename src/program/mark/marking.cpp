@@ -15,6 +15,7 @@
 #include "program/mark/bridged_gap.hpp"
 #include "program/mark/mesh_marking.hpp"
 #include "program/mark/warnings.hpp"
+#include "program/svmultiphysics/uris_solver.hpp"
 
 namespace riis::program {
 namespace {
@@ -50,6 +51,11 @@ void combine(riis_mark_stats &all, const riis_mark_stats &stats) {
   all.n_threads = std::max(all.n_threads, stats.n_threads);
 }
 
+// Tells whether the closed area can be measured: the valve is closed or a surface from a file, and the band lies in its middle.
+bool is_closed(const MovingValve &valve) {
+  return valve.opening().value_or(0) == 0 && valve.options().surface_options.offset == 0;
+}
+
 void report_leak(const MovingValve &valve, FlowReport &flow) {
   const std::optional<double> &R = valve.options().resistance;
   if (!R || !(*R > 0)) return;
@@ -57,6 +63,7 @@ void report_leak(const MovingValve &valve, FlowReport &flow) {
   how.R = *R;
   double leak = 0;
   check(riis_surface_get_leak(valve.surface(), &how, 1, &leak), "--resistance");
+  if (flow.closed_area) leak = info_of(valve.surface()).half_thickness / *R * *flow.closed_area;
   // The leak is per unit of the pressure as the user gives it, which is Pa if the unit of the mesh is known.
   const std::optional<Unit> &unit = valve.options().unit;
   flow.leak_per_drop = unit ? leak * factor_from_si(a_pressure, *unit) : leak;
@@ -241,6 +248,9 @@ void Marking::measure(Piece &piece) {
     for (LeafletsOutside &state : sums.outside) state.add(piece);
     node_counts_.add(piece.nodes, list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT), within_limit(i));
     std::vector<std::int64_t> regions;
+    if (wants_measures_ && piece.nodes.is_whole() && is_closed(valves_[i]))
+      sums.closed_area = closed_area_in(piece.file.get(), valves_[i].surface(),
+                                        info_of(valves_[i].surface()).half_thickness, options().mark_options.n_threads);
     if (wants_measures_ && has_edges) regions = sums.band.add(piece, valves_[i].result(), options().mark_options);
     if (i == 0 || !regions.empty()) sums.shared.push_back(shared_nodes_of(piece, regions));
   }
@@ -320,6 +330,7 @@ void Marking::judge() {
   for (std::size_t i = 0; wants_measures_ && i < valves_.size(); ++i) {
     ValveReport &valve = report_.valves[i];
     if (valve.leaks.has_all_edges()) sums_[i].band.judge(matched[i], valve.surface.half_thickness, valve.flow);
+    valve.flow.closed_area = sums_[i].closed_area;
     report_leak(valves_[i], valve.flow);
   }
   if (options().check_leaks) {

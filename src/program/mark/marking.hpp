@@ -55,6 +55,7 @@ class Marking {
     MeshLeaks leaks;
     riis_mark_stats marks = no_stats();
     BandMeasures band{};
+    std::optional<double> closed_area{};
     std::vector<std::vector<SharedNode>> shared{};  // by piece, with the open regions of this valve
     std::vector<LeafletsOutside> outside{};         // at the least opening, and in a series at the largest
   };

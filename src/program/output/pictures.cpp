@@ -33,8 +33,8 @@ bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve
   return has_default_values(valve, {"open_radius_ratio", "commissure_expansion"});
 }
 
-// Returns the unit for the scale bar and the captions, or none if it is not known. Without --unit, the centimetres of a valve's parameters and the
-// scale of its placement tell the unit of the mesh. If two valves tell different units, the unit is not known.
+// Returns the unit for the scale bar and the captions, or none if it is not known. Without --unit, the centimetres of a valve's
+// parameters and the scale of its placement tell the unit of the mesh. If two valves tell different units, it is not known.
 std::optional<Unit> unit_of_mesh(const std::optional<Unit> &given, const std::vector<MovingValve> &valves) {
   if (given) return given;
   std::optional<Unit> told;
@@ -325,14 +325,13 @@ std::string frame_pattern(const std::string &folder) {
 std::vector<std::string> encoding_of(const std::string &path, bool has_size) {
   if (has_ending(path, ".gif")) {
     // The movie repeats for ever, and all its frames share one palette of colours. It is small unless the user gave a size.
-    return {
-        "-filter_complex",
-        std::string(has_size ? "" : "scale='min(800,iw)':-2:flags=lanczos,") +
-            "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",
-        "-loop",
-        "0",
-        "-f",
-        "gif"};
+    return {"-filter_complex",
+            std::string(has_size ? "" : "scale='min(800,iw)':-2:flags=lanczos,") +
+                "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",
+            "-loop",
+            "0",
+            "-f",
+            "gif"};
   }
   // This kind of H.264 plays in every player.
   return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"};

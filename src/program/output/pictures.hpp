@@ -79,7 +79,7 @@ class RunPictures {
   std::vector<std::string> leaflet_texts_;
   std::vector<const char *> leaflet_names_;  // point into leaflet_texts_
   std::optional<Movie> movie_;
-  Surface wall_;                          // of --wall, without a mesh; otherwise null
+  Surface wall_;                           // of --wall, without a mesh; otherwise null
   std::optional<VirtualDisplay> display_;  // ends after film_
   Film film_;
 };

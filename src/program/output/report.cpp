@@ -193,9 +193,12 @@ void add_flow(const ValveReport &valve, std::ostringstream &out) {
                                                             : "unknown: the mesh itself has no path");
     out << "\n";
   }
-  if (flow.leak_per_drop && flow.drop)
+  if (flow.leak_per_drop && flow.drop) {
     out << line("leak", valve.name) << *flow.leak_per_drop * *flow.drop << after_blank(flow.leak_unit)
-        << " at the drop " << *flow.drop << after_blank(flow.drop_unit) << ", through an ideal closed valve\n";
+        << " at the drop " << *flow.drop << after_blank(flow.drop_unit) << ", through an ideal closed valve";
+    if (flow.closed_area) out << " of the area " << *flow.closed_area;
+    out << "\n";
+  }
 }
 
 // Adds the line with the units of R and K.
@@ -238,6 +241,7 @@ void add_flow(const FlowReport &flow, nlohmann::ordered_json &json) {
                             {"n_edges", flow.cells->n_edges}};
   if (flow.n_open_regions) json["n_open_regions"] = *flow.n_open_regions;
   if (flow.first) json["first_passage"] = json_of_first(*flow.first);
+  if (flow.closed_area) json["closed_area"] = *flow.closed_area;
   if (flow.leak_per_drop) json["leak_per_drop"] = *flow.leak_per_drop;
   if (flow.leak_per_drop && flow.drop) {
     json["leak"] = *flow.leak_per_drop * *flow.drop;

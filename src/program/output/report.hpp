@@ -68,6 +68,7 @@ struct FlowReport {
   std::optional<riis_cells_across> cells;     // set if the mesh's edges are known
   std::optional<int64_t> n_open_regions;      // set if the mesh's edges are known
   std::optional<riis_first_passage> first;    // set if the first passage was looked for
+  std::optional<double> closed_area;          // in the mesh; set for a closed valve in a mesh of one type of element
   std::optional<double> leak_per_drop, drop;  // set if the user gave a resistance
   std::string leak_unit{}, drop_unit{};       // "" if not known
 };

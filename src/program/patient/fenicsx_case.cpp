@@ -57,6 +57,7 @@ Json numbers_of(const SolverCase &solver, const Ends &ends, int n_steps) {
            {{"opening_duration", motion_seconds},
             {"closing_duration", motion_seconds},
             {"open_above", opening_pressure},
+            {"close_below", solver.is_mitral ? closing_flow_of_mitral : 0.0},
             {"filter_time", 0.002},
             {"dwell_time", 0.02}}},
           {"period", beat_period},

@@ -20,7 +20,7 @@
 namespace riis::program {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double half_turn = 3.14159265358979323846;
 
 // Distances from the plane, as shares of the wall's size: within a flat part, and within a part that the user points at.
 constexpr double flat_share = 5e-4, pointed_share = 5e-3;
@@ -35,17 +35,24 @@ constexpr std::size_t n_sectors = 12;
 // The angle between a flat part and the wall beside it, in degrees: a tube that is cut has a mean angle of 90, also if it is cut
 // obliquely. A part between the limits may be a cut, or a flat place of the wall.
 constexpr double clear_mean = 55, clear_least = 20, unclear_mean = 30;
-// Four pi times the area over the square of the perimeter: 1 for a disc, 0.6 for an ellipse thrice as long as wide.
+// Four half_turn times the area over the square of the perimeter: 1 for a disc, 0.6 for an ellipse thrice as long as wide.
 constexpr double least_roundness = 0.25;
-// Flat parts that touch make each other unclear if their areas differ by less than this factor.
+// Flat parts that touch make each other unclear if their areas differ by less than this factor. Else only the small one is.
 constexpr double most_apart = 10;
+// A flat part below this share of the largest end may be a facet of a coarse wall, or the end of a coronary artery. It is an
+// end if its rim has so many sides, and if the wall is as steep up to this share of the radius.
+constexpr double small_share = 0.05;
+constexpr std::int64_t least_sides = 12;
+constexpr double wide_band_share = 1.5;
 // A refusal lists so many flat parts.
 constexpr std::size_t most_listed = 6;
 
-double degrees_between(const Vector &a, const Vector &b) { return 180 / pi * std::atan2(norm(cross(a, b)), dot(a, b)); }
+double degrees_between(const Vector &a, const Vector &b) {
+  return 180 / half_turn * std::atan2(norm(cross(a, b)), dot(a, b));
+}
 
 // A plane through a point.
-struct Plane {
+struct FlatPlane {
   Vector normal{}, point{};
   double distance_of(const Vector &of) const { return dot(of - point, normal); }
 };
@@ -53,20 +60,22 @@ struct Plane {
 // A flat part of the surface.
 struct FlatPart {
   std::vector<std::int64_t> triangles;
-  Plane plane;  // through the part's centre
+  FlatPlane plane;  // through the part's centre
   double area = 0;
   double mean_angle = 0, least_angle = 0;  // to the wall beside it, in degrees
+  double wide_angle = 0;                   // the mean over the wider band
   double roundness = 0;
-  std::int64_t n_rims = 0;
-  bool is_behind = false;    // the wall beside it lies on the side of the blood
-  bool is_touching = false;  // another flat part begins at its rim
-  bool is_large = false;     // enough not to be noise
+  std::int64_t n_rims = 0, n_sides = 0;  // lines of the rim, and their edges
+  bool is_behind = false;                // the wall beside it lies on the side of the blood
+  bool is_touching = false;              // another flat part begins at its rim
+  bool is_large = false;                 // enough not to be noise
+  bool is_facet = false;  // it is small beside the largest end, and hardly larger than the wall's triangles
   bool was_open = false;
 
   bool is_disc() const { return n_rims == 1 && is_behind && roundness >= least_roundness; }
   bool is_sharp() const { return mean_angle >= clear_mean && least_angle >= clear_least && is_behind; }
-  bool is_clear() const { return is_large && is_disc() && is_sharp() && !is_touching; }
-  double radius() const { return std::sqrt(area / pi); }
+  bool is_clear() const { return is_large && is_disc() && is_sharp() && !is_touching && !is_facet; }
+  double radius() const { return std::sqrt(area / half_turn); }
 };
 
 class EndFinder {
@@ -101,9 +110,8 @@ class EndFinder {
     for (const std::int64_t seed : seeds) {
       if (view(is_known)[seed] != 0 || view(areas_)[seed] == 0) continue;
       FlatPart part = grown(seed, flat_share * size_);
-      view(is_known)[seed] = 1;
-      for (const std::int64_t i : part.triangles)
-        if (is_well_within(part, i)) view(is_known)[i] = 1;
+      // A triangle of a part is no seed of another part, but may belong to it.
+      for (const std::int64_t i : part.triangles) view(is_known)[i] = 1;
       if (!is_large(part)) continue;
       measure(part);
       if (part.mean_angle < unclear_mean || !part.is_behind) continue;
@@ -111,6 +119,7 @@ class EndFinder {
     }
     std::sort(parts.begin(), parts.end(), [](const FlatPart &a, const FlatPart &b) { return a.area > b.area; });
     mark_touching(parts);
+    mark_facets(parts);
     return parts;
   }
 
@@ -139,7 +148,7 @@ class EndFinder {
     return part.area >= least_share * total_ && static_cast<std::int64_t>(part.triangles.size()) >= least_triangles;
   }
 
-  // The plane of least squares would follow the corners. The sum of the area vectors follows the rim, and is exact for a flat part.
+  // The sum of the area vectors follows the rim, and is exact for a flat part. A plane of least squares would follow the corners.
   void fit(FlatPart &part) const {
     Vector area{}, centre{};
     part.area = 0;
@@ -151,10 +160,10 @@ class EndFinder {
     if (part.area > 0) part.plane = {unit_vector(area), 1 / part.area * centre};
   }
 
-  bool is_in(const Plane &plane, std::int64_t i, double tolerance) const {
+  bool is_in(const FlatPlane &plane, std::int64_t i, double tolerance) const {
     for (std::size_t k = 0; k < 3; ++k)
       if (!(std::abs(plane.distance_of(all_.corner(i, k))) <= tolerance)) return false;
-    static const double least_cosine = std::cos(most_lean * pi / 180);
+    static const double least_cosine = std::cos(most_lean * half_turn / 180);
     return dot(view(normals_)[i], plane.normal) >= least_cosine || is_thin(i);
   }
 
@@ -164,10 +173,6 @@ class EndFinder {
     for (std::size_t k = 0; k < 3; ++k)
       longest = std::max(longest, norm(all_.corner(i, (k + 1) % 3) - all_.corner(i, k)));
     return 2 * view(areas_)[i] <= 1e-6 * size_ * longest;
-  }
-
-  bool is_well_within(const FlatPart &part, std::int64_t i) const {
-    return is_in(part.plane, i, 0.25 * flat_share * size_);
   }
 
   // Returns the connected triangles in the plane around the seed. The plane follows the triangles.
@@ -252,42 +257,51 @@ class EndFinder {
         rim.emplace_back(view(all_.corners)[i][k], view(all_.corners)[i][(k + 1) % 3]);
         queue.emplace(0, beyond);
       }
-    part.roundness = perimeter > 0 ? 4 * pi * part.area / (perimeter * perimeter) : 0;
+    part.roundness = perimeter > 0 ? 4 * half_turn * part.area / (perimeter * perimeter) : 0;
     part.n_rims = n_lines(rim);
+    part.n_sides = static_cast<std::int64_t>(rim.size());
     // Noise cancels in the sum of the area vectors of a sector.
     const Vector first =
         unit_vector(cross(part.plane.normal, std::abs(part.plane.normal[0]) < 0.6 ? Vector{1, 0, 0} : Vector{0, 1, 0}));
     const Vector second = cross(part.plane.normal, first);
-    std::array<Vector, n_sectors> sums{};
+    std::array<Vector, n_sectors> sums{}, wide_sums{};
     double depth = 0;
-    const double reach = band_share * part.radius();
+    const double reach = band_share * part.radius(), wide_reach = wide_band_share * part.radius();
     while (!queue.empty()) {
       const auto [distance, i] = queue.top();
       queue.pop();
       if (view(stamp_)[i] == stamp) continue;
       view(stamp_)[i] = stamp;
       const Vector off = view(centres_)[i] - part.plane.point;
-      const double turn = std::atan2(dot(off, second), dot(off, first)) / (2 * pi) + 0.5;
+      const double turn = std::atan2(dot(off, second), dot(off, first)) / (2 * half_turn) + 0.5;
       const std::size_t sector = std::min(n_sectors - 1, static_cast<std::size_t>(turn * n_sectors));
-      sums[sector] = sums[sector] + view(areas_)[i] * view(normals_)[i];
-      depth -= view(areas_)[i] * dot(off, part.plane.normal);
+      const Vector area = view(areas_)[i] * view(normals_)[i];
+      wide_sums[sector] = wide_sums[sector] + area;
+      if (distance <= reach) {
+        sums[sector] = sums[sector] + area;
+        depth -= view(areas_)[i] * dot(off, part.plane.normal);
+      }
       for (const std::int64_t beyond : view(neighbours_)[i]) {
         const double further = distance + norm(view(centres_)[beyond] - view(centres_)[i]);
-        if (view(stamp_)[beyond] != stamp && further <= reach) queue.emplace(further, beyond);
+        if (view(stamp_)[beyond] != stamp && further <= wide_reach) queue.emplace(further, beyond);
       }
     }
     part.is_behind = depth > 0;
-    part.least_angle = std::numeric_limits<double>::infinity();
-    double n = 0;
-    part.mean_angle = 0;
+    part.mean_angle = mean_angle_of(sums, part.plane.normal, &part.least_angle);
+    part.wide_angle = mean_angle_of(wide_sums, part.plane.normal, nullptr);
+  }
+
+  static double mean_angle_of(const std::array<Vector, n_sectors> &sums, const Vector &normal, double *least) {
+    double n = 0, total = 0, smallest = 180;
     for (const Vector &sum : sums) {
       if (norm(sum) == 0) continue;
-      const double angle = degrees_between(sum, part.plane.normal);
-      part.mean_angle += angle;
-      part.least_angle = std::min(part.least_angle, angle);
+      const double angle = degrees_between(sum, normal);
+      total += angle;
+      smallest = std::min(smallest, angle);
       n += 1;
     }
-    if (n > 0) part.mean_angle /= n;
+    if (least != nullptr) *least = smallest;
+    return n > 0 ? total / n : 0;
   }
 
   // Returns the number of lines that edges form.
@@ -329,11 +343,22 @@ class EndFinder {
     }
     for (std::size_t i = 0; i < parts.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
-        if (!parts[i].is_sharp() || !parts[j].is_sharp() || parts[j].area > most_apart * parts[i].area) continue;
+        if (!parts[i].is_sharp() || !parts[j].is_sharp()) continue;
         const bool touches = std::any_of(vertices[i].begin(), vertices[i].end(),
                                          [&](std::int64_t id) { return vertices[j].count(id) > 0; });
-        if (touches) parts[i].is_touching = parts[j].is_touching = true;
+        if (!touches) continue;
+        // A small part at the rim of an end is a facet of the wall there.
+        parts[i].is_touching = true;
+        if (parts[j].area <= most_apart * parts[i].area) parts[j].is_touching = true;
       }
+  }
+
+  static void mark_facets(std::vector<FlatPart> &parts) {
+    double largest = 0;
+    for (const FlatPart &part : parts)
+      if (part.is_clear()) largest = std::max(largest, part.area);
+    for (FlatPart &part : parts)
+      part.is_facet = part.area < small_share * largest && (part.n_sides < least_sides || part.wide_angle < clear_mean);
   }
 
   const ClosedSurface &surface_;
@@ -347,9 +372,9 @@ class EndFinder {
 };
 
 // Chooses the ends among the flat parts.
-class Choice {
+class EndChoice {
  public:
-  Choice(const std::string &path, const ClosedSurface &surface, const EndPoints &points)
+  EndChoice(const std::string &path, const ClosedSurface &surface, const EndPoints &points)
       : path_(path), surface_(surface), finder_(surface), parts_(finder_.find()) {
     if (points.inlet) choose("--inlet", *points.inlet, "inlet");
     for (const Vector &outlet : points.outlets) choose("--outlet", outlet, name_of_outlet(n_outlets_++));
@@ -383,6 +408,7 @@ class Choice {
         wall.remarks.push_back(path_ + ": the surface is open at " + place(part) +
                                ", and is closed there by a flat end");
     }
+    remark_unclear(wall);
     return wall;
   }
 
@@ -403,6 +429,19 @@ class Choice {
   static bool overlap(const FlatPart &a, const FlatPart &b) {
     const std::set<std::int64_t> of_a(a.triangles.begin(), a.triangles.end());
     return std::any_of(b.triangles.begin(), b.triangles.end(), [&](std::int64_t i) { return of_a.count(i) > 0; });
+  }
+
+  // Says which flat part would be the next end. The parts are sorted by area.
+  void remark_unclear(PatientWall &wall) const {
+    const auto is_unclear = [&](const FlatPart &part) {
+      return part.is_large && part.is_disc() && !part.is_facet && part.area > small_share * wall.ends[0].area &&
+             !is_chosen(part);
+    };
+    const auto found = std::find_if(parts_.begin(), parts_.end(), is_unclear);
+    if (found == parts_.end()) return;
+    wall.remarks.push_back(path_ + ": the flat part at " + place(*found) + " with area " +
+                           printed("%.3g", found->area) +
+                           " is taken as wall; if it is an end, name all ends by --inlet=X,Y,Z --outlet=X,Y,Z");
   }
 
   // Takes the clear ends that no point chose.
@@ -494,7 +533,7 @@ class Choice {
 
 PatientWall read_patient_wall(const std::string &path, const EndPoints &points) {
   const ClosedSurface surface = read_closed_surface(path);
-  return Choice(path, surface, points).result();
+  return EndChoice(path, surface, points).result();
 }
 
 void scale_wall(PatientWall &wall, double factor) {
@@ -510,7 +549,7 @@ void scale_wall(PatientWall &wall, double factor) {
 
 namespace {
 
-Triangles surface_of(const PatientWall &wall) {
+Triangles triangles_in(const PatientWall &wall) {
   Triangles triangles;
   for (std::size_t i = 0; i < wall.xyz.size(); i += 3)
     triangles.points.push_back({wall.xyz[i], wall.xyz[i + 1], wall.xyz[i + 2]});
@@ -520,7 +559,7 @@ Triangles surface_of(const PatientWall &wall) {
 }
 
 // Returns whether the point lies inside: the triangles cover the whole sphere of directions.
-bool is_inside(const Triangles &triangles, const Vector &point) {
+bool is_in_wall(const Triangles &triangles, const Vector &point) {
   double angle = 0;
   for (std::int64_t i = 0; i < triangles.n(); ++i) {
     Vector to[3];
@@ -533,11 +572,11 @@ bool is_inside(const Triangles &triangles, const Vector &point) {
         2 * std::atan2(dot(to[0], cross(to[1], to[2])), far[0] * far[1] * far[2] + dot(to[0], to[1]) * far[2] +
                                                             dot(to[1], to[2]) * far[0] + dot(to[2], to[0]) * far[1]);
   }
-  return angle > 2 * pi;
+  return angle > 2 * half_turn;
 }
 
 // Returns the first triangle on a ray from inside, or -1.
-std::int64_t first_hit(const Triangles &triangles, const Vector &from, const Vector &direction) {
+std::int64_t first_wall_hit(const Triangles &triangles, const Vector &from, const Vector &direction) {
   std::int64_t hit = -1;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::int64_t i = 0; i < triangles.n(); ++i) {
@@ -556,7 +595,7 @@ std::int64_t first_hit(const Triangles &triangles, const Vector &from, const Vec
 }
 
 // Returns the end that is first on the way along the edges from a triangle, among those without a name.
-std::int32_t first_end(const PatientWall &wall, const Triangles &triangles, std::int64_t from) {
+std::int32_t first_end_from(const PatientWall &wall, const Triangles &triangles, std::int64_t from) {
   if (view(wall.end_of)[from] >= 0) return view(wall.end_of)[from];
   std::vector<std::vector<std::int64_t>> beside(triangles.points.size());
   std::vector<std::int32_t> end_at(triangles.points.size(), -1);
@@ -595,13 +634,13 @@ void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std
     return std::any_of(wall.ends.begin(), wall.ends.end(), [&](const FlatEnd &end) { return end.name == name; });
   };
   if (!has_name("inlet")) {
-    const Triangles triangles = surface_of(wall);
-    if (!is_inside(triangles, centre))
+    const Triangles triangles = triangles_in(wall);
+    if (!is_in_wall(triangles, centre))
       refuse_data(
           wall.path + ": the valve's centre, " + point_text(centre, wall.size) +
           ", lies outside the wall; landmarks and wall may have different units or axes, or be of two patients");
-    const std::int64_t hit = first_hit(triangles, centre, -1 * unit_vector(flow));
-    view(wall.ends)[hit < 0 ? 0 : first_end(wall, triangles, hit)].name = "inlet";
+    const std::int64_t hit = first_wall_hit(triangles, centre, -1 * unit_vector(flow));
+    view(wall.ends)[hit < 0 ? 0 : first_end_from(wall, triangles, hit)].name = "inlet";
   }
   int n_outlets = 0;
   for (const FlatEnd &end : wall.ends) n_outlets += !end.name.empty() && end.name != "inlet";
@@ -613,7 +652,7 @@ void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std
 }
 
 void write_wall(const PatientWall &wall, const std::string &path) {
-  const Triangles triangles = surface_of(wall);
+  const Triangles triangles = triangles_in(wall);
   std::string text("riis");
   text.resize(80, ' ');
   const auto add = [&](const auto &number) { text.append(reinterpret_cast<const char *>(&number), sizeof number); };

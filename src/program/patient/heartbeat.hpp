@@ -10,6 +10,8 @@ inline constexpr double mmHg = 133.322;         // Pa
 inline constexpr double beat_period = 0.8;      // s
 inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and in which it closes
 inline constexpr double opening_pressure = 50;  // Pa; above it, rounding cannot open a valve between equal pressures
+inline constexpr double closing_flow_of_mitral =
+    1e-4;  // m3/s; below it a mitral valve closes, so that less blood returns
 
 // A pressure in time, linear between its keys. It repeats after beat_period.
 struct PressureCurve {

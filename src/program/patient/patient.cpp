@@ -456,7 +456,7 @@ class PatientRun {
     for (const auto &[opening, name] : {std::pair<std::string, std::string>{"0", "closed"}, {"1", "open"}}) {
       const Words words = with_valve({"mark", "mesh.msh"}, {"--opening", opening, "--output", name + ".vtu"});
       Words with_picture = words;
-      with_picture.insert(with_picture.end(), {"--picture", name + ".png"});
+      with_picture.insert(with_picture.end(), {"--picture", name + ".png", "--view", "valve-oblique"});
       run_with_picture(name + "_marks", with_picture, words, name + ".vtu", name + ".png");
     }
   }
@@ -484,7 +484,7 @@ class PatientRun {
                                "--interpolation", "cubic", "--times", beat.times, "--output", "beat.pvd",
                                "--surface-output", "leaflets.pvd", "--series-table", "beat_table.csv"});
     Words with_movie = words;
-    with_movie.insert(with_movie.end(), {"--movie", "beat.mp4", "--frame-rate", "6"});
+    with_movie.insert(with_movie.end(), {"--movie", "beat.mp4", "--movie-view", "valve-oblique", "--frame-rate", "6"});
     run_with_picture("beat", with_movie, words, "beat.pvd, leaflets.pvd, beat_table.csv", "beat.mp4");
   }
 

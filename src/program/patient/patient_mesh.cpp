@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "program/base/handles.hpp"
 #include "program/base/other_program.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
@@ -29,6 +30,12 @@ namespace fs = std::filesystem;
 
 // An end of the new surface may differ by this share in area: the rim has longer edges than before.
 constexpr double most_area_change = 0.05;
+// The edge length in the middle of an end, as a share of its radius: the rim of the end then has at least sixteen edges.
+constexpr double end_edge_share = 0.35;
+// gmsh gets so many seconds, and so many for each triangle. A surface that it cannot make anew may keep it busy for hours.
+constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
+// The wall goes through itself if triangles overlap by more than this share of its size.
+constexpr double least_crossing_share = 1e-5;
 // So many triangles of a new patch are compared with the wall.
 constexpr std::size_t n_compared = 9;
 
@@ -143,13 +150,13 @@ class GmshText {
 };
 constexpr int gmsh_line = 1, gmsh_triangle = 2, gmsh_tetrahedron = 4;
 
-std::string data_array(const std::string &type, const std::string &name, const std::string &numbers,
-                       int n_components = 1) {
+std::string vtk_array(const std::string &type, const std::string &name, const std::string &numbers,
+                      int n_components = 1) {
   return "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(n_components) +
          "\" format=\"ascii\">\n" + numbers + "</DataArray>\n";
 }
 
-std::string lines_of(const std::vector<std::int64_t> &numbers) {
+std::string id_lines(const std::vector<std::int64_t> &numbers) {
   std::string text;
   for (const std::int64_t number : numbers) text += std::to_string(number) + "\n";
   return text;
@@ -157,9 +164,9 @@ std::string lines_of(const std::vector<std::int64_t> &numbers) {
 
 // Returns a file of VTK with the arrays that SimVascular's meshes have. Ids count from 1.
 template <class Cell>
-std::string vtk_text(const std::vector<Vector> &points, const std::vector<std::int64_t> &node_ids,
-                     const std::vector<Cell> &cells, const std::vector<std::int64_t> &element_ids,
-                     const std::string &group_array, std::int64_t group) {
+std::string vtk_file_text(const std::vector<Vector> &points, const std::vector<std::int64_t> &node_ids,
+                          const std::vector<Cell> &cells, const std::vector<std::int64_t> &element_ids,
+                          const std::string &group_array, std::int64_t group) {
   const bool is_volume = std::tuple_size_v<Cell> == 4;
   const std::string kind = is_volume ? "UnstructuredGrid" : "PolyData", part = is_volume ? "Cells" : "Polys";
   std::string places, connectivity, offsets, types, groups;
@@ -174,11 +181,11 @@ std::string vtk_text(const std::vector<Vector> &points, const std::vector<std::i
   return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind + "\" version=\"0.1\" byte_order=\"LittleEndian\">\n<" +
          kind + ">\n<Piece NumberOfPoints=\"" + std::to_string(points.size()) + "\" NumberOf" +
          (is_volume ? "Cells" : "Polys") + "=\"" + std::to_string(cells.size()) + "\">\n<PointData>\n" +
-         data_array("Int32", "GlobalNodeID", lines_of(node_ids)) + "</PointData>\n<CellData>\n" +
-         data_array("Int32", "GlobalElementID", lines_of(element_ids)) + data_array("Int32", group_array, groups) +
-         "</CellData>\n<Points>\n" + data_array("Float64", "Points", places, 3) + "</Points>\n<" + part + ">\n" +
-         data_array("Int64", "connectivity", connectivity) + data_array("Int64", "offsets", offsets) +
-         (is_volume ? data_array("UInt8", "types", types) : "") + "</" + part + ">\n</Piece>\n</" + kind +
+         vtk_array("Int32", "GlobalNodeID", id_lines(node_ids)) + "</PointData>\n<CellData>\n" +
+         vtk_array("Int32", "GlobalElementID", id_lines(element_ids)) + vtk_array("Int32", group_array, groups) +
+         "</CellData>\n<Points>\n" + vtk_array("Float64", "Points", places, 3) + "</Points>\n<" + part + ">\n" +
+         vtk_array("Int64", "connectivity", connectivity) + vtk_array("Int64", "offsets", offsets) +
+         (is_volume ? vtk_array("UInt8", "types", types) : "") + "</" + part + ">\n</Piece>\n</" + kind +
          ">\n</VTKFile>\n";
 }
 
@@ -199,17 +206,17 @@ std::string last_error_in(const std::string &log) {
 }
 
 // The names and the physical groups of the boundaries: the inlet, the outlets and the wall.
-struct Group {
+struct BoundaryGroup {
   std::string name;
   std::int32_t end;  // the position of the end, or -1 for the wall
 };
 
-std::vector<Group> groups_of(const PatientWall &wall) {
-  std::vector<Group> groups;
+std::vector<BoundaryGroup> boundary_groups(const PatientWall &wall) {
+  std::vector<BoundaryGroup> groups;
   for (std::size_t i = 0; i < wall.ends.size(); ++i)
     groups.push_back({wall.ends[i].name, static_cast<std::int32_t>(i)});
   // The inlet comes first, then outlet, outlet_2 and so on.
-  std::sort(groups.begin(), groups.end(), [](const Group &a, const Group &b) {
+  std::sort(groups.begin(), groups.end(), [](const BoundaryGroup &a, const BoundaryGroup &b) {
     return std::make_pair(a.name.size(), a.name) < std::make_pair(b.name.size(), b.name);
   });
   groups.push_back({"wall", -1});
@@ -219,7 +226,7 @@ std::vector<Group> groups_of(const PatientWall &wall) {
 class PatientMesher {
  public:
   PatientMesher(const PatientWall &wall, const PatientMeshOptions &options)
-      : wall_(wall), options_(options), groups_(groups_of(wall)), gmsh_folder_(options.folder + "/gmsh") {
+      : wall_(wall), options_(options), groups_(boundary_groups(wall)), gmsh_folder_(options.folder + "/gmsh") {
     for (std::size_t i = 0; i < wall.xyz.size(); i += 3)
       old_.points.push_back({wall.xyz[i], wall.xyz[i + 1], wall.xyz[i + 2]});
     for (std::size_t i = 0; i < wall.corners.size(); i += 3)
@@ -252,15 +259,35 @@ class PatientMesher {
       refuse_usage(field +
                    ": gmsh does not read a path with a quotation mark, a backslash or a line break: choose "
                    "another folder");
-    return "Field[1] = Structured;\nField[1].FileName = \"" + field +
-           "\";\nField[1].TextFormat = 1;\nField[1].SetOutsideValue = 1;\nField[1].OutsideValue = " +
-           shortest(options_.largest_edge) +
-           ";\nBackground Field = 1;\nMesh.MeshSizeExtendFromBoundary = 0;\nMesh.MeshSizeFromPoints = 0;\n"
+    std::string text = "Field[1] = Structured;\nField[1].FileName = \"" + field +
+                       "\";\nField[1].TextFormat = 1;\nField[1].SetOutsideValue = 1;\nField[1].OutsideValue = " +
+                       shortest(options_.largest_edge) + ";\n";
+    // The edges at a small end are shorter than elsewhere, and grow with the distance from it.
+    int n_fields = 1;
+    for (const FlatEnd &end : wall_.ends) {
+      const double radius = std::sqrt(end.area / 3.14159265358979323846), edge = end_edge_share * radius;
+      if (edge >= options_.largest_edge) continue;
+      const std::string field_text = "Field[" + std::to_string(++n_fields) + "]";
+      std::string squares;
+      for (std::size_t k = 0; k < 3; ++k)
+        squares += std::string(k == 0 ? "" : " + ") + "(" + "xyz"[k] + " - (" + shortest(end.centre[k]) + "))^2";
+      text += "// " + end.name + "\n" + field_text + " = MathEval;\n" + field_text + ".F = \"" + shortest(edge) +
+              " * (1 + (" + squares + ")^1.5 / " + shortest(std::pow(2 * radius, 3)) + ")\";\n";
+    }
+    if (n_fields > 1) {
+      text += "Field[" + std::to_string(n_fields + 1) + "] = Min;\nField[" + std::to_string(n_fields + 1) +
+              "].FieldsList = {";
+      for (int i = 1; i <= n_fields; ++i) text += (i == 1 ? "" : ", ") + std::to_string(i);
+      text += "};\n";
+      ++n_fields;
+    }
+    return text + "Background Field = " + std::to_string(n_fields) +
+           ";\nMesh.MeshSizeExtendFromBoundary = 0;\nMesh.MeshSizeFromPoints = 0;\n"
            "Mesh.MeshSizeFromCurvature = 0;\n";
   }
 
   // Runs gmsh on a .geo file. Refuses with its last error if it does not write the mesh. `cure` follows that error.
-  GmshMesh run_gmsh(const std::string &dimension, const std::string &geo, const std::string &mesh,
+  GmshMesh run_gmsh(double seconds, const std::string &dimension, const std::string &geo, const std::string &mesh,
                     const std::string &cure) {
     const std::string log = in_gmsh(fs::path(geo).stem().string() + ".log");
     std::error_code ignored;
@@ -269,13 +296,22 @@ class PatientMesher {
     const std::vector<std::string> words{"gmsh", dimension, "-nt",   "1",  "-v", "4", "-log",
                                          log,    "-format", "msh22", "-o", mesh, geo};
     options_.announce(joined_by(words, " "));
-    const ProgramEnd end = run_program(words);
+    std::vector<std::string> limited{"timeout", "--foreground", printed("%.0f", seconds)};
+    limited.insert(limited.end(), words.begin(), words.end());
+    const ProgramEnd end = run_program(limited);
+    constexpr int at_limit = 124, signal_status = 128;  // timeout's status at the limit, and its least after a signal
+    if (end.status == at_limit)
+      refuse_data("gmsh did not end within " + printed("%.0f", seconds) + " seconds (" + log + "); " + crossing_text() +
+                  cure);
     if (end.error != 0) refuse_data("gmsh: cannot be run: " + system_text(end.error));
     const std::string log_text = fs::exists(log, ignored) ? text_of_file(log) : "";
     const std::string error = last_error_in(log_text);
-    const std::string why = !error.empty() ? error : end.status < 0 ? "a signal ended it" : end.last_message;
+    const std::string why = !error.empty()                                 ? error
+                            : end.status < 0 || end.status > signal_status ? "a signal ended it"
+                                                                           : end.last_message;
     if (!error.empty() || end.status != 0 || !fs::exists(mesh, ignored))
-      refuse_data("gmsh fails: " + (why.empty() ? "it writes no mesh" : why) + " (" + log + "); " + cure);
+      refuse_data("gmsh fails: " + (why.empty() ? "it writes no mesh" : why) + " (" + log + "); " + crossing_text() +
+                  cure);
     made_.written.push_back(log);
     return GmshReader(mesh).read();
   }
@@ -287,7 +323,8 @@ class PatientMesher {
                "// The wall has a surface for each end, and its rims as lines, so no angle is needed.\n"
                "Merge \"wall.msh\";\nClassifySurfaces{Pi, 1, 1, Pi};\nCreateGeometry;\n" +
                    size_lines());
-    surface_ = run_gmsh("-2", in_gmsh("surface.geo"), in_gmsh("surface.msh"), cure_of_surface());
+    surface_ = run_gmsh(least_seconds + seconds_per_triangle * static_cast<double>(old_.n()), "-2",
+                        in_gmsh("surface.geo"), in_gmsh("surface.msh"), cure_of_surface());
     name_patches();
     check_closed(surface_);
     check_ends(surface_);
@@ -299,6 +336,33 @@ class PatientMesher {
   std::string cure_of_surface() const {
     return "look for overlapping triangles in " + wall_.path +
            ", and repair or smooth it, as by Surface Toolbox of 3D Slicer";
+  }
+
+  // Says where the wall goes through itself, or "". This is what gmsh fails at most often.
+  std::string crossing_text() const {
+    auto arrays = defaults<riis_surface_arrays>();
+    arrays.n_vertices = static_cast<std::int64_t>(old_.points.size());
+    arrays.x = wall_.xyz.data();
+    arrays.y = wall_.xyz.data() + 1;
+    arrays.z = wall_.xyz.data() + 2;
+    arrays.stride = 3;
+    arrays.real_bits = 64;
+    arrays.n_faces = old_.n();
+    arrays.vertex_ids = wall_.corners.data();
+    arrays.id_bits = 64;
+    auto how = defaults<riis_surface_options>();
+    how.half_thickness = least_crossing_share * wall_.size;
+    how.zero_area = RIIS_ZERO_AREA_SKIP;
+    auto depth = defaults<riis_crossing_options>();
+    depth.depth = 1;
+    const auto surface = create_for<Surface>(wall_.path, riis_surface_create_from_arrays, &arrays, &how);
+    const auto crossings = create<Crossings>(riis_crossings_create);
+    check(riis_find_crossings(surface, &depth, crossings));
+    const auto found = get<riis_crossing_list>(riis_crossings_get_list, crossings);
+    if (found.n_pairs == 0) return "";
+    const Vector deepest{found.deepest_point[0], found.deepest_point[1], found.deepest_point[2]};
+    return "the wall goes through itself at " + counted(found.n_pairs, "pair") + " of triangles, the deepest at " +
+           point_text(deepest, wall_.size) + " in the mesh's unit; ";
   }
 
   std::string text_of_wall() const {
@@ -398,8 +462,7 @@ class PatientMesher {
                    ") = {1};\n// Delaunay keeps close to the size field.\nMesh.Algorithm3D = 1;\n"
                    "Mesh.Binary = 0;\n" +
                    size_lines());
-    mesh_ = run_gmsh("-3", in_gmsh("volume.geo"), in_gmsh("volume.msh"),
-                     "the wall may go through itself: look at " + wall_.path + " there, and repair or smooth it");
+    mesh_ = run_gmsh(24 * 3600, "-3", in_gmsh("volume.geo"), in_gmsh("volume.msh"), cure_of_surface());
     if (mesh_.cells.empty())
       refuse_data("gmsh made no tetrahedra (" + in_gmsh("volume.log") + "); " + cure_of_surface());
     measure_cells();
@@ -499,7 +562,7 @@ class PatientMesher {
     std::vector<std::int64_t> node_ids, element_ids;
     for (std::int64_t i = 1; i <= made_.n_nodes; ++i) node_ids.push_back(i);
     for (std::int64_t i = 1; i <= made_.n_cells; ++i) element_ids.push_back(i);
-    write_file("mesh.vtu", vtk_text(mesh_.points, node_ids, mesh_.cells, element_ids, "ModelRegionID", 1));
+    write_file("mesh.vtu", vtk_file_text(mesh_.points, node_ids, mesh_.cells, element_ids, "ModelRegionID", 1));
   }
 
   void write_boundary(std::size_t i) {
@@ -532,7 +595,7 @@ class PatientMesher {
     boundary.centre = 1 / boundary.area * boundary.centre;
     if (groups_[i].end >= 0) boundary.outward = unit_vector(sum);
     write_file("faces/" + boundary.name + ".vtp",
-               vtk_text(points, node_ids, corners, element_ids, "ModelFaceID", boundary.group));
+               vtk_file_text(points, node_ids, corners, element_ids, "ModelFaceID", boundary.group));
     made_.boundaries.push_back(boundary);
   }
 
@@ -543,7 +606,7 @@ class PatientMesher {
 
   const PatientWall &wall_;
   const PatientMeshOptions &options_;
-  const std::vector<Group> groups_;
+  const std::vector<BoundaryGroup> groups_;
   const std::string gmsh_folder_;
   Triangles old_;
   GmshMesh surface_, mesh_;
@@ -563,7 +626,7 @@ std::string require_gmsh() {
         "install gmsh' installs it");
   if (end.error != 0) refuse_data("gmsh: cannot be run: " + system_text(end.error));
   if (end.status != 0)
-    refuse_data("gmsh: 'gmsh --version' fails" + (end.last_message.empty() ? "" : ": " + end.last_message));
+    refuse_data("gmsh: it fails to tell its version" + (end.last_message.empty() ? "" : ": " + end.last_message));
   return version.empty() ? end.last_message : version;
 }
 

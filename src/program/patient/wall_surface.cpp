@@ -26,25 +26,30 @@ constexpr double island_share = 0.01;
 // A hole is flat if its rim is nearer to a plane than this share of the rim's width.
 constexpr double flat_hole_share = 0.02;
 
-constexpr const char *close_it = "close it, as by the filter Close Holes of MeshLab";
+// A triangle is thin if its height is below this share of the size. gmsh would go on for hours with such triangles. A side of a
+// thin triangle is short if it is below some heights.
+constexpr double thin_share = 2e-6, short_in_heights = 10;
+constexpr int most_thin_rounds = 20;
+
+constexpr const char *how_to_close = "close it, as by the filter Close Holes of MeshLab";
 
 // A side of a triangle, between two vertices a < b.
-struct Side {
+struct WallSide {
   std::int64_t a, b, triangle;
   std::size_t k;    // which side of the triangle
   bool is_forward;  // whether the triangle goes from a to b
 };
 
 // Returns the sides in the order of their edges, so that sides of one edge follow each other.
-std::vector<Side> sorted_sides(const std::vector<Corners> &corners) {
-  std::vector<Side> sides;
+std::vector<WallSide> sorted_wall_sides(const std::vector<Corners> &corners) {
+  std::vector<WallSide> sides;
   sides.reserve(3 * corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int64_t from = corners[i][k], to = corners[i][(k + 1) % 3];
       sides.push_back({std::min(from, to), std::max(from, to), static_cast<std::int64_t>(i), k, from < to});
     }
-  std::sort(sides.begin(), sides.end(), [](const Side &s, const Side &t) {
+  std::sort(sides.begin(), sides.end(), [](const WallSide &s, const WallSide &t) {
     return std::tie(s.a, s.b, s.triangle) < std::tie(t.a, t.b, t.triangle);
   });
   return sides;
@@ -52,7 +57,7 @@ std::vector<Side> sorted_sides(const std::vector<Corners> &corners) {
 
 // Calls `visit` with the first side and the number of sides of each edge.
 template <class Visit>
-void for_each_edge(const std::vector<Side> &sides, const Visit &visit) {
+void for_each_wall_edge(const std::vector<WallSide> &sides, const Visit &visit) {
   for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
     while (end < sides.size() && sides[end].a == sides[i].a && sides[end].b == sides[i].b) ++end;
     visit(&sides[i], end - i);
@@ -60,15 +65,16 @@ void for_each_edge(const std::vector<Side> &sides, const Visit &visit) {
 }
 
 // Repairs a surface step by step.
-class Repair {
+class WallRepair {
  public:
-  explicit Repair(const std::string &path) : path_(path) {
+  explicit WallRepair(const std::string &path) : path_(path) {
     read();
     join_equal_points();
     join_near_points();
     keep_one_piece();
     refuse_forks();
     turn_alike();
+    repair_thin();
     close_holes();
     refuse_touching_points();
     turn_outwards();
@@ -155,7 +161,7 @@ class Repair {
   // Joins vertices of open sides that are so near that only rounding parts them.
   void join_near_points() {
     std::vector<std::int64_t> open;
-    for_each_edge(sorted_sides(corners()), [&](const Side *side, std::size_t n) {
+    for_each_wall_edge(sorted_wall_sides(corners()), [&](const WallSide *side, std::size_t n) {
       if (n == 1) open.insert(open.end(), {side->a, side->b});
     });
     std::sort(open.begin(), open.end());
@@ -185,7 +191,7 @@ class Repair {
   void keep_one_piece() {
     const std::int64_t n = made_.triangles.n();
     DisjointSets sets(n);
-    for_each_edge(sorted_sides(corners()), [&](const Side *side, std::size_t n_sides) {
+    for_each_wall_edge(sorted_wall_sides(corners()), [&](const WallSide *side, std::size_t n_sides) {
       for (std::size_t i = 1; i < n_sides; ++i) sets.unite(side[0].triangle, side[i].triangle);
     });
     struct Piece {
@@ -234,7 +240,7 @@ class Repair {
   void refuse_forks() const {
     std::int64_t n_forks = 0, n_most = 0;
     Vector place{};
-    for_each_edge(sorted_sides(made_.triangles.corners), [&](const Side *side, std::size_t n) {
+    for_each_wall_edge(sorted_wall_sides(made_.triangles.corners), [&](const WallSide *side, std::size_t n) {
       if (n <= 2) return;
       if (++n_forks == 1) {
         n_most = static_cast<std::int64_t>(n);
@@ -255,7 +261,7 @@ class Repair {
       bool is_turned;
     };
     std::vector<std::array<Neighbour, 3>> beyond(corners().size(), {{{-1, false}, {-1, false}, {-1, false}}});
-    for_each_edge(sorted_sides(corners()), [&](const Side *side, std::size_t n_sides) {
+    for_each_wall_edge(sorted_wall_sides(corners()), [&](const WallSide *side, std::size_t n_sides) {
       if (n_sides != 2) return;
       const bool is_turned = side[0].is_forward == side[1].is_forward;
       view(beyond)[side[0].triangle][side[0].k] = {side[1].triangle, is_turned};
@@ -287,18 +293,136 @@ class Repair {
     }
   }
 
-  // A line of open sides that ends where it begins. The triangles are on its left.
-  using Loop = std::vector<std::int64_t>;
+  double height_of(const Corners &corner) const {
+    const auto &all = made_.triangles.points;
+    const Vector &a = view(all)[corner[0]], &b = view(all)[corner[1]], &c = view(all)[corner[2]];
+    const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
+    return longest > 0 ? norm(cross(b - a, c - a)) / longest : 0;
+  }
 
-  std::vector<Loop> open_loops() const {
+  // Repairs thin triangles: joins the ends of short sides, and gives the longest side the other diagonal.
+  void repair_thin() {
+    least_height_ = thin_share * made_.triangles.size();
+    std::int64_t n_repaired = 0;
+    for (int round = 0; round < most_thin_rounds; ++round) {
+      const std::int64_t n = repair_some_thin();
+      n_repaired += n;
+      if (n == 0) break;
+    }
+    if (n_repaired > 0)
+      remark(counted(n_repaired, "triangle") + (n_repaired == 1 ? " has" : " have") + " hardly any height, and " +
+             (n_repaired == 1 ? "is" : "are") + " repaired");
+  }
+
+  // Repairs thin triangles that share no vertex with one that was repaired before. Returns how many.
+  std::int64_t repair_some_thin() {
+    std::vector<std::int64_t> thin;
+    for (std::int64_t i = 0; i < made_.triangles.n(); ++i)
+      if (height_of(view(corners())[i]) < least_height_) thin.push_back(i);
+    if (thin.empty()) return 0;
+    of_side_.clear();
+    around_.assign(points().size(), {});
+    is_locked_.assign(points().size(), 0);
+    for (std::int64_t i = 0; i < made_.triangles.n(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Corners &corner = view(corners())[i];
+        of_side_[{corner[k], corner[(k + 1) % 3]}] = i;
+        view(around_)[corner[k]].push_back(i);
+      }
+    std::int64_t n = 0;
+    for (const std::int64_t i : thin) {
+      const Corners corner = view(corners())[i];
+      if (corner[0] < 0 || is_locked(corner)) continue;
+      std::size_t shortest = 0, longest = 0;
+      const auto length = [&](std::size_t k) {
+        return norm(view(points())[corner[(k + 1) % 3]] - view(points())[corner[k]]);
+      };
+      for (std::size_t k = 1; k < 3; ++k) {
+        if (length(k) < length(shortest)) shortest = k;
+        if (length(k) > length(longest)) longest = k;
+      }
+      const bool is_short = length(shortest) < short_in_heights * least_height_;
+      n += is_short && join_side(corner[shortest], corner[(shortest + 1) % 3]);
+      if (!is_short) n += flip_side(i, longest);
+    }
+    std::vector<Corners> kept;
+    std::vector<char> kept_turned;
+    for (std::int64_t i = 0; i < made_.triangles.n(); ++i) {
+      if (view(corners())[i][0] < 0) continue;
+      kept.push_back(view(corners())[i]);
+      kept_turned.push_back(view(is_turned_)[i]);
+    }
+    corners() = std::move(kept);
+    is_turned_ = std::move(kept_turned);
+    leave_out_points();
+    return n;
+  }
+
+  bool is_locked(const Corners &corner) const {
+    return std::any_of(corner.begin(), corner.end(), [&](std::int64_t id) { return view(is_locked_)[id] != 0; });
+  }
+  void lock(const Corners &corner) {
+    for (const std::int64_t id : corner) view(is_locked_)[id] = 1;
+  }
+
+  // Moves the end b of a side to its other end a. Returns whether the surface allows it.
+  bool join_side(std::int64_t a, std::int64_t b) {
+    const auto left = of_side_.find({a, b}), right = of_side_.find({b, a});
+    if (left == of_side_.end() || right == of_side_.end()) return false;
+    std::set<std::int64_t> beside_a, common;
+    for (const std::int64_t i : view(around_)[a])
+      for (const std::int64_t id : view(corners())[i]) beside_a.insert(id);
+    for (const std::int64_t i : view(around_)[b]) {
+      if (is_locked(view(corners())[i])) return false;
+      for (const std::int64_t id : view(corners())[i])
+        if (id != a && id != b && beside_a.count(id) > 0) common.insert(id);
+    }
+    constexpr std::size_t n_common = 2;  // with more, parts of the surface would touch
+    if (common.size() != n_common) return false;
+    for (const std::int64_t i : view(around_)[b]) {
+      lock(view(corners())[i]);
+      for (std::int64_t &id : view(corners())[i])
+        if (id == b) id = a;
+    }
+    for (const std::int64_t i : view(around_)[a])
+      if (i != left->second && i != right->second) lock(view(corners())[i]);
+    view(corners())[left->second] = view(corners())[right->second] = {-1, -1, -1};
+    return true;
+  }
+
+  // Gives the quad on both sides of a side its other diagonal. Returns whether the triangles get higher.
+  bool flip_side(std::int64_t i, std::size_t k) {
+    const Corners corner = view(corners())[i];
+    const std::int64_t a = corner[k], b = corner[(k + 1) % 3], c = corner[(k + 2) % 3];
+    const auto beyond = of_side_.find({b, a});
+    if (beyond == of_side_.end()) return false;
+    const Corners other = view(corners())[beyond->second];
+    if (is_locked(other)) return false;
+    const std::int64_t d = other[0] != a && other[0] != b   ? other[0]
+                           : other[1] != a && other[1] != b ? other[1]
+                                                            : other[2];
+    if (of_side_.count({c, d}) > 0 || of_side_.count({d, c}) > 0) return false;
+    const Corners one{a, d, c}, two{d, b, c};
+    if (std::min(height_of(one), height_of(two)) <= height_of(corner)) return false;
+    view(corners())[i] = one;
+    view(corners())[beyond->second] = two;
+    lock(one);
+    lock(two);
+    return true;
+  }
+
+  // A line of open sides that ends where it begins. The triangles are on its left.
+  using RimLoop = std::vector<std::int64_t>;
+
+  std::vector<RimLoop> open_loops() const {
     std::multimap<std::int64_t, std::int64_t> next;
-    for_each_edge(sorted_sides(made_.triangles.corners), [&](const Side *side, std::size_t n) {
+    for_each_wall_edge(sorted_wall_sides(made_.triangles.corners), [&](const WallSide *side, std::size_t n) {
       if (n != 1) return;
       next.emplace(side->is_forward ? side->a : side->b, side->is_forward ? side->b : side->a);
     });
-    std::vector<Loop> loops;
+    std::vector<RimLoop> loops;
     while (!next.empty()) {
-      Loop loop;
+      RimLoop loop;
       for (auto found = next.begin(); found != next.end(); found = next.find(loop.back())) {
         if (loop.empty()) loop.push_back(found->first);
         loop.push_back(found->second);
@@ -313,8 +437,8 @@ class Repair {
 
   // Closes holes whose rims are flat. Whether these are ends is decided later. Refuses other holes.
   void close_holes() {
-    const std::vector<Loop> loops = open_loops();
-    for (const Loop &loop : loops) {
+    const std::vector<RimLoop> loops = open_loops();
+    for (const RimLoop &loop : loops) {
       Vector centre{}, area{};
       double length = 0, off = 0, width = 0;
       for_each_side(loop, [&](const Vector &p, const Vector &q) {
@@ -341,29 +465,29 @@ class Repair {
   }
 
   template <class Visit>
-  void for_each_side(const Loop &loop, const Visit &visit) const {
+  void for_each_side(const RimLoop &loop, const Visit &visit) const {
     const auto &all = made_.triangles.points;
     for (std::size_t i = 0; i < loop.size(); ++i) visit(view(all)[loop[i]], view(all)[loop[(i + 1) % loop.size()]]);
   }
 
-  [[noreturn]] void refuse_hole(std::size_t n_holes, const Loop &loop, const Vector &centre, bool is_flat,
+  [[noreturn]] void refuse_hole(std::size_t n_holes, const RimLoop &loop, const Vector &centre, bool is_flat,
                                 double off) const {
     refuse("the surface has " + counted(static_cast<std::int64_t>(n_holes), "hole") + ", one of " +
            counted(static_cast<std::int64_t>(loop.size()), "edge") + " at " + at(centre) +
            (is_flat ? ", whose rim is too wavy to be closed here: "
                     : ", whose rim is off its plane by " + shortest_of(off) + ": ") +
-           close_it + "; cut an open end flat, as by Plane Cut in the Dynamic Modeler of 3D Slicer");
+           how_to_close + "; cut an open end flat, as by Plane Cut in the Dynamic Modeler of 3D Slicer");
   }
 
   // Refuses vertices at which two parts of the surface touch.
   void refuse_touching_points() const {
     const auto &all = made_.triangles.corners;
     DisjointSets fans(3 * made_.triangles.n());  // the corners of triangles
-    const auto slot = [&](const Side &side, std::int64_t vertex) {
+    const auto slot = [&](const WallSide &side, std::int64_t vertex) {
       const Corners &of = view(all)[side.triangle];
       return 3 * side.triangle + (of[0] == vertex ? 0 : of[1] == vertex ? 1 : 2);
     };
-    for_each_edge(sorted_sides(all), [&](const Side *side, std::size_t n) {
+    for_each_wall_edge(sorted_wall_sides(all), [&](const WallSide *side, std::size_t n) {
       for (std::size_t i = 1; i < n; ++i) {
         fans.unite(slot(side[0], side->a), slot(side[i], side->a));
         fans.unite(slot(side[0], side->b), slot(side[i], side->b));
@@ -400,7 +524,12 @@ class Repair {
 
   const std::string &path_;
   ClosedSurface made_;
-  std::vector<char> is_turned_;  // of the file's triangles, without those of holes
+  double least_height_ = 0;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t>
+      of_side_;                                    // the triangle that has the side in this direction
+  std::vector<std::vector<std::int64_t>> around_;  // the triangles of each vertex
+  std::vector<char> is_locked_;                    // vertices beside a repair of this round
+  std::vector<char> is_turned_;                    // of the file's triangles, without those of holes
 };
 
 }  // namespace
@@ -444,20 +573,25 @@ double Triangles::volume() const {
 
 std::vector<Corners> neighbours_of(const Triangles &triangles) {
   std::vector<Corners> beyond(triangles.corners.size());
-  for_each_edge(sorted_sides(triangles.corners), [&](const Side *side, std::size_t) {
+  for_each_wall_edge(sorted_wall_sides(triangles.corners), [&](const WallSide *side, std::size_t) {
     view(beyond)[side[0].triangle][side[0].k] = side[1].triangle;
     view(beyond)[side[1].triangle][side[1].k] = side[0].triangle;
   });
   return beyond;
 }
 
-ClosedSurface read_closed_surface(const std::string &path) { return Repair(path).result(); }
+ClosedSurface read_closed_surface(const std::string &path) { return WallRepair(path).result(); }
 
 std::string point_text(const Vector &point, double size) {
   const int n_digits = std::clamp(static_cast<int>(std::ceil(3 - std::log10(std::max(size, 1e-300)))), 0, 17);
   const std::string format = "%." + std::to_string(n_digits) + "f";
-  return printed(format.c_str(), point[0]) + "," + printed(format.c_str(), point[1]) + "," +
-         printed(format.c_str(), point[2]);
+  const double step = std::pow(10, -n_digits);
+  std::string text;
+  for (const double x : point) {
+    const double shown = std::abs(x) < 0.5 * step ? 0 : x;  // never -0.00
+    text += (text.empty() ? "" : ",") + printed(format.c_str(), shown);
+  }
+  return text;
 }
 
 }  // namespace riis::program

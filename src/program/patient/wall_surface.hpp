@@ -32,8 +32,8 @@ struct Triangles {
   double volume() const;
 };
 
-// Returns for each triangle the triangles beyond its three sides. Side k goes from corner k to the next corner. Each side must have
-// exactly two triangles.
+// Returns for each triangle the triangles beyond its three sides. Side k goes from corner k to the next corner. Each side must
+// have exactly two triangles.
 std::vector<Corners> neighbours_of(const Triangles &triangles);
 
 // A hole that was flat enough to be closed by a fan of triangles.

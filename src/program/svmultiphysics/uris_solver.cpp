@@ -351,4 +351,23 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
   return half_thickness * integral;
 }
 
+std::optional<double> closed_area_in(const riis_vtk_mesh *file, const riis_surface *surface, double half_thickness,
+                                     std::int32_t n_threads) {
+  SolverMesh mesh;
+  try {
+    mesh = solver_mesh_of(file, "", 1);
+  } catch (const Refusal &) {
+    return std::nullopt;
+  }
+  double largest = 0;
+  for (std::int64_t e = 0; e < mesh.n_elements(); ++e)
+    for (std::size_t a = 1; a < mesh.element->n_nodes; ++a) {
+      const Point off = difference(mesh.point(mesh.nodes_of(e)[a]), mesh.point(mesh.nodes_of(e)[0]));
+      largest = std::max(largest, hypotenuse(off[0], off[1], off[2]));
+    }
+  const std::vector<double> near =
+      exact_distances(mesh.n_nodes, mesh.xyz(), surface, half_thickness + 2 * largest, n_threads);
+  return exact_area(mesh, surface, near, half_thickness, n_threads, false);
+}
+
 }  // namespace riis::program

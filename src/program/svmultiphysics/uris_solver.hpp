@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -121,6 +122,11 @@ double solver_area(const SolverMesh &mesh, const SolverDistances &distances, dou
 // Elements with all nodes farther than the half thickness and the element's size do not count.
 double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std::vector<double> &near,
                   double half_thickness, std::int32_t n_threads, bool at_solver_points);
+
+// Returns the area of a closed valve in a mesh (docs/theory/measures.md, "Closed area"), in the mesh's unit squared. Returns nothing
+// if the mesh has no volume elements of one type that exact_area knows.
+std::optional<double> closed_area_in(const riis_vtk_mesh *mesh, const riis_surface *surface, double half_thickness,
+                                     std::int32_t n_threads);
 
 // Returns the distance of each node to the surface, up to a limit, and infinity beyond it.
 std::vector<double> exact_distances(std::int64_t n_nodes, const double *xyz, const riis_surface *surface, double limit,

@@ -19,9 +19,10 @@ namespace {
 
 using Normal = std::array<double, 3>;
 
-constexpr double sharp_angle = 30;        // degrees between an end and the rest of the wall
-constexpr double one_plane_angle = 1;     // degrees between the faces of an end
-constexpr double one_plane_depth = 1e-3;  // how far a point of an end may be from its plane, as a share of the wall's size
+constexpr double sharp_angle = 30;     // degrees between an end and the rest of the wall
+constexpr double one_plane_angle = 1;  // degrees between the faces of an end
+constexpr double one_plane_depth =
+    1e-3;  // how far a point of an end may be from its plane, as a share of the wall's size
 constexpr double least_sharp_part = 0.75;  // of the length of an end's rim
 constexpr double least_area = 1e-4;        // of an end, as a share of the wall
 constexpr vtkIdType least_faces = 3;       // of an end
@@ -63,9 +64,8 @@ class Surroundings {
       areas_.push_back(vtkMath::Normalize(normal.data()));
       normals_.push_back(normal);
     }
-    std::sort(edges.begin(), edges.end(), [](const Edge &e, const Edge &f) {
-      return std::pair(e.a, e.b) < std::pair(f.a, f.b);
-    });
+    std::sort(edges.begin(), edges.end(),
+              [](const Edge &e, const Edge &f) { return std::pair(e.a, e.b) < std::pair(f.a, f.b); });
     neighbours_.resize(areas_.size());
     for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
       const Edge &e = edges[i], &f = edges[i + 1];

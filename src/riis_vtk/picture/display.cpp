@@ -8,19 +8,32 @@
 #include "riis_vtk/picture/drawing.hpp"
 
 #include <X11/Xlib.h>
+#include <dlfcn.h>
 
 namespace riis::vtk {
 namespace {
 
 constexpr const char *advice = "; on a machine without one, run the program by: xvfb-run -a PROGRAM";
 
-// Tries several times, because the X server refuses connections while it resets itself after a picture.
+// Tries again for a while, because the X server refuses connections while it resets itself after a picture. A display on another
+// machine may take minutes to refuse, and is tried once.
 Display *open_display() {
-  for (int n_tries_left = 5;; --n_tries_left) {
+  using std::chrono::milliseconds;
+  const auto end = std::chrono::steady_clock::now() + milliseconds(450);
+  for (;;) {
     Display *display = XOpenDisplay(nullptr);
-    if (display || n_tries_left == 1) return display;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    if (display || std::chrono::steady_clock::now() > end) return display;
+    std::this_thread::sleep_for(milliseconds(100));
   }
+}
+
+// Returns whether VTK's OpenGL can draw on the display. The OpenGL library in use says this: some, such as that of the program's
+// archive, draw by X alone and do without the server's extension. VTK has loaded the library.
+bool has_opengl(Display *display) {
+  int opcode = 0, event = 0, error = 0;
+  using Query = int(Display *, int *, int *);
+  auto *query = reinterpret_cast<Query *>(dlsym(RTLD_DEFAULT, "glXQueryExtension"));
+  return query ? query(display, &error, &event) != 0 : XQueryExtension(display, "GLX", &opcode, &event, &error) != 0;
 }
 
 }  // namespace
@@ -32,8 +45,7 @@ HeldDisplay::HeldDisplay() {
   if (!display_) {
     fail(RIIS_UNAVAILABLE, joined("a picture needs an X display: DISPLAY ", name, " cannot be opened", advice));
   }
-  int opcode = 0, event = 0, error = 0;
-  if (!XQueryExtension(display_, "GLX", &opcode, &event, &error)) {
+  if (!has_opengl(display_)) {
     XCloseDisplay(display_);
     fail(RIIS_UNAVAILABLE, joined("a picture needs OpenGL: DISPLAY ", name, " has no GLX extension", advice));
   }

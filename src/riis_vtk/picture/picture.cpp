@@ -59,10 +59,23 @@ void check_edges(const riis_vtk_picture_options &options, const riis_vtk_mesh *m
 void check_picture_options_size(std::int64_t size) { check_struct_size(size, first_size, size_here, "options"); }
 
 const riis_vtk_picture_options &default_picture_options() {
-  static const riis_vtk_picture_options defaults = {
-      size_here, nullptr, nullptr, 0,         nullptr, 0,       nullptr,      RIIS_VTK_VIEW_OBLIQUE,
-      1600,      800,     0,       {0, 0, 1}, 0,       nullptr, {1, 1, 1, 1}, RIIS_VTK_CAPTIONS_ALL,
-      RIIS_VTK_PANELS_BOTH};
+  static const riis_vtk_picture_options defaults = {size_here,
+                                                    nullptr,
+                                                    nullptr,
+                                                    0,
+                                                    nullptr,
+                                                    0,
+                                                    nullptr,
+                                                    RIIS_VTK_VIEW_OBLIQUE,
+                                                    1600,
+                                                    800,
+                                                    0,
+                                                    {0, 0, 1},
+                                                    0,
+                                                    nullptr,
+                                                    {1, 1, 1, 1},
+                                                    RIIS_VTK_CAPTIONS_ALL,
+                                                    RIIS_VTK_PANELS_BOTH};
   return defaults;
 }
 

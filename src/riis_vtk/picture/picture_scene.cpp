@@ -10,8 +10,8 @@
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCoordinate.h>
-#include <vtkImageData.h>
 #include <vtkDataArray.h>
+#include <vtkImageData.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -212,8 +212,8 @@ vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::v
   if (!layout.has_scale()) return renderer;
   const int last = layout.n_columns() - 1;
   if (!layout.has_captions()) {
-    add_scale_bar(renderer, layout, layout.column_left(last) + layout.margin(), layout.key_line(0), sight, unit, has_plural,
-                  ink);
+    add_scale_bar(renderer, layout, layout.column_left(last) + layout.margin(), layout.key_line(0), sight, unit,
+                  has_plural, ink);
     return renderer;
   }
   const double axis = 1.3 * layout.letter();
@@ -248,9 +248,9 @@ std::vector<KeyEntry> key_of_leaflets(const std::vector<std::string> &names, con
 }
 
 std::vector<std::string> lines_of_marks(const MarkCounts &marks, const Leaks &leaks) {
-  std::vector<std::string> lines = {"Marked: " + grouped(marks.n_marked_nodes) + " of " + counted(marks.n_nodes, "node")};
-  if (leaks.edges)
-    lines.push_back(leaks.n_edges == 0 ? "no leaking edge" : counted(leaks.n_edges, "leaking edge"));
+  std::vector<std::string> lines = {"Marked: " + grouped(marks.n_marked_nodes) + " of " +
+                                    counted(marks.n_nodes, "node")};
+  if (leaks.edges) lines.push_back(leaks.n_edges == 0 ? "no leaking edge" : counted(leaks.n_edges, "leaking edge"));
   return lines;
 }
 
@@ -304,9 +304,7 @@ vtkSmartPointer<vtkPolyData> wall_of(vtkUnstructuredGrid *grid, const riis_vtk_p
   return options.wall ? polydata_of(options.wall) : nullptr;
 }
 
-int n_panels(const Style &style, bool has_grid) {
-  return has_grid && style.panels == RIIS_VTK_PANELS_BOTH ? 2 : 1;
-}
+int n_panels(const Style &style, bool has_grid) { return has_grid && style.panels == RIIS_VTK_PANELS_BOTH ? 2 : 1; }
 
 }  // namespace
 
@@ -369,8 +367,7 @@ Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options)
   window_->SetOffScreenRendering(1);
   window_->SetMultiSamples(4);
   window_->SetNumberOfLayers(2);
-  for (vtkRenderer *renderer :
-       {has_surface() ? surface_.renderer() : nullptr, marks_ ? marks_->renderer() : nullptr}) {
+  for (vtkRenderer *renderer : {has_surface() ? surface_.renderer() : nullptr, marks_ ? marks_->renderer() : nullptr}) {
     if (!renderer) continue;
     if (shell_) shell_->add_to(renderer);
     renderer->SetLayer(1);
@@ -457,7 +454,8 @@ vtkSmartPointer<vtkImageData> Scene::three_views(std::int32_t first, const std::
   whole->SetDimensions(width, height, 1);
   whole->AllocateScalars(VTK_UNSIGNED_CHAR, style_.is_transparent ? 4 : 3);
   for (int k = 0; k < 3; ++k)  // for a width that is not a multiple of the number of views
-    whole->GetPointData()->GetScalars()->FillComponent(k, style_.is_transparent ? 0 : std::round(255 * style_.background[k]));
+    whole->GetPointData()->GetScalars()->FillComponent(
+        k, style_.is_transparent ? 0 : std::round(255 * style_.background[k]));
   if (style_.is_transparent) whole->GetPointData()->GetScalars()->FillComponent(3, 0);
   for (std::int32_t i = 0; i < n_views; ++i) {
     const View view(first + i, axes_);

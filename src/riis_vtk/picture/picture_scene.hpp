@@ -173,7 +173,7 @@ class Scene {
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
   vtkSmartPointer<vtkPolyData> triangles_;
   SurfacePanel surface_;
-  std::optional<MarksPanel> marks_;  // not set without a mesh, and if the picture shows only the surface
+  std::optional<MarksPanel> marks_;      // not set without a mesh, and if the picture shows only the surface
   vtkSmartPointer<vtkPointSet> around_;  // the grid, or the wall of the options; NULL if there is neither
   std::optional<Shell> shell_;           // set if there is one of them
   std::vector<PanelTexts> texts_;

@@ -16,8 +16,8 @@ namespace riis::vtk {
 
 class Shell {
  public:
-  // `faces` is a closed boundary or a wall with openings. `grey` is the brightness of the shell, from 0 to 1, `line` is the colour
-  // of the rims, and `pixels` is their width.
+  // `faces` is a closed boundary or a wall with openings. `grey` is the brightness of the shell, from 0 to 1. `line` is the
+  // colour of the rims, and `pixels` is their width.
   Shell(vtkPolyData *faces, double grey, const Colour &line, double pixels);
   void add_to(vtkRenderer *renderer) const;
   // Turns to a view. The shell is denser where it is seen at a grazing angle. If it extends beyond the panel, it is cut there.

@@ -19,25 +19,26 @@ PACKAGES = "sudo apt-get install --no-install-recommends python3-dolfinx python3
 try:
     import basix.ufl
     import dolfinx
-    import gmsh  # noqa: F401, which gmshio needs
+    import gmsh
     import numpy
     from dolfinx import fem, io
     from dolfinx.fem.petsc import LinearProblem
     from mpi4py import MPI
     from ufl import (CellDiameter, FacetNormal, Measure, TestFunctions, TrialFunctions, div, dot, dx, grad, inner, min_value,
-                     split, sqrt, sym)
+                     sqrt, sym)
 except ImportError as error:
     sys.exit(f"run.py: {sys.executable} lacks {error.name}. Debian 13 has it: {PACKAGES}")
 try:
     import riis
 except ImportError:
-    sys.exit(f"run.py: {sys.executable} lacks riis. In the sources of riis: /usr/bin/python3 -m venv --system-site-packages ~/fenicsx"
-             " && ~/fenicsx/bin/pip install --no-deps . && ~/fenicsx/bin/python run.py")
+    sys.exit(f"run.py: {sys.executable} lacks riis. In the sources of riis: /usr/bin/python3 -m venv --system-site-packages"
+             " ~/fenicsx && ~/fenicsx/bin/pip install --no-deps . && ~/fenicsx/bin/python run.py")
 if not dolfinx.__version__.startswith("0.9"):
     sys.exit(f"run.py: dolfinx is {dolfinx.__version__}, and this program is written for 0.9, the version of Debian 13")
 
 CASE = json.loads((HERE / "case.json").read_text("utf-8"))
 RHO, MU, R, EPS, DT = (CASE[name] for name in ("density", "viscosity", "resistance", "half_thickness", "time_step"))
+assert gmsh  # dolfinx reads mesh.msh by it
 EACH = 10  # steps from one file to the next
 MMHG = 133.322
 

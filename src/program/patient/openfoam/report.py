@@ -9,7 +9,7 @@ import re
 import sys
 
 PASCALS_OF_MMHG = 133.322387415
-BEAT = @PERIOD@  # of the tables in 0/p [s]
+BEAT = float("@PERIOD@")  # of the tables in 0/p [s]
 REST = 0.05  # the leak is steady so long after the valve has closed [s]
 
 
@@ -57,14 +57,15 @@ def main():
     steps = steps_of(case)
     options = (case / "system/fvOptions").read_text()
     resistance, half_thickness = number_after("resistance", options), number_after("halfThickness", options)
-    log = "".join((case / name).read_text(errors="replace") for name in ("log.before", "log.pimpleFoam") if (case / name).exists())
+    logs = [case / name for name in ("log.before", "log.pimpleFoam") if (case / name).exists()]
+    log = "".join(path.read_text(errors="replace") for path in logs)
     forecast = re.search(r"closed valve has (\S+) m2 in the mesh, and is\s+expected to drop (\S+) of", log)
     end = steps[-1]["time"]
     dt = min(b["time"] - a["time"] for a, b in zip(steps, steps[1:]))
     beat = [step for step in steps if step["time"] > end - BEAT - dt / 2]
     complete = len(beat) * dt > 0.99 * BEAT
     if not complete:
-        print(f"the run has {end:g} s, and a beat has {BEAT:g} s: this table is preliminary")
+        print(f"the tables have {len(beat) * dt:.3g} s of a beat of {BEAT:g} s: what follows is preliminary")
     lines, fine = [], True
 
     def line(text, value, unit, bar=None, shown=None):
