@@ -150,7 +150,7 @@ class PatientRun {
                options_.wall + ": " + counted(view(wall_.corners).size() / 3, "triangle") + ", " +
                    counted(view(wall_.ends).size(), "flat end") + ", in " + name_of(frame_.unit) +
                    (frame_.axes == "mesh" ? "" : " and " + frame_.axes) + ": the landmarks are " +
-                   printed("%.2g", frame_.away) + " mm from it on average, at most " + printed("%.2g", frame_.worst) +
+                   printed("%.3g", frame_.away) + " mm from it on average, at most " + printed("%.3g", frame_.worst) +
                    " mm, " + frame_.farthest,
                steps_.seconds() - begin);
     steps_.say("folder",

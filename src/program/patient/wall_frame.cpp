@@ -16,7 +16,7 @@ constexpr double at_wall = 5;
 // Another frame is excluded if its landmarks are so many times farther away.
 constexpr double clearly_farther = 2;
 
-std::string mm_text(double length) { return printed("%.2g", length) + " mm"; }
+std::string mm_text(double length) { return printed("%.3g", length) + " mm"; }
 
 Surface wall_surface_of(const PatientWall &wall) {
   auto arrays = defaults<riis_surface_arrays>();
