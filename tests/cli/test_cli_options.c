@@ -72,7 +72,7 @@ TEST(test_topics) {
     ++n;
   }
   free(list);
-  assert_int_equal(n, 25);
+  assert_int_equal(n, 26);
   RUN_FINE("help", "status");
   const char *statuses[] = {"0  fine", "1  bad data", "2  wrong usage", "3  no node is marked",
                             "4  riis check crossings"};
