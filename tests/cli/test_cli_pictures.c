@@ -219,7 +219,7 @@ TEST(test_refused_looks) {
              {"--picture-background", "", "--picture-background: "},
              {"--picture-captions", "some", "--picture-captions: some not in {all,scale,none}"},
              {"--picture-panels", "left", "--picture-panels: left not in {both,valve,marks}"},
-             {"--picture-panels", "marks", "--picture-panels marks: riis surface has no mesh, and marks nothing"}};
+             {"--picture-panels", "marks", "--picture-panels marks: there is no mesh, so nothing is marked"}};
   for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i)
     RUN_REFUSED(2, bad[i].text, "surface", "--valve", "aortic", "--picture", scratch_path("no.png"), bad[i].option,
                 bad[i].value);

@@ -132,7 +132,7 @@ void check_style(const Command &command, const MarkOptions &options) {
   if (is_odd && has_ending(movie, ".mp4"))
     refuse_usage("--picture-size: both numbers must be even for the movie " + movie);
   if (style.panels == RIIS_VTK_PANELS_MARKS && options.mesh.empty() && options.series.case_file.empty())
-    refuse_usage("--picture-panels marks: riis surface has no mesh, and marks nothing");
+    refuse_usage("--picture-panels marks: there is no mesh, so nothing is marked");
 }
 
 bool has_output(const MarkOptions &options) {
