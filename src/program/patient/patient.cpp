@@ -80,7 +80,9 @@ void check_kind(const std::string &kind) {
 
 // The ending of a file of landmarks, which tells its format.
 std::string landmark_ending(const std::string &path) {
-  return has_ending(path, ".mrk.json") ? ".mrk.json" : ending_of(path);
+  const std::string slicer = ".mrk.json";
+  const bool is_slicer = path.size() > slicer.size() && path.compare(path.size() - slicer.size(), slicer.size(), slicer) == 0;
+  return is_slicer ? slicer : ending_of(path);
 }
 
 // Returns the present number of a JSON file of a step.
