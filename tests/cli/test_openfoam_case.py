@@ -18,7 +18,7 @@ import unittest
 WRITER = ""
 RHO, MMHG = 1060.0, 133.322
 # The tools of the system that Allrun calls.
-TOOLS = "awk bash cat dirname env find grep mkdir python3 readlink rm sed seq sh sort tail touch".split()
+TOOLS = "awk bash cat dirname env find grep mkdir readlink rm sed seq sh sort tail touch".split()
 
 
 def parsed(text):
@@ -86,9 +86,9 @@ class OpenfoamCase(unittest.TestCase):
         path = case / name
         made = parsed(path.read_text(encoding="utf-8"))
         if shutil.which("foamDictionary"):
-            environment = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ}
+            environment = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ, "PWD": str(case)}
             done = subprocess.run(["foamDictionary", path, "-disableFunctionEntries", "-keywords"], capture_output=True,
-                                  text=True, check=False, env=environment)
+                                  text=True, check=False, env=environment, cwd=case)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.assertEqual(set(done.stdout.split()), set(made), done.stdout)
         return made
@@ -188,6 +188,7 @@ class OpenfoamCase(unittest.TestCase):
             if found:
                 (folder / tool).symlink_to(found)
         stand_ins = {
+            "python3": f"exec {sys.executable} \"$@\"",  # python3 in PATH may be a script that needs more tools
             "gmshToFoam": "mkdir -p constant/polyMesh\n"
                           "echo 'note \"nPoints:8000 nCells:40000 nFaces:9\";' >constant/polyMesh/owner\n"
                           "printf 'inlet\\n{\\n type patch;\\n}\\nwall\\n{\\n type patch;\\n}\\n' >constant/polyMesh/boundary",
@@ -198,7 +199,7 @@ class OpenfoamCase(unittest.TestCase):
             "reconstructPar": ":",
             "mpirun": "echo \"mpirun $2\"; shift 2; \"$@\"",
         }
-        for name in names:
+        for name in ("python3", *names):
             path = folder / name
             path.write_text(f"#!/bin/bash\n{stand_ins[name]}\n", encoding="utf-8")
             path.chmod(0o755)

@@ -14,8 +14,8 @@ namespace riis::program {
 inline constexpr double longest_foam_skirt = 6e-3;
 
 // Returns the entries valve, placement, warp and skirt. OpenFOAM's lengths are metres. `root` is the content of the file, and
-// `longest` the longest skirt in metres, or 0 for none. The skirt ends at the mesh's patch wall. A valve whose parameter skirt_length is set
-// keeps this skirt, and a kind without a skirt gets none. Refuses a warp that moves.
+// `longest` the longest skirt in metres, or 0 for none. The skirt ends at the mesh's patch wall. A valve whose parameter
+// skirt_length is set keeps this skirt, and a kind without a skirt gets none. Refuses a warp that moves.
 std::string foam_valve_of(const std::string &path, const Json &root, double longest);
 
 }  // namespace riis::program

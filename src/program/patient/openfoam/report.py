@@ -71,7 +71,7 @@ def main():
     def line(text, value, unit, bar=None, shown=None):
         nonlocal fine
         note = ""
-        if bar is not None:
+        if bar is not None and complete:
             fine = fine and bar[0]
             note = f"{'met' if bar[0] else 'MISSED'}: {bar[1]}"
         lines.append(f"  {text:<46} {shown or f'{value:.4g}':>9} {unit:<7} {note}".rstrip())
