@@ -258,9 +258,8 @@ class Forecaster {
       // A node beside the wall has a small volume, but the edges of its neighbours.
       n_nodes += std::pow(std::max(of_edges, edge) / (std::max(of_edges, edge) - shorter), 3);
     }
-    return ", or edges of " + in_mesh(edge / factor) + " in the band, which are " +
-           shown(edge / factor / half_thickness_) + " half thicknesses and now are " + shown(edge / half_thickness_) +
-           ", in about " + rounded(n_nodes) + " nodes";
+    return ", or edges of " + in_mesh(edge / factor) + " in the band, " + shown(1 / factor) +
+           " times as long as now, in about " + rounded(n_nodes) + " nodes";
   }
 
   // Returns a count with two digits that are not 0.
