@@ -87,7 +87,8 @@ unsigned char *shim_read_clear_pixels(const char *path, int *width, int *height)
 
 /* Finds the flat ends of a wall of triangles, corners (3, n_triangles), as pictures do. is_end (n_triangles) gets 1 for triangles
  * of an end. Returns whether the wall has hardly any other part. */
-int shim_flat_ends(int64_t n_points, const double *xyz, int64_t n_triangles, const int64_t *corners, unsigned char *is_end);
+int shim_flat_ends(int64_t n_points, const double *xyz, int64_t n_triangles, const int64_t *corners,
+                   unsigned char *is_end);
 
 /* Compares the outside of a grid's volume cells, as pictures draw it, with VTK's. Returns how many faces only one of them has,
  * or -1 if the grid cannot be read. *n_faces gets the number of faces in pictures, and *n_inwards gets the number of these
