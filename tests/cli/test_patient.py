@@ -109,6 +109,8 @@ class Ventricle:
         clean.SetInputConnection(clip.GetOutputPort())
         faces = vtk.vtkTriangleFilter()
         faces.SetInputConnection(clean.GetOutputPort())
+        faces.PassLinesOff()
+        faces.PassVertsOff()
         faces.Update()
         made = faces.GetOutput()
         return [tuple(self.placed(made.GetPoint(made.GetCell(i).GetPointId(k))) for k in range(3))
