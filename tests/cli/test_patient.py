@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""test_patient.py PROGRAM MAKE_PATIENT.py: runs riis patient on small patients: a root of make_patient.py with few triangles,
-and a ventricle. Checks the results by other commands, by units and axes that must not matter, and each refusal by its status and text.
+"""test_patient.py PROGRAM MAKE_PATIENT.py: runs riis patient on small patients.
 
-RIIS_TEST_LONG also runs random roots.
+They are a root of make_patient.py with few triangles, and a ventricle. Checks the results by other commands and by units and axes
+that must not matter, and each refusal by its status and text. RIIS_TEST_LONG also runs random roots.
 """
 import importlib.util
 import json
