@@ -52,7 +52,7 @@ class Ventricle:
     flat. The mitral annulus is a saddle on the wall of the first tube. The module vtk must be there."""
 
     CENTRE = (31.0, -142.0, 87.0)
-    ENDS = [((0, 0, 16), (0, -0.3, 0.95)), ((0, 30, 16), (0, 0.62, 0.78))]  # a point of each plane, and its normal
+    ENDS = [((0, 0, 16), (0, -0.3, 0.95)), ((0, 48, 14.7), (0, 0.62, 0.78))]  # a point of each plane, and its normal
     HALF_AXES = (19, 15.5)  # of the first tube
 
     def __init__(self):
@@ -87,14 +87,14 @@ class Ventricle:
         body = quadric(1 / 27**2, 1 / 31**2, 1 / 45**2, (0, -26 / 31**2, 80 / 45**2), 13**2 / 31**2 + 40**2 / 45**2 - 1)
         first = joined(1, quadric(1 / self.HALF_AXES[0]**2, 1 / self.HALF_AXES[1]**2, 0), plane((0, 0, -14), (0, 0, -1)))
         tube = vtk.vtkCylinder()
-        tube.SetCenter(0, 20, -5)
+        tube.SetCenter(0, 33, -4)
         tube.SetAxis(*PATIENT.unit(self.ENDS[1][1]))
         tube.SetRadius(11)
-        second = joined(1, tube, plane((0, 14, -10), [-x for x in self.ENDS[1][1]]))
+        second = joined(1, tube, plane((0, 28, -10), [-x for x in self.ENDS[1][1]]))
         sample = vtk.vtkSampleFunction()
         sample.SetImplicitFunction(joined(0, joined(1, body, plane((0, 0, -4), (0, 0, 1))), first, second))
-        sample.SetModelBounds(-32, 32, -24, 56, -92, 40)
-        sample.SetSampleDimensions(44, 54, 88)
+        sample.SetModelBounds(-32, 32, -24, 68, -92, 40)
+        sample.SetSampleDimensions(44, 62, 88)
         sample.ComputeNormalsOff()
         contour = vtk.vtkFlyingEdges3D()
         contour.SetInputConnection(sample.GetOutputPort())
