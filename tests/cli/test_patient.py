@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""test_patient.py PROGRAM MAKE_PATIENT.py: runs riis patient on small patients: a root of make_patient.py with few triangles, and a
-ventricle. Checks the results by other commands, by units and axes that must not matter, and each refusal by its status and text.
+"""test_patient.py PROGRAM MAKE_PATIENT.py: runs riis patient on small patients.
 
-RIIS_TEST_LONG also runs random roots.
+They are a root of make_patient.py with few triangles, and a ventricle. Checks the results by other commands and by units and axes
+that must not matter, and each refusal by its status and text. RIIS_TEST_LONG also runs random roots.
 """
 import importlib.util
 import json
@@ -48,11 +48,11 @@ def volume_of(triangles):
 
 
 class Ventricle:
-    """A ventricle in mm: an ellipsoid with a tube to the atrium and a tube to the aorta, made by VTK. Both tubes are cut flat. The
-    mitral annulus is a saddle on the wall of the first tube. The module vtk must be there."""
+    """A ventricle in mm: an ellipsoid with a tube to the atrium and a tube to the aorta, made by VTK. Both tubes are cut
+    flat. The mitral annulus is a saddle on the wall of the first tube. The module vtk must be there."""
 
     CENTRE = (31.0, -142.0, 87.0)
-    ENDS = [((0, 0, 16), (0, -0.3, 0.95)), ((0, 30, 16), (0, 0.62, 0.78))]  # a point of each plane, and its normal
+    ENDS = [((0, 0, 16), (0, -0.3, 0.95)), ((0, 48, 14.7), (0, 0.62, 0.78))]  # a point of each plane, and its normal
     HALF_AXES = (19, 15.5)  # of the first tube
 
     def __init__(self):
@@ -87,14 +87,14 @@ class Ventricle:
         body = quadric(1 / 27**2, 1 / 31**2, 1 / 45**2, (0, -26 / 31**2, 80 / 45**2), 13**2 / 31**2 + 40**2 / 45**2 - 1)
         first = joined(1, quadric(1 / self.HALF_AXES[0]**2, 1 / self.HALF_AXES[1]**2, 0), plane((0, 0, -14), (0, 0, -1)))
         tube = vtk.vtkCylinder()
-        tube.SetCenter(0, 20, -5)
+        tube.SetCenter(0, 33, -4)
         tube.SetAxis(*PATIENT.unit(self.ENDS[1][1]))
         tube.SetRadius(11)
-        second = joined(1, tube, plane((0, 14, -10), [-x for x in self.ENDS[1][1]]))
+        second = joined(1, tube, plane((0, 28, -10), [-x for x in self.ENDS[1][1]]))
         sample = vtk.vtkSampleFunction()
         sample.SetImplicitFunction(joined(0, joined(1, body, plane((0, 0, -4), (0, 0, 1))), first, second))
-        sample.SetModelBounds(-32, 32, -24, 56, -92, 40)
-        sample.SetSampleDimensions(44, 54, 88)
+        sample.SetModelBounds(-32, 32, -24, 68, -92, 40)
+        sample.SetSampleDimensions(44, 62, 88)
         sample.ComputeNormalsOff()
         contour = vtk.vtkFlyingEdges3D()
         contour.SetInputConnection(sample.GetOutputPort())
@@ -109,6 +109,8 @@ class Ventricle:
         clean.SetInputConnection(clip.GetOutputPort())
         faces = vtk.vtkTriangleFilter()
         faces.SetInputConnection(clean.GetOutputPort())
+        faces.PassLinesOff()
+        faces.PassVertsOff()
         faces.Update()
         made = faces.GetOutput()
         return [tuple(self.placed(made.GetPoint(made.GetCell(i).GetPointId(k))) for k in range(3))
@@ -187,10 +189,10 @@ class Patient(unittest.TestCase):
         self.assertLess(height["upstream"], -report["ball_radius"])
         self.assertGreater(height["downstream"], max(h for _, h in self.root.commissures) - 8)
         # The mesh fills the wall.
+        points = [",".join(map(str, report[name])) for name in ("upstream", "downstream")]
         check = self.run_riis("check", "leaks", "case/mesh.msh", "--valve", "case/placed.json", "--skirt", "6", "--wall",
                               "case/wall.stl", "--half-thickness", "1.6", "--opening", "0", "--demand-sealed", "--stats", "-",
-                              "--between=" + ",".join(map(str, report["upstream"])), ",".join(map(str, report["downstream"])),
-                              "--quiet")
+                              "--between=" + points[0], points[1], "--quiet")
         self.assertEqual(check.returncode, 0, check.stdout + check.stderr)
         stats = json.loads(check.stdout)
         self.assertEqual((stats["n_nodes"], stats["n_volume_cells"]), (report["n_nodes"], report["n_cells"]))
@@ -212,12 +214,13 @@ class Patient(unittest.TestCase):
         for name, files, words, unit in (
                 ("mm", {}, [], "mm"),
                 ("m", {"wall_factor": 1e-3}, [], "m"),
-                ("cm, landmarks in m and RAS", {"factor": 1e-3, "sign": -1, "unit": "m", "axes": "RAS", "wall_factor": 0.1}, [], "cm"),
+                ("cm, landmarks in m and RAS", {"factor": 1e-3, "sign": -1, "unit": "m", "axes": "RAS", "wall_factor": 0.1}, [],
+                 "cm"),
                 ("RAS wall", {"wall_sign": -1}, ["--unit", "cm"], "cm")):
             self.files(**files)
             report, _ = self.made("--replace", *COARSE, *words)
             self.assertEqual(report["unit"], unit, name)
-            self.assertEqual(report["wall"]["axes"], "RAS" if "RAS" in name else "LPS", name)
+            self.assertEqual(report["wall"]["axes"], "RAS" if "wall_sign" in files else "LPS", name)
             mm = {"mm": 1, "cm": 10, "m": 1000}[unit]
             found[name] = (report["n_nodes"], report["effective_area_cm2"], report["gap"]["most"] * mm, report["fit"]["rms"] * mm)
         nodes, *measures = found["mm"]
@@ -254,7 +257,8 @@ class Patient(unittest.TestCase):
     def test_refused_options(self):
         self.files()
         self.refused(2, "--solver: nastran", "--solver", "nastran")
-        self.refused(2, "--unit: openfoam takes metres, not millimetres: leave --unit out", "--solver", "openfoam", "--unit", "mm")
+        self.refused(2, "--unit: openfoam takes metres, not millimetres: leave --unit out",
+                     "--solver", "openfoam", "--unit", "mm")
         self.refused(2, "--half-thickness: 16 mm is not from 0.1 to 4 mm", "--half-thickness", "16 mm")
         self.files(wall_factor=1e-3)
         done = self.refused(2, "--half-thickness: 1 m is not from .* write --half-thickness '1 mm'", "--half-thickness", "1")
@@ -296,8 +300,8 @@ class Patient(unittest.TestCase):
         rows = [struct.unpack_from("<12f", data, 84 + 50 * i) for i in range(len(self.triangles))]
         self.assertGreater(volume_of([(r[3:6], r[6:9], r[9:12]) for r in rows]), 0.99 * volume_of(self.triangles))
         write_stl(here / "far.stl", far)
-        self.refused(1, r"landmarks.json: the landmarks are \d+ mm from the wall of far.stl on average, and farther with other units "
-                     "and axes.* same patient", wall="far.stl", output="none")
+        self.refused(1, r"landmarks.json: the landmarks are \d+ mm from the wall of far.stl on average, and farther with "
+                     "other units and axes.* same patient", wall="far.stl", output="none")
         self.refused(1, "they are .* mm from it with --wall-unit mm", "--wall-unit", "m", output="none")
         self.refused(1, "they are .* mm from it with --axes LPS", "--axes", "RAS", output="none")
         # A wide vessel: the landmarks are near the wall on average, but the wall is not within the skirt.

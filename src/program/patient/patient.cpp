@@ -429,7 +429,7 @@ class PatientRun {
   // Refuses ends that are on the wrong side of the closed valve.
   void check_ends() const {
     if (!sides_.are_apart) return;
-    for (const auto &[names, is_before] : {std::pair(sides_.before, true), std::pair(sides_.after, false)})
+    for (const auto &[names, is_before] : {std::pair(sides_.after, false), std::pair(sides_.before, true)})
       for (const std::string &name : names) {
         if ((name == "inlet") == is_before) continue;
         const auto end = std::find_if(mesh_.boundaries.begin(), mesh_.boundaries.end(),
