@@ -267,7 +267,7 @@ void failing_programs(random_source &random, const std::string &folder) {
   write_stl(folder + "/in.stl", vessels.triangles, as_it_is, Turned::none, random);
   PatientWall wall = read_patient_wall(folder + "/in.stl");
   name_ends(wall, vessels.axes[0], -1 * vessels.axes[0]);
-  const PatientMeshOptions options{folder, folder + "/sizes.dat", 1};
+  const PatientMeshOptions options{folder, folder + "/sizes.dat", 1, [](const std::string &) {}, 0};
   const auto mesh = [&] { mesh_patient(wall, options); };
   // The log is the argument after -log, and the mesh the one after -o.
   const std::string words = "while [ $# -gt 0 ]; do case $1 in -log) log=$2;; -o) mesh=$2;; esac; shift; done; ";

@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -296,19 +297,21 @@ class PatientMesher {
     const std::vector<std::string> words{"gmsh", dimension, "-nt",   "1",  "-v", "4", "-log",
                                          log,    "-format", "msh22", "-o", mesh, geo};
     options_.announce(joined_by(words, " "));
-    std::vector<std::string> limited{"timeout", "--foreground", printed("%.0f", seconds)};
+    // gmsh does not end by SIGTERM.
+    std::vector<std::string> limited{"timeout", "--foreground", "--signal=KILL", printed("%.0f", seconds)};
     limited.insert(limited.end(), words.begin(), words.end());
+    const auto start = std::chrono::steady_clock::now();
     const ProgramEnd end = run_program(limited);
-    constexpr int at_limit = 124, signal_status = 128;  // timeout's status at the limit, and its least after a signal
-    if (end.status == at_limit)
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    constexpr int signal_status = 128;  // the status of timeout is higher after a signal
+    const bool is_killed = end.status < 0 || end.status > signal_status;
+    if (is_killed && taken.count() >= seconds)
       refuse_data("gmsh did not end within " + printed("%.0f", seconds) + " seconds (" + log + "); " + crossing_text() +
                   cure);
     if (end.error != 0) refuse_data("gmsh: cannot be run: " + system_text(end.error));
     const std::string log_text = fs::exists(log, ignored) ? text_of_file(log) : "";
     const std::string error = last_error_in(log_text);
-    const std::string why = !error.empty()                                 ? error
-                            : end.status < 0 || end.status > signal_status ? "a signal ended it"
-                                                                           : end.last_message;
+    const std::string why = !error.empty() ? error : is_killed ? "a signal ended it" : end.last_message;
     if (!error.empty() || end.status != 0 || !fs::exists(mesh, ignored))
       refuse_data("gmsh fails: " + (why.empty() ? "it writes no mesh" : why) + " (" + log + "); " + crossing_text() +
                   cure);
@@ -323,8 +326,10 @@ class PatientMesher {
                "// The wall has a surface for each end, and its rims as lines, so no angle is needed.\n"
                "Merge \"wall.msh\";\nClassifySurfaces{Pi, 1, 1, Pi};\nCreateGeometry;\n" +
                    size_lines());
-    surface_ = run_gmsh(least_seconds + seconds_per_triangle * static_cast<double>(old_.n()), "-2",
-                        in_gmsh("surface.geo"), in_gmsh("surface.msh"), cure_of_surface());
+    surface_ =
+        run_gmsh(options_.surface_seconds > 0 ? options_.surface_seconds
+                                              : least_seconds + seconds_per_triangle * static_cast<double>(old_.n()),
+                 "-2", in_gmsh("surface.geo"), in_gmsh("surface.msh"), cure_of_surface());
     name_patches();
     check_closed(surface_);
     check_ends(surface_);

@@ -19,6 +19,7 @@ struct PatientMeshOptions {
   double largest_edge = 0;  // edge length outside the field's grid: --largest-edge of riis size-field
   // Called with each command before it runs, as a user would type it.
   std::function<void(const std::string &command)> announce = [](const std::string &) {};
+  double surface_seconds = 0;  // the time that gmsh has for the surface; 0: by the number of triangles
 };
 
 struct PatientMesh {
