@@ -83,7 +83,8 @@ demo_openings_picture() {
   n=0
   for valve in "${demo_valves[@]}"; do
     for view in side top; do
-      row=$((146 + 256 * (n / 5)))
+      row=$((n / 5))
+      row=$((50 + row * 256 + 96))
       titles+=",$(demo_title "$valve" 14 "$row"),$(demo_title "${seen_from[$view]}" 14 $((row + 30)))"
       for opening in "${demo_openings[@]}"; do
         inputs+=(-i "out/${valve}_${opening}_$view.png")
