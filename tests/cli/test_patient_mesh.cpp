@@ -282,6 +282,11 @@ void failing_programs(random_source &random, const std::string &folder) {
   expect_refused({"gmsh fails: no memory (" + folder + "/gmsh/surface.log)"}, mesh);
   stand_for_gmsh(folder, "exit 0");
   expect_refused({"gmsh fails: it writes no mesh (" + folder + "/gmsh/surface.log)"}, mesh);
+  stand_for_gmsh(folder, "trap '' TERM; exec sleep 1000");
+  PatientMeshOptions hasty = options;
+  hasty.surface_seconds = 1;
+  expect_refused({"gmsh did not end within 1 seconds (" + folder + "/gmsh/surface.log)"},
+                 [&] { mesh_patient(wall, hasty); });
   stand_for_gmsh(folder, "kill -9 $$");
   expect_refused({"gmsh fails: a signal ended it"}, mesh);
   stand_for_gmsh(folder,

@@ -437,7 +437,8 @@ class WallRepair {
 
   // Closes holes whose rims are flat. Whether these are ends is decided later. Refuses other holes.
   void close_holes() {
-    const std::vector<RimLoop> loops = open_loops();
+    std::vector<RimLoop> loops = open_loops();
+    std::sort(loops.begin(), loops.end(), [](const RimLoop &a, const RimLoop &b) { return a.size() > b.size(); });
     for (const RimLoop &loop : loops) {
       Vector centre{}, area{};
       double length = 0, off = 0, width = 0;
@@ -472,7 +473,8 @@ class WallRepair {
 
   [[noreturn]] void refuse_hole(std::size_t n_holes, const RimLoop &loop, const Vector &centre, bool is_flat,
                                 double off) const {
-    refuse("the surface has " + counted(static_cast<std::int64_t>(n_holes), "hole") + ", one of " +
+    refuse("the surface has " +
+           (n_holes == 1 ? std::string("a hole of ") : std::to_string(n_holes) + " holes, one of ") +
            counted(static_cast<std::int64_t>(loop.size()), "edge") + " at " + at(centre) +
            (is_flat ? ", whose rim is too wavy to be closed here: "
                     : ", whose rim is off its plane by " + shortest_of(off) + ": ") +
