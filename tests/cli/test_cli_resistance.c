@@ -102,7 +102,8 @@ TEST(test_leak) {
   for (int i = 0; i < n_systems; ++i) {
     RUN_FINE("check", "leaks", mesh_of(i), "--unit", systems[i].unit, "--half-thickness", EPS(i), "--valve", "coapting",
              "--opening", "0", "--resistance", "1e4", "--drop", "1e5 dyn/cm2", "--stats", scratch_path("stats.json"));
-    snprintf(line, sizeof line, " %s at the drop 10000 Pa, through an ideal closed valve of the area ", systems[i].leak_unit);
+    snprintf(line, sizeof line, " %s at the drop 10000 Pa, through an ideal closed valve of the area ",
+             systems[i].leak_unit);
     assert_non_null(strstr(program_out, line));
     assert_non_null(strstr(program_out, "\nR         10000 kg/(m s)\n"));
     char *json = scratch_read(scratch_path("stats.json"), NULL);

@@ -16,8 +16,8 @@ plant() {
   cp "$sources/.clang-format" "$sources/.clang-tidy" .
   printf -v long '%0150d' 0
   printf '#include <string>\n\nstd::string twice(const std::string &text) { return text + text; }\n' >src/twice.cpp
-  printf '[{"directory": "%s",\n  "command": "c++ -std=c++17 -Wall -Wextra -c src/twice.cpp",\n  "file": "%s/src/twice.cpp"\n}]\n' \
-    "$PWD" "$PWD" >build-lint/compile_commands.json
+  printf '[{"directory": "%s",\n  "command": "%s",\n  "file": "%s/src/twice.cpp"\n}]\n' \
+    "$PWD" "c++ -std=c++17 -Wall -Wextra -c src/twice.cpp" "$PWD" >build-lint/compile_commands.json
   echo "#include \"$PWD/src/twice.cpp\"" >build-lint/src/riis/CMakeFiles/riis_objects.dir/Unity/unity_0_cxx.cxx
   # shellcheck disable=SC2016 # the planted scripts' own variables
   printf '#!/bin/bash\n# shellcheck source=steps.sh\n. steps.sh\nstep "$1"\n' >run

@@ -81,7 +81,8 @@ void check_kind(const std::string &kind) {
 // The ending of a file of landmarks, which tells its format.
 std::string landmark_ending(const std::string &path) {
   const std::string slicer = ".mrk.json";
-  const bool is_slicer = path.size() > slicer.size() && path.compare(path.size() - slicer.size(), slicer.size(), slicer) == 0;
+  const bool is_slicer =
+      path.size() > slicer.size() && path.compare(path.size() - slicer.size(), slicer.size(), slicer) == 0;
   return is_slicer ? slicer : ending_of(path);
 }
 

@@ -123,8 +123,8 @@ double solver_area(const SolverMesh &mesh, const SolverDistances &distances, dou
 double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std::vector<double> &near,
                   double half_thickness, std::int32_t n_threads, bool at_solver_points);
 
-// Returns the area of a closed valve in a mesh (docs/theory/measures.md, "Closed area"), in the mesh's unit squared. Returns nothing
-// if the mesh has no volume elements of one type that exact_area knows.
+// Returns the area of a closed valve in a mesh (docs/theory/measures.md, "Closed area"), in the mesh's unit squared. Returns
+// nothing if the mesh has no volume elements of one type that exact_area knows.
 std::optional<double> closed_area_in(const riis_vtk_mesh *mesh, const riis_surface *surface, double half_thickness,
                                      std::int32_t n_threads);
 
