@@ -19,9 +19,8 @@ class Option;
 namespace riis::program {
 
 // The command that the user requested, with its options. The commands riis surface and riis check also use MarkOptions.
-using Request =
-    std::variant<MarkOptions, SizeFieldOptions, StatesOptions, AreaOptions, ExportOptions, ParamsOptions, PlaceOptions,
-                 PatientOptions>;
+using Request = std::variant<MarkOptions, SizeFieldOptions, StatesOptions, AreaOptions, ExportOptions, ParamsOptions,
+                             PlaceOptions, PatientOptions>;
 
 // Parses the command line. If the user requests only help or the version, prints this text and returns nothing. Throws a Refusal
 // for wrong usage.
