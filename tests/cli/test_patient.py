@@ -252,7 +252,7 @@ class Patient(unittest.TestCase):
         self.refused(1, "the end inlet at .* is after the valve: write --inlet X,Y,Z", *COARSE, "--inlet", inlet)
         report, done = self.made(*COARSE, "--valve", "aortic_regurgitation_severe")
         self.assertEqual(report["disease"], "aortic_regurgitation_severe")
-        self.assertIn("the closed valve leaves a gap, as it is sick", done.stdout)
+        self.assertIn("because the band closes the gap of aortic_regurgitation_severe", done.stdout)
 
     def test_refused_options(self):
         self.files()

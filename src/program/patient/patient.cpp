@@ -11,6 +11,7 @@
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/commands/commands.hpp"
+#include "program/input/diseases.hpp"
 #include "program/input/placing.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/input/valve_source.hpp"
@@ -417,8 +418,13 @@ class PatientRun {
       refuse_data("the open valve lets no blood pass: the widest passage is " + in_mm(open["passage"]["distance"]) +
                   " from it. A smaller --half-thickness leaves more room");
     const double square_cm = factor_between(unit_, Unit::centimetre) * factor_between(unit_, Unit::centimetre);
-    std::string text = closed["passage"]["state"] == "closed" ? "the closed valve seals"
-                                                              : "the closed valve leaves a gap, as it is sick";
+    const Disease *const disease = disease_named(options_.disease);
+    std::string text = "the closed valve seals";
+    if (closed["passage"]["state"] != "closed")
+      text = "the closed valve leaves a gap, as it is sick";
+    else if (disease != nullptr && disease->opening == 0 && disease->area > 0)
+      text +=
+          ", because the band closes the gap of " + options_.disease + ", which a smaller --half-thickness leaves open";
     text += ", and the open valve lets the blood pass";
     if (open.contains("orifice")) {
       text += " through " + printed("%.3g", square_cm * open["orifice"]["effective_area"].get<double>()) + " cm2";
