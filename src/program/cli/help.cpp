@@ -239,15 +239,17 @@ Landmarks are those of the closed valve. The report's residuals are distances fr
 )"},
     {"patient", "from a wall and landmarks to a mesh with a valve",
      R"(
-riis patient WALL LANDMARKS --output FOLDER makes all of a patient's valve: an aortic valve in its root, or a mitral valve in a
-ventricle with the ends of the atrium and of the aorta. It sizes and places the valve, warps it to the landmarks, leads a skirt to
-the wall, makes a mesh by gmsh, and marks it. It prints each command before it runs it. The commands also run one by one, in FOLDER.
-The unit and the axes of WALL are found: the landmarks must lie at the wall. If two possibilities fit, the command asks. The flat
-ends of the wall become the boundaries inlet, outlet, outlet_2 and so on, and the rest becomes wall. --inlet and --outlet name ends
-by points near them.
-The command stops, and says what to do, if WALL has a fault or is not within --skirt of the valve, if leaflets go through each
-other, if an edge leaks at one of 11 openings, or if the closed valve does not seal. If an edge leaks, it first makes the mesh
-once more with shorter edges. FOLDER has the file UNFINISHED.txt until all is done. A sick valve that never closes need not seal.
+riis patient WALL LANDMARKS --output FOLDER makes all of a patient's valve: an aortic valve in its root, or a mitral valve
+in a ventricle with the ends of the atrium and of the aorta. It sizes and places the valve, warps it to the landmarks, leads
+a skirt to the wall, makes a mesh by gmsh, and marks it. It prints each command before it runs it. The commands also run one
+by one in FOLDER.
+The unit and the axes of WALL are found: the landmarks must lie at the wall. If two possibilities fit, the command asks. The
+flat ends of the wall become the boundaries inlet, outlet, outlet_2 and so on, and the rest becomes wall. --inlet and
+--outlet name ends by points near them.
+The command stops, and says what to do, if WALL has a fault or is not within --skirt of the valve, if leaflets go through
+each other, if an edge leaks at one of 11 openings, or if the closed valve does not seal. If an edge leaks, it first makes
+the mesh once more with shorter edges. FOLDER has the file UNFINISHED.txt until all is done. A sick valve that never closes
+need not seal.
 --solver writes a case into FOLDER, and the last line on stdout runs it.
 )"},
     {"pictures", "views, sizes, backgrounds, captions",

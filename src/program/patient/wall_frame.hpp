@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a patient's wall, whose file states neither unit nor axes, and landmarks, whose file states both. Out: the unit and the axes
-// of the wall: those with which the landmarks lie at the wall.
+// In: a patient's wall, whose file states neither unit nor axes, and landmarks, whose file states both.
+// Out: the unit and the axes of the wall: those with which the landmarks lie at the wall.
 #pragma once
 
 #include <optional>
