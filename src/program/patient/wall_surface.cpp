@@ -320,15 +320,15 @@ class WallRepair {
     for (std::int64_t i = 0; i < made_.triangles.n(); ++i)
       if (height_of(view(corners())[i]) < least_height_) thin.push_back(i);
     if (thin.empty()) return 0;
-    of_side_.clear();
-    around_.assign(points().size(), {});
+    around_.clear();
+    for (const std::int64_t i : thin)
+      for (const std::int64_t id : view(corners())[i]) around_[id] = {};
+    std::vector<char> is_near(points().size(), 0);
+    for (const auto &[id, triangles] : around_) view(is_near)[id] = 1;
     is_locked_.assign(points().size(), 0);
     for (std::int64_t i = 0; i < made_.triangles.n(); ++i)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Corners &corner = view(corners())[i];
-        of_side_[{corner[k], corner[(k + 1) % 3]}] = i;
-        view(around_)[corner[k]].push_back(i);
-      }
+      for (const std::int64_t id : view(corners())[i])
+        if (view(is_near)[id] != 0) around_[id].push_back(i);
     std::int64_t n = 0;
     for (const std::int64_t i : thin) {
       const Corners corner = view(corners())[i];
@@ -365,28 +365,37 @@ class WallRepair {
     for (const std::int64_t id : corner) view(is_locked_)[id] = 1;
   }
 
+  // Returns the triangle that has the side from a to b in this direction, or -1. One of the two is a vertex of a thin triangle.
+  std::int64_t of_side(std::int64_t a, std::int64_t b) const {
+    const auto found = around_.find(around_.count(a) > 0 ? a : b);
+    for (const std::int64_t i : found->second)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (view(made_.triangles.corners)[i][k] == a && view(made_.triangles.corners)[i][(k + 1) % 3] == b) return i;
+    return -1;
+  }
+
   // Moves the end b of a side to its other end a. Returns whether the surface allows it.
   bool join_side(std::int64_t a, std::int64_t b) {
-    const auto left = of_side_.find({a, b}), right = of_side_.find({b, a});
-    if (left == of_side_.end() || right == of_side_.end()) return false;
+    const std::int64_t left = of_side(a, b), right = of_side(b, a);
+    if (left < 0 || right < 0) return false;
     std::set<std::int64_t> beside_a, common;
-    for (const std::int64_t i : view(around_)[a])
+    for (const std::int64_t i : around_[a])
       for (const std::int64_t id : view(corners())[i]) beside_a.insert(id);
-    for (const std::int64_t i : view(around_)[b]) {
+    for (const std::int64_t i : around_[b]) {
       if (is_locked(view(corners())[i])) return false;
       for (const std::int64_t id : view(corners())[i])
         if (id != a && id != b && beside_a.count(id) > 0) common.insert(id);
     }
     constexpr std::size_t n_common = 2;  // with more, parts of the surface would touch
     if (common.size() != n_common) return false;
-    for (const std::int64_t i : view(around_)[b]) {
+    for (const std::int64_t i : around_[b]) {
       lock(view(corners())[i]);
       for (std::int64_t &id : view(corners())[i])
         if (id == b) id = a;
     }
-    for (const std::int64_t i : view(around_)[a])
-      if (i != left->second && i != right->second) lock(view(corners())[i]);
-    view(corners())[left->second] = view(corners())[right->second] = {-1, -1, -1};
+    for (const std::int64_t i : around_[a])
+      if (i != left && i != right) lock(view(corners())[i]);
+    view(corners())[left] = view(corners())[right] = {-1, -1, -1};
     return true;
   }
 
@@ -394,18 +403,18 @@ class WallRepair {
   bool flip_side(std::int64_t i, std::size_t k) {
     const Corners corner = view(corners())[i];
     const std::int64_t a = corner[k], b = corner[(k + 1) % 3], c = corner[(k + 2) % 3];
-    const auto beyond = of_side_.find({b, a});
-    if (beyond == of_side_.end()) return false;
-    const Corners other = view(corners())[beyond->second];
+    const std::int64_t beyond = of_side(b, a);
+    if (beyond < 0) return false;
+    const Corners other = view(corners())[beyond];
     if (is_locked(other)) return false;
     const std::int64_t d = other[0] != a && other[0] != b   ? other[0]
                            : other[1] != a && other[1] != b ? other[1]
                                                             : other[2];
-    if (of_side_.count({c, d}) > 0 || of_side_.count({d, c}) > 0) return false;
+    if (of_side(c, d) >= 0 || of_side(d, c) >= 0) return false;
     const Corners one{a, d, c}, two{d, b, c};
     if (std::min(height_of(one), height_of(two)) <= height_of(corner)) return false;
     view(corners())[i] = one;
-    view(corners())[beyond->second] = two;
+    view(corners())[beyond] = two;
     lock(one);
     lock(two);
     return true;
@@ -527,11 +536,9 @@ class WallRepair {
   const std::string &path_;
   ClosedSurface made_;
   double least_height_ = 0;
-  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t>
-      of_side_;                                    // the triangle that has the side in this direction
-  std::vector<std::vector<std::int64_t>> around_;  // the triangles of each vertex
-  std::vector<char> is_locked_;                    // vertices beside a repair of this round
-  std::vector<char> is_turned_;                    // of the file's triangles, without those of holes
+  std::map<std::int64_t, std::vector<std::int64_t>> around_;  // the triangles around each vertex of a thin triangle
+  std::vector<char> is_locked_;                               // vertices beside a repair of this round
+  std::vector<char> is_turned_;                               // of the file's triangles, without those of holes
 };
 
 }  // namespace
