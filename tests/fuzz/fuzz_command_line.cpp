@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzzes the program's command line. Each line of the input is an argument. No file is opened. The parameters of --set are set.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -67,6 +68,12 @@ void check(const ExportOptions &options) {
 void check(const ParamsOptions &options) { check_valve(options); }
 
 void check(const PlaceOptions &options) { EXPECT(!options.landmarks.empty(), "no file of landmarks"); }
+
+void check(const PatientOptions &options) {
+  EXPECT(!options.wall.empty() && !options.landmarks.empty() && !options.folder.empty(), "a patient lacks files");
+  const auto &solvers = solver_names;
+  EXPECT(std::find(solvers.begin(), solvers.end(), options.solver) != solvers.end(), "no solver");
+}
 
 }  // namespace
 
