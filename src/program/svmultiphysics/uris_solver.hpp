@@ -125,7 +125,7 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
 
 // Returns the area of a closed valve in a mesh (docs/theory/measures.md, "Closed area"), in the mesh's unit squared. Returns
 // nothing if the mesh has no volume elements of one type that exact_area knows.
-std::optional<double> closed_area_in(const riis_vtk_mesh *mesh, const riis_surface *surface, double half_thickness,
+std::optional<double> closed_area_in(const riis_vtk_mesh *file, const riis_surface *surface, double half_thickness,
                                      std::int32_t n_threads);
 
 // Returns the distance of each node to the surface, up to a limit, and infinity beyond it.
