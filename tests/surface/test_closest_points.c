@@ -257,7 +257,7 @@ static void check_many_points(int64_t n, bool are_in_order) {
       }
     }
     assert_true(n_written > (way == few ? 3 : 100));
-    if (way == limited) assert_true(n_far > 100 && n_far < n_written - 100);
+    if (way == limited) CHECK_MET(n_far > 100 && n_far < n_written - 100);
     free_owned_after(owned_before);
   }
 }
