@@ -11,21 +11,13 @@
 
 namespace riis::tests {
 
-using program::cross;
-using program::dot;
-using program::norm;
-using program::unit_vector;
-using program::operator+;
-using program::operator-;
-using program::operator*;
-
 namespace {
 
 using Edge = std::pair<std::int64_t, std::int64_t>;
 
-Vector draw_direction(random_source &random) {
+Vector3 draw_direction(random_source &random) {
   for (;;) {
-    Vector v;
+    Vector3 v;
     for (double &x : v) x = random_between(&random, -1, 1);
     if (norm(v) > 0.1 && norm(v) < 1) return unit_vector(v);
   }
@@ -34,7 +26,7 @@ Vector draw_direction(random_source &random) {
 // Returns the new vertices on edges, and remembers them.
 class CutPoints {
  public:
-  CutPoints(std::vector<Vector> &points, const std::function<Vector(std::int64_t, std::int64_t)> &place)
+  CutPoints(std::vector<Vector3> &points, const std::function<Vector3(std::int64_t, std::int64_t)> &place)
       : points_(points), place_(place) {}
   std::int64_t on(std::int64_t a, std::int64_t b) {
     const Edge edge = std::minmax(a, b);
@@ -44,8 +36,8 @@ class CutPoints {
   }
 
  private:
-  std::vector<Vector> &points_;
-  const std::function<Vector(std::int64_t, std::int64_t)> place_;
+  std::vector<Vector3> &points_;
+  const std::function<Vector3(std::int64_t, std::int64_t)> place_;
   std::map<Edge, std::int64_t> known_;
 };
 
@@ -54,20 +46,20 @@ double smooth_least(double a, double b, double width) {
   return std::min(a, b) - h * h / (4 * width);
 }
 
-double distance_to_segment(const Vector &x, const Vector &to) {
+double distance_to_segment(const Vector3 &x, const Vector3 &to) {
   const double t = std::clamp(dot(x, to) / dot(to, to), 0.0, 1.0);
   return norm(x - t * to);
 }
 
 }  // namespace
 
-Triangles surface_of(const std::function<double(const Vector &)> &function, const Vector &lower, double side,
+Triangles surface_of(const std::function<double(const Vector3 &)> &function, const Vector3 &lower, double side,
                      int n_cells) {
   const std::int64_t n = n_cells + 1;
   const double step = side / n_cells;
   const auto place = [&](std::int64_t id) {
-    return lower +
-           step * Vector{static_cast<double>(id % n), static_cast<double>(id / n % n), static_cast<double>(id / n / n)};
+    return lower + step * Vector3{static_cast<double>(id % n), static_cast<double>(id / n % n),
+                                  static_cast<double>(id / n / n)};
   };
   std::vector<double> value(static_cast<std::size_t>(n * n * n));
   for (std::int64_t id = 0; id < n * n * n; ++id) view(value)[id] = function(place(id));
@@ -99,7 +91,7 @@ Triangles surface_of(const std::function<double(const Vector &)> &function, cons
         const auto &one = inside.size() == 1 ? inside : outside, &three = inside.size() == 1 ? outside : inside;
         for (const std::int64_t other : three) polygon.push_back(cut_points.on(one[0], other));
       }
-      const Vector out = place(outside[0]) - place(inside[0]);
+      const Vector3 out = place(outside[0]) - place(inside[0]);
       const auto point = [&](std::size_t c) { return view(made.points)[polygon[c]]; };
       if (dot(cross(point(1) - point(0), point(2) - point(0)), out) < 0) std::reverse(polygon.begin(), polygon.end());
       for (std::size_t c = 2; c < polygon.size(); ++c) made.corners.push_back({polygon[0], polygon[c - 1], polygon[c]});
@@ -108,14 +100,14 @@ Triangles surface_of(const std::function<double(const Vector &)> &function, cons
   return made;
 }
 
-CutEnd cut(Triangles &triangles, const Vector &point, const Vector &outward, double radius, Cap cap,
+CutEnd cut(Triangles &triangles, const Vector3 &point, const Vector3 &outward, double radius, Cap cap,
            random_source &random) {
   const auto height = [&](std::int64_t id) { return dot(view(triangles.points)[id] - point, outward); };
   const auto is_beyond = [&](std::int64_t id) {
     return height(id) > 0 && norm(view(triangles.points)[id] - point) < radius;
   };
   CutPoints cut_points(triangles.points, [&](std::int64_t a, std::int64_t b) {
-    const Vector &p = view(triangles.points)[a], &q = view(triangles.points)[b];
+    const Vector3 &p = view(triangles.points)[a], &q = view(triangles.points)[b];
     return p + height(a) / (height(a) - height(b)) * (q - p);
   });
   std::vector<Corners> kept;
@@ -139,13 +131,13 @@ CutEnd cut(Triangles &triangles, const Vector &point, const Vector &outward, dou
   if (rim.size() != next.size()) std::printf("a cut has several rims\n"), std::exit(1);
   CutEnd end;
   end.outward = outward;
-  Vector middle{};
+  Vector3 middle{};
   for (const std::int64_t id : rim)
     middle = middle + 1.0 / static_cast<double>(rim.size()) * view(triangles.points)[id];
   std::vector<Corners> caps;
   const auto add = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
     caps.push_back({a, b, c});
-    const Vector &p = view(triangles.points)[a], &q = view(triangles.points)[b], &r = view(triangles.points)[c];
+    const Vector3 &p = view(triangles.points)[a], &q = view(triangles.points)[b], &r = view(triangles.points)[c];
     const double area = 0.5 * dot(cross(q - p, r - p), outward);
     end.area += area;
     end.centre = end.centre + area / 3 * (p + q + r);
@@ -178,20 +170,20 @@ CutEnd cut(Triangles &triangles, const Vector &point, const Vector &outward, dou
 
 CutVessels draw_vessels(random_source &random, int n_ends, double waves, Cap cap) {
   constexpr double length = 5, least_angle = 60 * 3.14159265358979323846 / 180;
-  std::vector<Vector> directions;
+  std::vector<Vector3> directions;
   std::vector<double> radii;
   while (static_cast<int>(directions.size()) < n_ends) {
-    const Vector direction = draw_direction(random);
+    const Vector3 direction = draw_direction(random);
     if (std::any_of(directions.begin(), directions.end(),
-                    [&](const Vector &other) { return dot(other, direction) > std::cos(least_angle); }))
+                    [&](const Vector3 &other) { return dot(other, direction) > std::cos(least_angle); }))
       continue;
     directions.push_back(direction);
     radii.push_back(random_between(&random, 0.55, 1));
   }
-  std::vector<std::pair<Vector, double>> sines;
+  std::vector<std::pair<Vector3, double>> sines;
   for (int i = 0; i < 6; ++i)
     sines.emplace_back(random_between(&random, 1, 4) * draw_direction(random), random_between(&random, 0, 6));
-  const auto function = [&](const Vector &x) {
+  const auto function = [&](const Vector3 &x) {
     double least = 1e9;
     for (std::size_t i = 0; i < directions.size(); ++i)
       least = smooth_least(least, distance_to_segment(x, (length + 1.3 * radii[i]) * directions[i]) - radii[i], 0.4);
@@ -204,18 +196,18 @@ CutVessels draw_vessels(random_source &random, int n_ends, double waves, Cap cap
   // The grid must not be symmetric to the vessels.
   made.triangles = surface_of(function, {-reach - 0.031, -reach - 0.017, -reach - 0.023}, 2 * reach + 0.05, 56);
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    const Vector tilted = unit_vector(directions[i] + random_between(&random, 0, 0.8) *
-                                                          unit_vector(cross(directions[i], draw_direction(random))));
+    const Vector3 tilted = unit_vector(directions[i] + random_between(&random, 0, 0.8) *
+                                                           unit_vector(cross(directions[i], draw_direction(random))));
     made.ends.push_back(cut(made.triangles, length * directions[i], tilted, 3.2 * radii[i], cap, random));
     made.axes.push_back(0.5 * length * directions[i]);
   }
   return made;
 }
 
-Vector Placement::turned(const Vector &vector) const {
+Vector3 Placement::turned(const Vector3 &vector) const {
   return {dot(axes[0], vector), dot(axes[1], vector), dot(axes[2], vector)};
 }
-Vector Placement::of(const Vector &point) const { return offset + scale * turned(point); }
+Vector3 Placement::of(const Vector3 &point) const { return offset + scale * turned(point); }
 
 Placement draw_placement(random_source &random, double scale, double far) {
   Placement placement;
@@ -241,7 +233,7 @@ void write_stl(const std::string &path, const Triangles &triangles, const Placem
       std::swap(corner[1], corner[2]);
     float numbers[12] = {0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vector point = placement.of(view(triangles.points)[corner[k]]);
+      const Vector3 point = placement.of(view(triangles.points)[corner[k]]);
       for (std::size_t axis = 0; axis < 3; ++axis) numbers[3 + 3 * k + axis] = static_cast<float>(point[axis]);
     }
     const std::uint16_t none = 0;
@@ -249,6 +241,16 @@ void write_stl(const std::string &path, const Triangles &triangles, const Placem
     std::fwrite(&none, sizeof none, 1, file);
   }
   std::fclose(file);
+}
+
+void expect(bool is_right, const std::string &what) {
+  if (!is_right) std::printf("%s: not true: %s\n", here.c_str(), what.c_str());
+  n_faults += !is_right;
+}
+
+void expect_near(double found, double expected, double tolerance, const std::string &what) {
+  expect(std::abs(found - expected) <= tolerance,
+         what + ": " + std::to_string(found) + " for " + std::to_string(expected));
 }
 
 }  // namespace riis::tests

@@ -16,14 +16,14 @@ namespace riis::tests {
 
 using program::Corners;
 using program::Triangles;
-using program::Vector;
+using riis::Vector3;
 
 enum class Cap { fan, rings, open };
 
 // An end as it was cut.
 struct CutEnd {
-  Vector centre{};   // of the cap's area
-  Vector outward{};  // of the plane
+  Vector3 centre{};   // of the cap's area
+  Vector3 outward{};  // of the plane
   double area = 0;
   std::int64_t n_triangles = 0;  // of the cap
 };
@@ -31,17 +31,17 @@ struct CutEnd {
 struct CutVessels {
   Triangles triangles;  // closed, outwards, the caps last. An open end has no cap
   std::vector<CutEnd> ends;
-  std::vector<Vector> axes;  // points in the blood, half way from the middle to each end
-  Vector middle{};
+  std::vector<Vector3> axes;  // points in the blood, half way from the middle to each end
+  Vector3 middle{};
 };
 
 // Returns the triangles of the surface on which a function of places is 0. It is below 0 inside.
-Triangles surface_of(const std::function<double(const Vector &)> &function, const Vector &lower, double side,
+Triangles surface_of(const std::function<double(const Vector3 &)> &function, const Vector3 &lower, double side,
                      int n_cells);
 
 // Cuts off what lies beyond a plane within a ball around a point of the plane. Closes the cut with a cap. Returns the end, which
 // is measured even if it stays open.
-CutEnd cut(Triangles &triangles, const Vector &point, const Vector &outward, double radius, Cap cap,
+CutEnd cut(Triangles &triangles, const Vector3 &point, const Vector3 &outward, double radius, Cap cap,
            random_source &random);
 
 // Draws vessels that meet in the middle, with radii of about 1 and ends that lean by up to 40 degrees. The height of the waves of
@@ -50,11 +50,11 @@ CutVessels draw_vessels(random_source &random, int n_ends, double waves, Cap cap
 
 // Turns, scales and moves points.
 struct Placement {
-  std::array<Vector, 3> axes{};
+  std::array<Vector3, 3> axes{};
   double scale = 1;
-  Vector offset{};
-  Vector of(const Vector &point) const;       // a place
-  Vector turned(const Vector &vector) const;  // a direction
+  Vector3 offset{};
+  Vector3 of(const Vector3 &point) const;       // a place
+  Vector3 turned(const Vector3 &vector) const;  // a direction
 };
 Placement draw_placement(random_source &random, double scale, double far);
 
@@ -63,5 +63,11 @@ enum class Turned { none, all, some };
 // Writes a binary .stl file with its triangles in random order. Points have single precision there.
 void write_stl(const std::string &path, const Triangles &triangles, const Placement &placement, Turned turned,
                random_source &random);
+
+// The trial that runs, which expectations print, and the number of those that failed.
+inline std::string here;
+inline int n_faults = 0;
+void expect(bool is_right, const std::string &what);
+void expect_near(double found, double expected, double tolerance, const std::string &what);
 
 }  // namespace riis::tests

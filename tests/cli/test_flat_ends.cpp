@@ -20,20 +20,7 @@ namespace {
 
 using namespace riis::program;
 using namespace riis::tests;
-using riis::view;
-
-int n_faults = 0;
-std::string here;  // which trial
-
-void expect(bool is_right, const std::string &what) {
-  if (!is_right) std::printf("%s: not true: %s\n", here.c_str(), what.c_str());
-  n_faults += !is_right;
-}
-
-void expect_near(double found, double expected, double tolerance, const std::string &what) {
-  expect(std::abs(found - expected) <= tolerance,
-         what + ": " + std::to_string(found) + " for " + std::to_string(expected));
-}
+using namespace riis;
 
 void expect_text(const std::string &text, const std::vector<std::string> &parts) {
   for (const std::string &part : parts)
@@ -70,12 +57,12 @@ void expect_refused(const std::vector<std::string> &parts, const EndPoints &poin
 
 double volume_of(const PatientWall &wall) {
   double volume = 0;
-  const Vector origin{wall.xyz[0], wall.xyz[1], wall.xyz[2]};
+  const Vector3 origin{wall.xyz[0], wall.xyz[1], wall.xyz[2]};
   for (std::size_t i = 0; i < wall.corners.size(); i += 3) {
-    Vector p[3];
+    Vector3 p[3];
     for (std::size_t k = 0; k < 3; ++k) {
       const double *const xyz = &view(wall.xyz)[3 * wall.corners[i + k]];
-      p[k] = Vector{xyz[0], xyz[1], xyz[2]} - origin;
+      p[k] = Vector3{xyz[0], xyz[1], xyz[2]} - origin;
     }
     volume += dot(p[0], cross(p[1], p[2])) / 6;
   }
@@ -119,7 +106,7 @@ void expect_ends(const PatientWall &wall, const CutVessels &vessels, const Place
   std::vector<double> areas(wall.ends.size(), 0);
   for (std::size_t i = 0; i < wall.end_of.size(); ++i) {
     if (wall.end_of[i] < 0) continue;
-    Vector p[3];
+    Vector3 p[3];
     for (std::size_t k = 0; k < 3; ++k) {
       const double *const xyz = &view(wall.xyz)[3 * wall.corners[3 * i + k]];
       p[k] = {xyz[0], xyz[1], xyz[2]};
@@ -211,9 +198,9 @@ Triangles tube(int n_around, int n_rings, double length, double lean = 0) {
   return made;
 }
 
-void append(Triangles &triangles, const Triangles &other, double scale, const Vector &offset, bool turned = false) {
+void append(Triangles &triangles, const Triangles &other, double scale, const Vector3 &offset, bool turned = false) {
   const auto first = static_cast<std::int64_t>(triangles.points.size());
-  for (const Vector &point : other.points) triangles.points.push_back(offset + scale * point);
+  for (const Vector3 &point : other.points) triangles.points.push_back(offset + scale * point);
   for (Corners corner : other.corners) {
     if (turned) std::swap(corner[1], corner[2]);
     triangles.corners.push_back({first + corner[0], first + corner[1], first + corner[2]});
@@ -233,7 +220,7 @@ Triangles ball(int n) {
 }
 
 // A box whose sides are divided into squares.
-Triangles box(int n, const Vector &sides) {
+Triangles box(int n, const Vector3 &sides) {
   Triangles made;
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (int side = 0; side < 2; ++side)
@@ -241,7 +228,7 @@ Triangles box(int n, const Vector &sides) {
         for (int j = 0; j < n; ++j) {
           const auto first = static_cast<std::int64_t>(made.points.size());
           for (int c = 0; c < 4; ++c) {
-            Vector point{};
+            Vector3 point{};
             point[axis] = side * sides[axis];
             point[(axis + 1) % 3] = sides[(axis + 1) % 3] * (i + (c == 1 || c == 2)) / n;
             point[(axis + 2) % 3] = sides[(axis + 2) % 3] * (j + (c >= 2)) / n;
@@ -322,7 +309,7 @@ void faults(random_source &random) {
 
   // Vertices that rounding parted, and a triangle without an area in a joint.
   bad = whole;
-  bad.points.push_back(bad.points[500] + Vector{2e-6, 0, 0});
+  bad.points.push_back(bad.points[500] + Vector3{2e-6, 0, 0});
   bad.corners[1000][0] =
       bad.corners[1000][0] == 500 ? static_cast<std::int64_t>(bad.points.size()) - 1 : bad.corners[1000][0];
   const Corners split = bad.corners[700];
@@ -352,7 +339,7 @@ void unclear_ends(random_source &random) {
   write(box(6, {1, 1.2, 3}), random);
   expect_refused({"no flat end is clear, but blood needs two", "choose flat parts by --inlet=X,Y,Z --outlet=X,Y,Z",
                   "flat parts are ", "with area 3.6 of 72 triangles"});
-  EndPoints points{Vector{0.5, 0.6, 0}, {Vector{0.5, 0.6, 3}}};
+  EndPoints points{Vector3{0.5, 0.6, 0}, {Vector3{0.5, 0.6, 3}}};
   PatientWall wall = read_patient_wall(file(), points);
   expect(wall.ends.size() == 2 && wall.ends[0].name != wall.ends[1].name, "two points choose two sides");
   for (const FlatEnd &end : wall.ends) {
@@ -360,13 +347,13 @@ void unclear_ends(random_source &random) {
     expect_near(end.centre[2], end.name == "inlet" ? 0 : 3, 1e-6, "place of the chosen side");
   }
   expect_refused({"--outlet=0.500,0.700,0.000: another point chose the flat part at 0.500,0.600,0.000 before"},
-                 {Vector{0.5, 0.6, 0}, {Vector{0.5, 0.7, 0}}});
+                 {Vector3{0.5, 0.6, 0}, {Vector3{0.5, 0.7, 0}}});
   expect_refused({"0 flat parts are left for the inlet; choose it also, by --inlet=X,Y,Z"},
-                 {{}, {Vector{0.5, 0.6, 0}}});
+                 {{}, {Vector3{0.5, 0.6, 0}}});
 
   // A vessel with a blind end.
   Triangles blind = tube(40, 30, 6);
-  for (Vector &point : blind.points)
+  for (Vector3 &point : blind.points)
     if (point[2] > 5) {
       const double up = point[2] - 5, radius = std::sqrt(1 - std::min(1.0, up * up));
       point = {radius * point[0], radius * point[1], point[2]};
@@ -374,14 +361,14 @@ void unclear_ends(random_source &random) {
   write(blind, random);
   expect_refused({"only the flat end at 0.000,0.000,0.000 is clear", "cut the vessels flat"});
   expect_refused({"--outlet=0.000,1.000,3.000: no flat part of " + file() + " is there; flat parts are "},
-                 {Vector{0, 0, 0}, {Vector{0, 1, 3}}});
+                 {Vector3{0, 0, 0}, {Vector3{0, 1, 3}}});
 
   // The wall of a vessel with its thickness: two faces that flat rings join.
   Triangles thick = tube(40, 30, 6), inner = tube(40, 30, 6);
   thick.corners.resize(thick.corners.size() - 80);
   inner.corners.resize(inner.corners.size() - 80);
   const auto n = static_cast<std::int64_t>(thick.points.size());
-  for (Vector &point : inner.points) point = {0.8 * point[0], 0.8 * point[1], point[2]};
+  for (Vector3 &point : inner.points) point = {0.8 * point[0], 0.8 * point[1], point[2]};
   append(thick, inner, 1, {}, true);
   for (std::int64_t i = 0; i < 40; ++i)
     for (const std::int64_t ring : {std::int64_t{0}, std::int64_t{30}}) {
@@ -398,8 +385,8 @@ void unclear_ends(random_source &random) {
 // A flat place on a bulge of the wall meets the wall at an angle that grows with its size. Below 30 degrees it is wall, above 55
 // an end. Between them it is an end only if the user says so.
 void flat_places(random_source &random) {
-  const auto bulge = [](const Vector &x) {
-    return std::min(std::hypot(x[1], x[2]) - 1, norm(x - Vector{0, 0, 1}) - 1.7);
+  const auto bulge = [](const Vector3 &x) {
+    return std::min(std::hypot(x[1], x[2]) - 1, norm(x - Vector3{0, 0, 1}) - 1.7);
   };
   for (const double degrees : {20.0, 42.0, 75.0}) {
     here = "a flat place at " + std::to_string(degrees) + " degrees";
@@ -410,7 +397,7 @@ void flat_places(random_source &random) {
     const CutEnd place = cut(made, {0, 0, height}, {0, 0, 1}, 2, Cap::rings, random);
     write(made, random);
     expect(refusal_of().empty() && n_ends() == (degrees > 55 ? 3U : 2U), "it is an end only if it is sharp");
-    const EndPoints points{Vector{4, 0, 0}, {Vector{-4, 0, 0}, place.centre}};
+    const EndPoints points{Vector3{4, 0, 0}, {Vector3{-4, 0, 0}, place.centre}};
     const std::string text = refusal_of(points);
     expect(degrees < 30 || (text.empty() && n_ends(points) == 3), "it is an end if a point says so" + text);
   }

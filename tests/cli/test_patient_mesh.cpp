@@ -26,20 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace riis::program;
 using namespace riis::tests;
-using riis::view;
-
-int n_faults = 0;
-std::string here;
-
-void expect(bool is_right, const std::string &what) {
-  if (!is_right) std::printf("%s: not true: %s\n", here.c_str(), what.c_str());
-  n_faults += !is_right;
-}
-
-void expect_near(double found, double expected, double tolerance, const std::string &what) {
-  expect(std::abs(found - expected) <= tolerance,
-         what + ": " + std::to_string(found) + " for " + std::to_string(expected));
-}
+using namespace riis;
 
 template <class Function>
 void expect_refused(const std::vector<std::string> &parts, const Function &function) {
@@ -60,7 +47,7 @@ std::string text_in(const std::string &path) {
 void write_text_file(const std::string &path, const std::string &text) { std::ofstream(path) << text; }
 
 // A size field with one edge length near the middle of a box, and three times that length at its corners.
-void write_field(const std::string &path, const Vector &middle, double side, double edge) {
+void write_field(const std::string &path, const Vector3 &middle, double side, double edge) {
   std::ostringstream text;
   for (const double x : middle) text << x - side / 2 << " ";
   text << "\n" << side / 2 << " " << side / 2 << " " << side / 2 << "\n3 3 3\n";
@@ -71,7 +58,7 @@ void write_field(const std::string &path, const Vector &middle, double side, dou
 // What mesh.msh says.
 struct Read {
   std::map<int, std::string> names;
-  std::vector<Vector> points;
+  std::vector<Vector3> points;
   std::vector<std::pair<int, Corners>> triangles;
   std::vector<std::array<std::int64_t, 4>> cells;
 };
@@ -95,7 +82,7 @@ Read read_msh(const std::string &path) {
       }
     } else if (word == "$Nodes") {
       for (file >> n; n > 0; --n) {
-        Vector point;
+        Vector3 point;
         file >> word >> point[0] >> point[1] >> point[2];
         read.points.push_back(point);
       }
@@ -119,8 +106,8 @@ Read read_msh(const std::string &path) {
   return read;
 }
 
-double volume_of(const std::vector<Vector> &points, const std::array<std::int64_t, 4> &cell) {
-  const Vector &a = view(points)[cell[0]];
+double volume_of(const std::vector<Vector3> &points, const std::array<std::int64_t, 4> &cell) {
+  const Vector3 &a = view(points)[cell[0]];
   return dot(cross(view(points)[cell[1]] - a, view(points)[cell[2]] - a), view(points)[cell[3]] - a) / 6;
 }
 
@@ -166,8 +153,8 @@ void expect_files(const std::string &folder, const PatientMesh &mesh, double uni
       break;
     }
     found->second.first = 0;  // taken
-    const Vector &a = view(read.points)[corner[0]], &b = view(read.points)[corner[1]],
-                 &c = view(read.points)[corner[2]];
+    const Vector3 &a = view(read.points)[corner[0]], &b = view(read.points)[corner[1]],
+                  &c = view(read.points)[corner[2]];
     areas[group] += 0.5 * norm(cross(b - a, c - a));
     enclosed += dot(a - read.points[0], cross(b - a, c - a)) / 6;
   }
@@ -294,9 +281,9 @@ void failing_programs(random_source &random, const std::string &folder) {
   expect_refused({folder + "/gmsh/surface.msh: ", "it is not whole"}, mesh);
   // A wall that goes through itself: a point near the first end is moved through the wall beyond.
   PatientWall crossed = wall;
-  const Vector axis = unit_vector(vessels.axes[0]), other = cross(axis, Vector{axis[1], axis[2], axis[0]});
+  const Vector3 axis = unit_vector(vessels.axes[0]), other = cross(axis, Vector3{axis[1], axis[2], axis[0]});
   for (std::size_t i = 0; i < crossed.xyz.size(); i += 3) {
-    const Vector point{crossed.xyz[i], crossed.xyz[i + 1], crossed.xyz[i + 2]};
+    const Vector3 point{crossed.xyz[i], crossed.xyz[i + 1], crossed.xyz[i + 2]};
     if (std::abs(dot(point, axis) - 3.5) > 0.2 || dot(point, other) < 0.4 * norm(other)) continue;
     for (std::size_t k = 0; k < 3; ++k) crossed.xyz[i + k] = (point - 3.0 * unit_vector(other))[k];
     break;

@@ -81,5 +81,14 @@ inline riis_points points_of(const std::vector<double> &xyz) {
   points.stride = 3;
   return points;
 }
+// Returns the distances of points, (3, n), to a surface.
+inline std::vector<double> distances_to(const riis_surface *surface, const std::vector<double> &xyz) {
+  const riis_points points = points_of(xyz);
+  std::vector<double> made(xyz.size() / 3);
+  auto arrays = defaults<riis_closest_arrays>();
+  arrays.distance = made.data();
+  check(riis_closest_points(surface, &points, nullptr, &arrays));
+  return made;
+}
 
 }  // namespace riis::program

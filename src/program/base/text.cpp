@@ -111,6 +111,23 @@ std::string did_you_mean(const std::string &word, const std::vector<std::string>
   return found.empty() ? "" : ", did you mean " + (before + found + after) + "?";
 }
 
+std::string shell_word(const std::string &word) {
+  const auto is_plain = [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c >= 128 ||
+           std::string("_-./+,:@%=").find(static_cast<char>(c)) != std::string::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string shell_text(const std::vector<std::string> &words) {
+  std::vector<std::string> typed;
+  for (const std::string &word : words) typed.push_back(shell_word(word));
+  return joined_by(typed, " ");
+}
+
 std::string system_text(int error) { return std::generic_category().message(error); }
 
 // ---- Text file ----

@@ -45,6 +45,11 @@ std::string one_of(const std::vector<std::string> &names);
 std::string did_you_mean(const std::string &word, const std::vector<std::string> &names, const char *before = "",
                          const char *after = "");
 
+// Quotes the word if a shell would not read it as one word.
+std::string shell_word(const std::string &word);
+// Returns the words of a command as a user would type them.
+std::string shell_text(const std::vector<std::string> &words);
+
 inline bool is_control(unsigned char c) { return c < ' ' || c == 127; }
 // Returns the system's message for errno.
 std::string system_text(int error);

@@ -89,13 +89,7 @@ std::vector<double> distances_from(riis_valve *valve, riis_surface_options where
   check(riis_valve_set_scalar(valve, "opening", 0));
   check(riis_valve_set_scalar(valve, "skirt_length", 0));
   where.tolerance = distance_error * where.scale / where.half_thickness;
-  const auto surface = create<Surface>(riis_surface_create, valve, &where);
-  const riis_points points = points_of(xyz);
-  std::vector<double> made(xyz.size() / 3);
-  auto arrays = defaults<riis_closest_arrays>();
-  arrays.distance = made.data();
-  check(riis_closest_points(surface, &points, nullptr, &arrays));
-  return made;
+  return distances_to(create<Surface>(riis_surface_create, valve, &where), xyz);
 }
 
 // Warps the valve to the landmarks. Refuses a warp that folds at one of five openings.

@@ -330,25 +330,15 @@ const std::set<std::string> faces_of_meshio = {".xdmf", ".xmf", ".inp", ".e", ".
 const std::set<std::string> surfaces_of_paraview = {".vtkhdf", ".pvtp", ".vtm"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
 
-// Quotes the path, so that a shell reads it as one word and a program does not read it as an option.
-std::string shell_word(std::string path) {
-  if (path[0] == '-') path.insert(0, "./");
-  const auto is_plain = [](unsigned char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c >= 128 ||
-           std::string("_-./+,:@%").find(static_cast<char>(c)) != std::string::npos;
-  };
-  if (std::all_of(path.begin(), path.end(), is_plain)) return path;
-  std::string quoted = "'";
-  for (const char c : path) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
+// Returns the path as a shell reads it, and a program does not read it as an option.
+std::string path_in_shell(const std::string &path) { return shell_word(path[0] == '-' ? "./" + path : path); }
 
 std::string with_ending(const std::string &path, const char *ending) {
-  return shell_word(fs::path(path).replace_extension(ending).string());
+  return path_in_shell(fs::path(path).replace_extension(ending).string());
 }
 
 std::string by_gmsh(const std::string &path, const char *format) {
-  return "; gmsh converts it: gmsh -save " + shell_word(path) + " -format " + format + " -o " +
+  return "; gmsh converts it: gmsh -save " + path_in_shell(path) + " -format " + format + " -o " +
          with_ending(path, format);
 }
 
@@ -361,11 +351,11 @@ std::string at_order_2(const std::string &path) {
 }
 
 std::string by_meshio(const std::string &path, const char *format) {
-  return "; meshio converts it: meshio convert " + shell_word(path) + " " + with_ending(path, format);
+  return "; meshio converts it: meshio convert " + path_in_shell(path) + " " + with_ending(path, format);
 }
 
 std::string meshed_by_gmsh(const std::string &path, int dimension, const char *format) {
-  return "; gmsh meshes it: gmsh -" + std::to_string(dimension) + " " + shell_word(path) + " -format " + format +
+  return "; gmsh meshes it: gmsh -" + std::to_string(dimension) + " " + path_in_shell(path) + " -format " + format +
          " -o " + with_ending(path, format);
 }
 
@@ -413,7 +403,7 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
       return "; Nek5000 converts it: run the case for one step with its coordinates in the output, open CASE.nek5000 "
              "in ParaView, then File > Save Data..., " +
              with_ending(path, "vtu");
-    if (ending == ".cas") return "; OpenFOAM converts it: fluentMeshToFoam " + shell_word(path);
+    if (ending == ".cas") return "; OpenFOAM converts it: fluentMeshToFoam " + path_in_shell(path);
     if (ending == ".h5" || ending == ".hdf5") return "; give the .xdmf file that names it";
     const bool is_surface = surfaces_only.count(ending) != 0 || refusal.find("holds polydata") != std::string::npos;
     return is_surface ? "; --surface takes a surface" : "";

@@ -47,14 +47,14 @@ constexpr double wide_band_share = 1.5;
 // A refusal lists so many flat parts.
 constexpr std::size_t most_listed = 6;
 
-double degrees_between(const Vector &a, const Vector &b) {
+double degrees_between(const Vector3 &a, const Vector3 &b) {
   return 180 / half_turn * std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
 // A plane through a point.
 struct FlatPlane {
-  Vector normal{}, point{};
-  double distance_of(const Vector &of) const { return dot(of - point, normal); }
+  Vector3 normal{}, point{};
+  double distance_of(const Vector3 &of) const { return dot(of - point, normal); }
 };
 
 // A flat part of the surface.
@@ -87,7 +87,7 @@ class EndFinder {
         size_(all_.size()),
         stamp_(all_.corners.size(), 0) {
     for (std::int64_t i = 0; i < all_.n(); ++i) {
-      const Vector area = all_.area_of(i);
+      const Vector3 area = all_.area_of(i);
       areas_.push_back(norm(area));
       normals_.push_back(unit_vector(area));
       centres_.push_back(all_.centre_of(i));
@@ -150,7 +150,7 @@ class EndFinder {
 
   // The sum of the area vectors follows the rim, and is exact for a flat part. A plane of least squares would follow the corners.
   void fit(FlatPart &part) const {
-    Vector area{}, centre{};
+    Vector3 area{}, centre{};
     part.area = 0;
     for (const std::int64_t i : part.triangles) {
       area = area + view(areas_)[i] * view(normals_)[i];
@@ -181,7 +181,7 @@ class EndFinder {
     part.triangles = {seed};
     fit(part);
     // At first the plane moves with each triangle. Then the triangles are collected anew in the plane, until they stay.
-    Vector area = part.area * part.plane.normal, centre = part.area * part.plane.point;
+    Vector3 area = part.area * part.plane.normal, centre = part.area * part.plane.point;
     double sum = part.area;
     collect(seed, part, tolerance, [&](std::int64_t i) {
       area = area + view(areas_)[i] * view(normals_)[i];
@@ -261,10 +261,10 @@ class EndFinder {
     part.n_rims = n_lines(rim);
     part.n_sides = static_cast<std::int64_t>(rim.size());
     // Noise cancels in the sum of the area vectors of a sector.
-    const Vector first =
-        unit_vector(cross(part.plane.normal, std::abs(part.plane.normal[0]) < 0.6 ? Vector{1, 0, 0} : Vector{0, 1, 0}));
-    const Vector second = cross(part.plane.normal, first);
-    std::array<Vector, n_sectors> sums{}, wide_sums{};
+    const Vector3 first = unit_vector(
+        cross(part.plane.normal, std::abs(part.plane.normal[0]) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0}));
+    const Vector3 second = cross(part.plane.normal, first);
+    std::array<Vector3, n_sectors> sums{}, wide_sums{};
     double depth = 0;
     const double reach = band_share * part.radius(), wide_reach = wide_band_share * part.radius();
     while (!queue.empty()) {
@@ -272,10 +272,10 @@ class EndFinder {
       queue.pop();
       if (view(stamp_)[i] == stamp) continue;
       view(stamp_)[i] = stamp;
-      const Vector off = view(centres_)[i] - part.plane.point;
+      const Vector3 off = view(centres_)[i] - part.plane.point;
       const double turn = std::atan2(dot(off, second), dot(off, first)) / (2 * half_turn) + 0.5;
       const std::size_t sector = std::min(n_sectors - 1, static_cast<std::size_t>(turn * n_sectors));
-      const Vector area = view(areas_)[i] * view(normals_)[i];
+      const Vector3 area = view(areas_)[i] * view(normals_)[i];
       wide_sums[sector] = wide_sums[sector] + area;
       if (distance <= reach) {
         sums[sector] = sums[sector] + area;
@@ -291,9 +291,9 @@ class EndFinder {
     part.wide_angle = mean_angle_of(wide_sums, part.plane.normal, nullptr);
   }
 
-  static double mean_angle_of(const std::array<Vector, n_sectors> &sums, const Vector &normal, double *least) {
+  static double mean_angle_of(const std::array<Vector3, n_sectors> &sums, const Vector3 &normal, double *least) {
     double n = 0, total = 0, smallest = 180;
-    for (const Vector &sum : sums) {
+    for (const Vector3 &sum : sums) {
       if (norm(sum) == 0) continue;
       const double angle = degrees_between(sum, normal);
       total += angle;
@@ -366,7 +366,7 @@ class EndFinder {
   std::vector<Corners> neighbours_;
   double size_ = 0, total_ = 0;
   std::vector<double> areas_;
-  std::vector<Vector> normals_, centres_;
+  std::vector<Vector3> normals_, centres_;
   std::vector<int> stamp_;  // by which the last walk marked a triangle
   int last_stamp_ = 0;
 };
@@ -377,7 +377,7 @@ class EndChoice {
   EndChoice(const std::string &path, const ClosedSurface &surface, const EndPoints &points)
       : path_(path), surface_(surface), finder_(surface), parts_(finder_.find()) {
     if (points.inlet) choose("--inlet", *points.inlet, "inlet");
-    for (const Vector &outlet : points.outlets) choose("--outlet", outlet, name_of_outlet(n_outlets_++));
+    for (const Vector3 &outlet : points.outlets) choose("--outlet", outlet, name_of_outlet(n_outlets_++));
     if (points.outlets.empty())
       take_clear_ends("");
     else if (!points.inlet)
@@ -390,7 +390,7 @@ class EndChoice {
     PatientWall wall;
     wall.path = path_;
     const Triangles &all = surface_.triangles;
-    for (const Vector &point : all.points) wall.xyz.insert(wall.xyz.end(), point.begin(), point.end());
+    for (const Vector3 &point : all.points) wall.xyz.insert(wall.xyz.end(), point.begin(), point.end());
     for (const Corners &triangle : all.corners)
       wall.corners.insert(wall.corners.end(), triangle.begin(), triangle.end());
     wall.end_of.assign(all.corners.size(), -1);
@@ -451,7 +451,7 @@ class EndChoice {
   }
 
   // Chooses the flat part nearest to a point.
-  void choose(const std::string &option, const Vector &point, const std::string &name) {
+  void choose(const std::string &option, const Vector3 &point, const std::string &name) {
     const std::string text = option + "=" + point_text(point, finder_.size());
     std::int64_t nearest = -1;
     double least = std::numeric_limits<double>::infinity();
@@ -559,10 +559,10 @@ Triangles triangles_in(const PatientWall &wall) {
 }
 
 // Returns whether the point lies inside: the triangles cover the whole sphere of directions.
-bool is_in_wall(const Triangles &triangles, const Vector &point) {
+bool is_in_wall(const Triangles &triangles, const Vector3 &point) {
   double angle = 0;
   for (std::int64_t i = 0; i < triangles.n(); ++i) {
-    Vector to[3];
+    Vector3 to[3];
     double far[3];
     for (std::size_t k = 0; k < 3; ++k) {
       to[k] = triangles.corner(i, k) - point;
@@ -576,15 +576,15 @@ bool is_in_wall(const Triangles &triangles, const Vector &point) {
 }
 
 // Returns the first triangle on a ray from inside, or -1.
-std::int64_t first_wall_hit(const Triangles &triangles, const Vector &from, const Vector &direction) {
+std::int64_t first_wall_hit(const Triangles &triangles, const Vector3 &from, const Vector3 &direction) {
   std::int64_t hit = -1;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::int64_t i = 0; i < triangles.n(); ++i) {
-    const Vector &a = triangles.corner(i, 0);
-    const Vector u = triangles.corner(i, 1) - a, v = triangles.corner(i, 2) - a, p = cross(direction, v);
+    const Vector3 &a = triangles.corner(i, 0);
+    const Vector3 u = triangles.corner(i, 1) - a, v = triangles.corner(i, 2) - a, p = cross(direction, v);
     const double determinant = dot(u, p);
     if (determinant == 0) continue;
-    const Vector w = from - a, q = cross(w, u);
+    const Vector3 w = from - a, q = cross(w, u);
     const double s = dot(w, p) / determinant, t = dot(direction, q) / determinant, far = dot(v, q) / determinant;
     constexpr double beside = 1e-9;  // a ray through an edge hits one of its triangles
     if (s < -beside || t < -beside || s + t > 1 + beside || far <= 0 || far >= nearest) continue;
@@ -657,7 +657,7 @@ void write_wall(const PatientWall &wall, const std::string &path) {
   text.resize(80, ' ');
   const auto add = [&](const auto &number) { text.append(reinterpret_cast<const char *>(&number), sizeof number); };
   add(static_cast<std::uint32_t>(triangles.n()));
-  const auto add_vector = [&](const Vector &vector) {
+  const auto add_vector = [&](const Vector3 &vector) {
     for (const double x : vector) add(static_cast<float>(x));
   };
   for (std::int64_t i = 0; i < triangles.n(); ++i) {

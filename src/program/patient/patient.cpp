@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/vectors.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
@@ -25,7 +26,6 @@
 #include "program/patient/solver_case.hpp"
 #include "program/patient/svmultiphysics_case.hpp"
 #include "program/patient/valve_sides.hpp"
-#include "program/patient/vectors.hpp"
 #include "program/patient/wall_frame.hpp"
 
 namespace riis::program {
@@ -236,8 +236,8 @@ class PatientRun {
 
   // Returns the valve's z axis times a sign. Mitral valves have their atrium towards z.
   static std::array<double, 3> axis_of(const riis_surface_options &where, double sign) {
-    const Vector k = unit_vector({where.rotation_axis[0], where.rotation_axis[1], where.rotation_axis[2]}),
-                 z = {0, 0, 1};
+    const Vector3 k = unit_vector({where.rotation_axis[0], where.rotation_axis[1], where.rotation_axis[2]}),
+                  z = {0, 0, 1};
     const double angle = where.rotation_angle * std::acos(-1.0) / 180, c = std::cos(angle), s = std::sin(angle);
     return sign * (c * z + s * cross(k, z) + ((1 - c) * dot(k, z)) * k);
   }
@@ -361,7 +361,7 @@ class PatientRun {
     const double begin = steps_.seconds();
     std::int64_t sum = 0;
     Words typed = with_valve({"riis", "mark", "mesh.msh"});
-    steps_.announce("for x in 0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1; do " + command_text(typed) +
+    steps_.announce("for x in 0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1; do " + shell_text(typed) +
                     " --opening $x --stats logs/marks_$x.json; done");
     for (const double opening : openings_from_0_to_1(n_marked_openings)) {
       const std::string name = "marks_" + shortest(std::round(100 * opening) / 100);

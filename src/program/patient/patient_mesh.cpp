@@ -15,13 +15,13 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "common/vectors.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/other_program.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/output/outputs.hpp"
 #include "program/output/report.hpp"
-#include "program/patient/vectors.hpp"
 #include "program/patient/wall_surface.hpp"
 
 namespace riis::program {
@@ -42,7 +42,7 @@ constexpr std::size_t n_compared = 9;
 
 // The elements of a file of gmsh, with the numbers of their surfaces or volumes. Nodes are counted from 0.
 struct GmshMesh {
-  std::vector<Vector> points;
+  std::vector<Vector3> points;
   std::vector<std::pair<std::int64_t, Corners>> triangles;
   std::vector<std::array<std::int64_t, 4>> cells;
 };
@@ -59,7 +59,7 @@ class GmshReader {
     for (std::int64_t n = number<std::int64_t>(); n > 0; --n) {
       const auto id = number<std::int64_t>();
       place[id] = static_cast<std::int64_t>(mesh.points.size());
-      Vector point;
+      Vector3 point;
       for (double &x : point) x = number<double>();
       mesh.points.push_back(point);
     }
@@ -120,7 +120,7 @@ class GmshReader {
 // Writes a mesh of gmsh's format 2.2, in which each element has a physical group and a surface or volume of the same number.
 class GmshText {
  public:
-  explicit GmshText(const std::vector<Vector> &points) {
+  explicit GmshText(const std::vector<Vector3> &points) {
     text_ = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
     nodes_ = "$Nodes\n" + std::to_string(points.size()) + "\n";
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -165,13 +165,13 @@ std::string id_lines(const std::vector<std::int64_t> &numbers) {
 
 // Returns a file of VTK with the arrays that SimVascular's meshes have. Ids count from 1.
 template <class Cell>
-std::string vtk_file_text(const std::vector<Vector> &points, const std::vector<std::int64_t> &node_ids,
+std::string vtk_file_text(const std::vector<Vector3> &points, const std::vector<std::int64_t> &node_ids,
                           const std::vector<Cell> &cells, const std::vector<std::int64_t> &element_ids,
                           const std::string &group_array, std::int64_t group) {
   const bool is_volume = std::tuple_size_v<Cell> == 4;
   const std::string kind = is_volume ? "UnstructuredGrid" : "PolyData", part = is_volume ? "Cells" : "Polys";
   std::string places, connectivity, offsets, types, groups;
-  for (const Vector &point : points) places += numbers_text(point.data(), 3, " ") + "\n";
+  for (const Vector3 &point : points) places += numbers_text(point.data(), 3, " ") + "\n";
   for (std::size_t i = 0; i < cells.size(); ++i) {
     for (std::size_t k = 0; k < cells[i].size(); ++k)
       connectivity += std::to_string(cells[i][k]) + (k + 1 < cells[i].size() ? " " : "\n");
@@ -365,7 +365,7 @@ class PatientMesher {
     check(riis_find_crossings(surface, &depth, crossings));
     const auto found = get<riis_crossing_list>(riis_crossings_get_list, crossings);
     if (found.n_pairs == 0) return "";
-    const Vector deepest{found.deepest_point[0], found.deepest_point[1], found.deepest_point[2]};
+    const Vector3 deepest{found.deepest_point[0], found.deepest_point[1], found.deepest_point[2]};
     return "the wall goes through itself at " + counted(found.n_pairs, "pair") + " of triangles, the deepest at " +
            point_text(deepest, wall_.size) + " in the mesh's unit; ";
   }
@@ -401,8 +401,8 @@ class PatientMesher {
       const std::size_t step = std::max<std::size_t>(1, triangles.size() / n_compared);
       for (std::size_t i = step / 2; i < triangles.size(); i += step) {
         const Corners &corner = surface_.triangles[triangles[i]].second;
-        const Vector &a = view(surface_.points)[corner[0]], &b = view(surface_.points)[corner[1]],
-                     &c = view(surface_.points)[corner[2]];
+        const Vector3 &a = view(surface_.points)[corner[0]], &b = view(surface_.points)[corner[1]],
+                      &c = view(surface_.points)[corner[2]];
         const std::int64_t nearest = nearest_on_wall(1.0 / 3 * (a + b + c));
         ++votes[view(wall_.end_of)[nearest]];
         along += dot(unit_vector(cross(b - a, c - a)), unit_vector(old_.area_of(nearest)));
@@ -416,7 +416,7 @@ class PatientMesher {
     }
   }
 
-  std::int64_t nearest_on_wall(const Vector &point) const {
+  std::int64_t nearest_on_wall(const Vector3 &point) const {
     std::int64_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::int64_t i = 0; i < old_.n(); ++i) {
@@ -444,7 +444,7 @@ class PatientMesher {
   void check_ends(const GmshMesh &mesh) const {
     std::vector<double> areas(groups_.size(), 0);
     for (const auto &[group, corner] : mesh.triangles) {
-      const Vector &a = view(mesh.points)[corner[0]];
+      const Vector3 &a = view(mesh.points)[corner[0]];
       view(areas)[group - 1] += 0.5 * norm(cross(view(mesh.points)[corner[1]] - a, view(mesh.points)[corner[2]] - a));
     }
     for (std::size_t i = 0; i < groups_.size(); ++i) {
@@ -481,15 +481,15 @@ class PatientMesher {
     for (auto &cell : mesh_.cells) {
       const auto point = [&](std::size_t k) { return view(mesh_.points)[cell[k]]; };
       if (dot(cross(point(1) - point(0), point(2) - point(0)), point(3) - point(0)) < 0) std::swap(cell[2], cell[3]);
-      const Vector a = point(1) - point(0), b = point(2) - point(0), c = point(3) - point(0);
+      const Vector3 a = point(1) - point(0), b = point(2) - point(0), c = point(3) - point(0);
       const double six_volumes = dot(cross(a, b), c);
       made_.volume += six_volumes / 6;
       const double surface = norm(cross(a, b)) + norm(cross(b, c)) + norm(cross(c, a)) + norm(cross(b - a, c - a));
-      const Vector to_middle = dot(a, a) * cross(b, c) + dot(b, b) * cross(c, a) + dot(c, c) * cross(a, b);
+      const Vector3 to_middle = dot(a, a) * cross(b, c) + dot(b, b) * cross(c, a) + dot(c, c) * cross(a, b);
       // The radii are six_volumes / surface and norm(to_middle) / (2 six_volumes).
       const double quality = six_volumes > 0 ? 6 * six_volumes * six_volumes / (surface * norm(to_middle)) : 0;
       made_.least_quality = std::min(made_.least_quality, quality);
-      for (const Vector &edge : {a, b, c, b - a, c - a, c - b})
+      for (const Vector3 &edge : {a, b, c, b - a, c - a, c - b})
         made_.longest_edge = std::max(made_.longest_edge, norm(edge));
     }
   }
@@ -536,7 +536,7 @@ class PatientMesher {
     std::vector<std::int64_t> number(mesh_.points.size(), -1);
     for (const auto &cell : mesh_.cells)
       for (const std::int64_t id : cell) view(number)[id] = 0;
-    std::vector<Vector> kept;
+    std::vector<Vector3> kept;
     for (std::size_t i = 0; i < number.size(); ++i) {
       if (number[i] < 0) continue;
       number[i] = static_cast<std::int64_t>(kept.size());
@@ -578,7 +578,7 @@ class PatientMesher {
     std::map<std::int64_t, std::int64_t> number;
     for (const auto &[corner, cell] : faces_[i])
       for (const std::int64_t id : corner) number[id] = 0;
-    std::vector<Vector> points;
+    std::vector<Vector3> points;
     std::vector<std::int64_t> node_ids, element_ids;
     for (auto &[id, of_face] : number) {
       of_face = static_cast<std::int64_t>(points.size());
@@ -586,13 +586,13 @@ class PatientMesher {
       node_ids.push_back(id + 1);
     }
     std::vector<Corners> corners;
-    Vector sum{};
+    Vector3 sum{};
     for (const auto &[corner, cell] : faces_[i]) {
       corners.push_back({number[corner[0]], number[corner[1]], number[corner[2]]});
       element_ids.push_back(cell + 1);
-      const Vector &a = view(mesh_.points)[corner[0]], &b = view(mesh_.points)[corner[1]],
-                   &c = view(mesh_.points)[corner[2]];
-      const Vector area = 0.5 * cross(b - a, c - a);
+      const Vector3 &a = view(mesh_.points)[corner[0]], &b = view(mesh_.points)[corner[1]],
+                    &c = view(mesh_.points)[corner[2]];
+      const Vector3 area = 0.5 * cross(b - a, c - a);
       sum = sum + area;
       boundary.area += norm(area);
       boundary.centre = boundary.centre + norm(area) / 3 * (a + b + c);

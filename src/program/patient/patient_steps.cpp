@@ -81,19 +81,6 @@ void PatientFolder::finish() {
   if (error) refuse_data(std::string(marker_file) + ": cannot be removed: " + error.message());
 }
 
-std::string command_text(const std::vector<std::string> &words) {
-  const auto is_plain = [](unsigned char c) {
-    return std::isalnum(c) != 0 || std::string("-_=.,/:+%@").find(static_cast<char>(c)) != std::string::npos;
-  };
-  std::vector<std::string> typed;
-  for (const std::string &word : words) {
-    std::string text;
-    for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-    typed.push_back(!word.empty() && std::all_of(word.begin(), word.end(), is_plain) ? word : "'" + text + "'");
-  }
-  return joined_by(typed, " ");
-}
-
 PatientSteps::PatientSteps(bool quiet) : quiet_(quiet) {
   std::error_code error;
   program_ = fs::read_symlink("/proc/self/exe", error).string();
@@ -119,7 +106,7 @@ void PatientSteps::announce(const std::string &command) {
 StepEnd PatientSteps::run(const std::string &name, const std::vector<std::string> &words) {
   std::vector<std::string> typed = words;
   typed.insert(typed.begin(), "riis");
-  announce(command_text(typed));
+  announce(shell_text(typed));
   return run_silently(name, words);
 }
 

@@ -64,7 +64,4 @@ class PatientSteps {
   Json commands_ = Json::array();
 };
 
-// Returns the words as a user would type them.
-std::string command_text(const std::vector<std::string> &words);
-
 }  // namespace riis::program

@@ -90,14 +90,6 @@ ExportOptions export_of(std::vector<std::string> words) {
   return std::get<ExportOptions>(request.value());
 }
 
-std::string in_shell(const std::string &word) {
-  const bool is_plain = word.find_first_of(" '\"$&;()<>|*?`\\!#~") == std::string::npos;
-  if (is_plain) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 // Returns the words of the export. The files of the case's folder are in `folder`. The block of the export names the files of the
 // valve as the solver sees them, from its own folder.
 std::vector<std::string> export_words(const SolverCase &solver, const std::string &folder) {
@@ -125,9 +117,7 @@ std::vector<std::string> export_words(const SolverCase &solver, const std::strin
 }
 
 std::string write_valve(const SolverCase &solver) {
-  std::string line = "cd " + in_shell(solver.solver) + " &&";
-  for (const std::string &word : export_words(solver, "..")) line += " " + in_shell(word);
-  print_line(line);
+  print_line("cd " + shell_word(solver.solver) + " && " + shell_text(export_words(solver, "..")));
   ExportOptions options = export_of(export_words(solver, solver.folder));
   const std::string named = options.folder;
   options.folder = solver.solver + "/" + named;

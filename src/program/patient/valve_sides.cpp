@@ -5,13 +5,13 @@
 #include <limits>
 
 #include "common/array_view.hpp"
+#include "common/vectors.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/text.hpp"
 #include "program/input/mesh_reading.hpp"
 #include "program/input/valve_source.hpp"
 #include "program/input/wall.hpp"
 #include "program/mark/mesh_marking.hpp"
-#include "program/patient/vectors.hpp"
 
 namespace riis::program {
 namespace {
@@ -19,15 +19,6 @@ namespace {
 constexpr std::int32_t n_sides_openings = 11;
 // Radii of the balls in millimetres: the largest that there is room for is taken.
 constexpr double ball_radii[] = {4, 3, 2, 1.5, 1};
-
-std::vector<double> distances_from(const riis_surface *surface, const std::vector<double> &xyz) {
-  const riis_points points = points_of(xyz);
-  std::vector<double> made(xyz.size() / 3);
-  auto arrays = defaults<riis_closest_arrays>();
-  arrays.distance = made.data();
-  check(riis_closest_points(surface, &points, nullptr, &arrays));
-  return made;
-}
 
 }  // namespace
 
@@ -42,14 +33,14 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
     xyz.insert(xyz.end(), point.begin(), point.end());
   }
   const auto at = [&](std::int64_t node) {
-    return Vector{view(xyz)[3 * node], view(xyz)[3 * node + 1], view(xyz)[3 * node + 2]};
+    return Vector3{view(xyz)[3 * node], view(xyz)[3 * node + 1], view(xyz)[3 * node + 2]};
   };
 
   const Valve valve = make_valve(marking);
-  std::vector<double> away = distances_from(wall_of(marking), xyz);
+  std::vector<double> away = distances_to(wall_of(marking), xyz);
   std::vector<std::int64_t> region(static_cast<std::size_t>(nodes.n()));
   const double half_thickness = marking.surface_options.half_thickness;
-  const auto along_flow = [&](const Vector &point) { return dot(point - centre, flow); };
+  const auto along_flow = [&](const Vector3 &point) { return dot(point - centre, flow); };
   double first = 0, last = 0;  // the extent of the valve along the flow, at all openings
   for (const double opening : openings_from_0_to_1(n_sides_openings)) {
     check(riis_valve_set_scalar(valve, "opening", opening));
@@ -60,7 +51,7 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
       first = std::min(first, here);
       last = std::max(last, here);
     }
-    const std::vector<double> from_valve = distances_from(surface, xyz);
+    const std::vector<double> from_valve = distances_to(surface, xyz);
     for (std::size_t i = 0; i < away.size(); ++i) away[i] = std::min(away[i], from_valve[i] - half_thickness);
     if (opening > 0) continue;
     const riis_mark_options how = how_to_mark_again(marking);
@@ -98,8 +89,8 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
                 ", in which its pressure could be read: cut the vessel farther from the valve, or take a smaller "
                 "--half-thickness");
   // Short numbers are easier to type.
-  const auto rounded = [&](const Vector &point) {
-    Vector made;
+  const auto rounded = [&](const Vector3 &point) {
+    Vector3 made;
     for (std::size_t k = 0; k < 3; ++k)
       made[k] = *number_in(printed(millimetre < 0.01 ? "%.5f" : millimetre < 1 ? "%.3f" : "%.2f", point[k]));
     return made;

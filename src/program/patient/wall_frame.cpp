@@ -40,11 +40,7 @@ WallFrame frame_with(const riis_surface *wall, const LandmarkFile &given, Unit u
   LandmarkFile landmarks = given;
   landmarks.convert(unit);
   if (axes != name_of(given.axes)) landmarks.convert(axes == "LPS" ? Axes::LPS : Axes::RAS);
-  const riis_points points = points_of(landmarks.xyz);
-  std::vector<double> distance(landmarks.names.size());
-  auto arrays = defaults<riis_closest_arrays>();
-  arrays.distance = distance.data();
-  check(riis_closest_points(wall, &points, nullptr, &arrays));
+  const std::vector<double> distance = distances_to(wall, landmarks.xyz);
   WallFrame frame{unit, axes, 0, 0, ""};
   double n = 0;
   for (std::size_t i = 0; i < distance.size(); ++i) {

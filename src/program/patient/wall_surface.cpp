@@ -84,8 +84,8 @@ class WallRepair {
  private:
   [[noreturn]] void refuse(const std::string &text) const { refuse_data(path_ + ": " + text); }
   void remark(const std::string &text) { made_.remarks.push_back(path_ + ": " + text); }
-  std::string at(const Vector &point) const { return point_text(point, made_.triangles.size()); }
-  std::vector<Vector> &points() { return made_.triangles.points; }
+  std::string at(const Vector3 &point) const { return point_text(point, made_.triangles.size()); }
+  std::vector<Vector3> &points() { return made_.triangles.points; }
   std::vector<Corners> &corners() { return made_.triangles.corners; }
 
   void read() {
@@ -130,7 +130,7 @@ class WallRepair {
 
   void leave_out_points() {
     std::vector<std::int64_t> number(points().size(), -1);
-    std::vector<Vector> kept;
+    std::vector<Vector3> kept;
     for (Corners &triangle : corners())
       for (std::int64_t &id : triangle) {
         std::int64_t &now = view(number)[id];
@@ -147,7 +147,7 @@ class WallRepair {
   void join_equal_points() {
     const std::int64_t n = static_cast<std::int64_t>(points().size());
     std::vector<double> xyz;
-    for (const Vector &point : points()) xyz.insert(xyz.end(), point.begin(), point.end());
+    for (const Vector3 &point : points()) xyz.insert(xyz.end(), point.begin(), point.end());
     const std::vector<std::int64_t> place = equal_places(n, xyz.data());
     std::vector<std::int64_t> first(points().size(), -1), number(points().size());
     for (std::int64_t i = 0; i < n; ++i) {
@@ -173,7 +173,7 @@ class WallRepair {
     std::int64_t n_joined = 0;
     for (std::size_t i = 0; i < open.size(); ++i)
       for (std::size_t j = i + 1; j < open.size(); ++j) {
-        const Vector off = view(points())[open[j]] - view(points())[open[i]];
+        const Vector3 off = view(points())[open[j]] - view(points())[open[i]];
         if (off[0] > near) break;
         if (norm(off) <= near) n_joined += joined.unite(open[i], open[j]);
       }
@@ -212,7 +212,7 @@ class WallRepair {
     for (const auto &[root, piece] : by_root) pieces.push_back(piece);
     std::sort(pieces.begin(), pieces.end(), [](const Piece &a, const Piece &b) { return a.area > b.area; });
     const auto middle = [&](const Piece &piece) {
-      Vector point;
+      Vector3 point;
       for (std::size_t k = 0; k < 3; ++k) point[k] = 0.5 * (piece.box.lower[k] + piece.box.upper[k]);
       return at(point);
     };
@@ -239,7 +239,7 @@ class WallRepair {
   // Refuses edges of more than two triangles.
   void refuse_forks() const {
     std::int64_t n_forks = 0, n_most = 0;
-    Vector place{};
+    Vector3 place{};
     for_each_wall_edge(sorted_wall_sides(made_.triangles.corners), [&](const WallSide *side, std::size_t n) {
       if (n <= 2) return;
       if (++n_forks == 1) {
@@ -295,7 +295,7 @@ class WallRepair {
 
   double height_of(const Corners &corner) const {
     const auto &all = made_.triangles.points;
-    const Vector &a = view(all)[corner[0]], &b = view(all)[corner[1]], &c = view(all)[corner[2]];
+    const Vector3 &a = view(all)[corner[0]], &b = view(all)[corner[1]], &c = view(all)[corner[2]];
     const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
     return longest > 0 ? norm(cross(b - a, c - a)) / longest : 0;
   }
@@ -449,17 +449,18 @@ class WallRepair {
     std::vector<RimLoop> loops = open_loops();
     std::sort(loops.begin(), loops.end(), [](const RimLoop &a, const RimLoop &b) { return a.size() > b.size(); });
     for (const RimLoop &loop : loops) {
-      Vector centre{}, area{};
+      Vector3 centre{}, area{};
       double length = 0, off = 0, width = 0;
-      for_each_side(loop, [&](const Vector &p, const Vector &q) {
+      for_each_side(loop, [&](const Vector3 &p, const Vector3 &q) {
         centre = centre + 0.5 * norm(q - p) * (p + q);
         length += norm(q - p);
       });
       centre = 1 / length * centre;
-      for_each_side(loop, [&](const Vector &p, const Vector &q) { area = area + 0.5 * cross(q - centre, p - centre); });
-      const Vector normal = unit_vector(area);
+      for_each_side(loop,
+                    [&](const Vector3 &p, const Vector3 &q) { area = area + 0.5 * cross(q - centre, p - centre); });
+      const Vector3 normal = unit_vector(area);
       bool is_star = true;
-      for_each_side(loop, [&](const Vector &p, const Vector &q) {
+      for_each_side(loop, [&](const Vector3 &p, const Vector3 &q) {
         off = std::max(off, std::abs(dot(p - centre, normal)));
         width = std::max(width, 2 * norm(p - centre));
         is_star = is_star && dot(cross(q - centre, p - centre), normal) > 0;
@@ -480,7 +481,7 @@ class WallRepair {
     for (std::size_t i = 0; i < loop.size(); ++i) visit(view(all)[loop[i]], view(all)[loop[(i + 1) % loop.size()]]);
   }
 
-  [[noreturn]] void refuse_hole(std::size_t n_holes, const RimLoop &loop, const Vector &centre, bool is_flat,
+  [[noreturn]] void refuse_hole(std::size_t n_holes, const RimLoop &loop, const Vector3 &centre, bool is_flat,
                                 double off) const {
     refuse("the surface has " +
            (n_holes == 1 ? std::string("a hole of ") : std::to_string(n_holes) + " holes, one of ") +
@@ -543,22 +544,22 @@ class WallRepair {
 
 }  // namespace
 
-Vector Triangles::area_of(std::int64_t triangle) const {
-  const Vector &a = corner(triangle, 0);
+Vector3 Triangles::area_of(std::int64_t triangle) const {
+  const Vector3 &a = corner(triangle, 0);
   return 0.5 * cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
 }
 
-Vector Triangles::centre_of(std::int64_t triangle) const {
+Vector3 Triangles::centre_of(std::int64_t triangle) const {
   return 1.0 / 3 * (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2));
 }
 
-double Triangles::distance(std::int64_t triangle, const Vector &from) const {
-  const Vector normal = unit_vector(area_of(triangle));
+double Triangles::distance(std::int64_t triangle, const Vector3 &from) const {
+  const Vector3 normal = unit_vector(area_of(triangle));
   bool is_above = norm(normal) > 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vector &a = corner(triangle, k);
-    const Vector side = corner(triangle, (k + 1) % 3) - a, to = from - a;
+    const Vector3 &a = corner(triangle, k);
+    const Vector3 side = corner(triangle, (k + 1) % 3) - a, to = from - a;
     if (dot(cross(normal, side), to) < 0) is_above = false;
     const double square = dot(side, side);
     const double share = square > 0 ? std::clamp(dot(to, side) / square, 0.0, 1.0) : 0;
@@ -569,13 +570,13 @@ double Triangles::distance(std::int64_t triangle, const Vector &from) const {
 
 double Triangles::size() const {
   Box box = empty_box();
-  for (const Vector &point : points) box.grow(point.data());
+  for (const Vector3 &point : points) box.grow(point.data());
   return hypotenuse(box.upper[0] - box.lower[0], box.upper[1] - box.lower[1], box.upper[2] - box.lower[2]);
 }
 
 double Triangles::volume() const {
   double volume = 0;
-  const Vector origin = points[0];  // near the surface, for the sake of rounding
+  const Vector3 origin = points[0];  // near the surface, for the sake of rounding
   for (std::int64_t i = 0; i < n(); ++i) volume += dot(centre_of(i) - origin, area_of(i)) / 3;
   return volume;
 }
@@ -591,7 +592,7 @@ std::vector<Corners> neighbours_of(const Triangles &triangles) {
 
 ClosedSurface read_closed_surface(const std::string &path) { return WallRepair(path).result(); }
 
-std::string point_text(const Vector &point, double size) {
+std::string point_text(const Vector3 &point, double size) {
   const int n_digits = std::clamp(static_cast<int>(std::ceil(3 - std::log10(std::max(size, 1e-300)))), 0, 17);
   const std::string format = "%." + std::to_string(n_digits) + "f";
   const double step = std::pow(10, -n_digits);

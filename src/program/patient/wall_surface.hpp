@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/array_view.hpp"
-#include "program/patient/vectors.hpp"
+#include "common/vectors.hpp"
 
 namespace riis::program {
 
@@ -16,16 +16,16 @@ using Corners = std::array<std::int64_t, 3>;
 
 // Triangles with common vertices.
 struct Triangles {
-  std::vector<Vector> points;
+  std::vector<Vector3> points;
   std::vector<Corners> corners;
 
   std::int64_t n() const { return static_cast<std::int64_t>(corners.size()); }
-  const Vector &corner(std::int64_t triangle, std::size_t k) const { return view(points)[view(corners)[triangle][k]]; }
+  const Vector3 &corner(std::int64_t triangle, std::size_t k) const { return view(points)[view(corners)[triangle][k]]; }
   // Returns half the cross product of two sides: the area times the unit normal.
-  Vector area_of(std::int64_t triangle) const;
-  Vector centre_of(std::int64_t triangle) const;
+  Vector3 area_of(std::int64_t triangle) const;
+  Vector3 centre_of(std::int64_t triangle) const;
   // Returns the distance of a point from a triangle.
-  double distance(std::int64_t triangle, const Vector &from) const;
+  double distance(std::int64_t triangle, const Vector3 &from) const;
   // Returns the diagonal of the box around the points.
   double size() const;
   // Returns the volume inside, if the triangles are closed and face outwards.
@@ -39,7 +39,7 @@ std::vector<Corners> neighbours_of(const Triangles &triangles);
 // A hole that was flat enough to be closed by a fan of triangles.
 struct ClosedHole {
   std::int64_t first = 0, n_triangles = 0;  // the triangles of the fan
-  Vector centre{};
+  Vector3 centre{};
 };
 
 struct ClosedSurface {
@@ -52,6 +52,6 @@ struct ClosedSurface {
 ClosedSurface read_closed_surface(const std::string &path);
 
 // Returns a point as the user writes it after an option: X,Y,Z with digits down to a thousandth of the size.
-std::string point_text(const Vector &point, double size);
+std::string point_text(const Vector3 &point, double size);
 
 }  // namespace riis::program

@@ -18,21 +18,21 @@
 #include <vtkPoints.h>
 
 #include "common/array_view.hpp"
+#include "common/vectors.hpp"
 #include "riis_vtk/base/files.hpp"
 #include "riis_vtk/mesh/mesh.hpp"
-#include "riis_vtk/mesh/vectors.hpp"
 
 namespace riis::vtk {
 namespace {
 
 struct FaceCenter {
-  Vector center, area;
+  Vector3 center, area;
 };
 
 FaceCenter center_of(vtkCell *face) {
   const vtkIdType n = face->GetNumberOfPoints();
-  std::vector<Vector> points(static_cast<std::size_t>(n));
-  Vector mean = {0, 0, 0};
+  std::vector<Vector3> points(static_cast<std::size_t>(n));
+  Vector3 mean = {0, 0, 0};
   for (vtkIdType i = 0; i < n; ++i) {
     face->GetPoints()->GetPoint(i, view(points)[i].data());
     mean = mean + view(points)[i];
@@ -40,11 +40,11 @@ FaceCenter center_of(vtkCell *face) {
   mean = 1.0 / static_cast<double>(n) * mean;
   if (face->GetCellType() == VTK_PIXEL) std::swap(points[2], points[3]);  // the corners of a pixel do not go around it
   if (n == 3) return {mean, 0.5 * cross(points[1] - points[0], points[2] - points[0])};
-  Vector area = {0, 0, 0}, moment = {0, 0, 0};
+  Vector3 area = {0, 0, 0}, moment = {0, 0, 0};
   double size = 0;
   for (vtkIdType i = 0; i < n; ++i) {
-    const Vector &p = view(points)[i], &next = view(points)[(i + 1) % n];
-    const Vector normal = cross(next - p, mean - p);
+    const Vector3 &p = view(points)[i], &next = view(points)[(i + 1) % n];
+    const Vector3 normal = cross(next - p, mean - p);
     const double length = std::sqrt(dot(normal, normal));
     area = area + normal;
     size += length;
@@ -53,10 +53,10 @@ FaceCenter center_of(vtkCell *face) {
   return {size > 0 ? 1.0 / (3 * size) * moment : mean, 0.5 * area};
 }
 
-Vector center_of_cell(vtkCell *cell) {
+Vector3 center_of_cell(vtkCell *cell) {
   const int n = cell->GetNumberOfFaces();
   std::vector<FaceCenter> faces;
-  Vector mean = {0, 0, 0}, moment = {0, 0, 0};
+  Vector3 mean = {0, 0, 0}, moment = {0, 0, 0};
   for (int i = 0; i < n; ++i) {
     faces.push_back(center_of(cell->GetFace(i)));
     mean = mean + faces.back().center;
@@ -109,7 +109,7 @@ CellCenters centers_of(vtkUnstructuredGrid *grid) {
     if (cell->GetCellDimension() != 3 || !cell->IsLinear() || cell->GetNumberOfFaces() < 4)
       refuse_argument("cell ", i, " is a ", vtkCellTypes::GetClassNameFromTypeId(grid->GetCellType(i)),
                       "; centres are those of linear volume cells and polyhedra");
-    const Vector center = center_of_cell(cell);
+    const Vector3 center = center_of_cell(cell);
     centers.xyz.insert(centers.xyz.end(), center.begin(), center.end());
     for (int face = 0; face < cell->GetNumberOfFaces(); ++face) faces.push_back(face_of(cell->GetFace(face), i));
   }

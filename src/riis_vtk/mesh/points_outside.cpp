@@ -12,36 +12,36 @@
 #include <vtkPoints.h>
 
 #include "common/array_view.hpp"
+#include "common/vectors.hpp"
 #include "riis_vtk/base/files.hpp"
 #include "riis_vtk/mesh/cell_polygons.hpp"
 #include "riis_vtk/mesh/mesh.hpp"
-#include "riis_vtk/mesh/vectors.hpp"
 
 namespace riis::vtk {
 namespace {
 
 // Returns six times the signed volume of a tetrahedron.
-double volume_of(const Vector &a, const Vector &b, const Vector &c, const Vector &d) {
+double volume_of(const Vector3 &a, const Vector3 &b, const Vector3 &c, const Vector3 &d) {
   return dot(b - a, cross(c - a, d - a));
 }
 
 // Points on the boundary are inside, up to rounding.
-bool contains(const Vector &a, const Vector &b, const Vector &c, const Vector &d, const Vector &p) {
+bool contains(const Vector3 &a, const Vector3 &b, const Vector3 &c, const Vector3 &d, const Vector3 &p) {
   const double whole = volume_of(a, b, c, d), sign = whole < 0 ? -1 : 1, least = -1e-9 * std::fabs(whole);
   return whole != 0 && sign * volume_of(p, b, c, d) >= least && sign * volume_of(a, p, c, d) >= least &&
          sign * volume_of(a, b, p, d) >= least && sign * volume_of(a, b, c, p) >= least;
 }
 
 struct CellBounds {
-  Vector lower = {INFINITY, INFINITY, INFINITY}, upper = {-INFINITY, -INFINITY, -INFINITY};
+  Vector3 lower = {INFINITY, INFINITY, INFINITY}, upper = {-INFINITY, -INFINITY, -INFINITY};
 
-  void grow(const Vector &p) {
+  void grow(const Vector3 &p) {
     for (std::size_t k = 0; k < 3; ++k) {
       lower[k] = std::min(lower[k], p[k]);
       upper[k] = std::max(upper[k], p[k]);
     }
   }
-  bool has(const Vector &p) const {
+  bool has(const Vector3 &p) const {
     return p[0] >= lower[0] && p[0] <= upper[0] && p[1] >= lower[1] && p[1] <= upper[1] && p[2] >= lower[2] &&
            p[2] <= upper[2];
   }
@@ -50,17 +50,17 @@ struct CellBounds {
 // Points in the boxes of a regular grid. The points of a row of boxes along z follow each other.
 class PointGrid {
  public:
-  explicit PointGrid(std::vector<Vector> points) : points_(std::move(points)) {
+  explicit PointGrid(std::vector<Vector3> points) : points_(std::move(points)) {
     constexpr double most_boxes = 64;  // along an axis
-    for (const Vector &p : points_) bounds_.grow(p);
-    const Vector sides = bounds_.upper - bounds_.lower;
+    for (const Vector3 &p : points_) bounds_.grow(p);
+    const Vector3 sides = bounds_.upper - bounds_.lower;
     const double largest = std::max({sides[0], sides[1], sides[2]});
     for (std::size_t k = 0; k < 3; ++k) {
       n_[k] = largest > 0 ? 1 + static_cast<std::int64_t>(most_boxes * (sides[k] / largest)) : 1;
       per_length_[k] = sides[k] > 0 ? static_cast<double>(n_[k]) / sides[k] : 0;
     }
     starts_.resize(static_cast<std::size_t>(n_[0] * n_[1] * n_[2]) + 1);
-    for (const Vector &p : points_) ++view(starts_)[box_of(p) + 1];
+    for (const Vector3 &p : points_) ++view(starts_)[box_of(p) + 1];
     for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
     order_.resize(points_.size());
     std::vector<std::int64_t> next = starts_;
@@ -68,7 +68,7 @@ class PointGrid {
       view(order_)[view(next)[box_of(points_[i])]++] = static_cast<std::int64_t>(i);
   }
 
-  const Vector &point(std::int64_t i) const { return view(points_)[i]; }
+  const Vector3 &point(std::int64_t i) const { return view(points_)[i]; }
 
   // Calls visit with the number of each point within the bounds.
   template <class Visit>
@@ -85,16 +85,16 @@ class PointGrid {
   }
 
  private:
-  std::int64_t place(const Vector &p, std::size_t k) const {
+  std::int64_t place(const Vector3 &p, std::size_t k) const {
     const double at = std::max(0.0, (p[k] - bounds_.lower[k]) * per_length_[k]);
     return std::min(static_cast<std::int64_t>(std::min(at, 1e6)), n_[k] - 1);
   }
-  std::int64_t box_of(const Vector &p) const { return (place(p, 0) * n_[1] + place(p, 1)) * n_[2] + place(p, 2); }
+  std::int64_t box_of(const Vector3 &p) const { return (place(p, 0) * n_[1] + place(p, 1)) * n_[2] + place(p, 2); }
 
-  std::vector<Vector> points_;
+  std::vector<Vector3> points_;
   CellBounds bounds_;
   std::array<std::int64_t, 3> n_ = {};
-  Vector per_length_ = {};
+  Vector3 per_length_ = {};
   std::vector<std::int64_t> starts_, order_;
 };
 
@@ -127,30 +127,30 @@ class SolidCells {
       const Corners &corners = polygons_.face_of_volume(cell, face);
       if (corners.size() == 3) visit(point(corners[0]), point(corners[1]), point(corners[2]));
       if (corners.size() <= 3) continue;
-      const Vector middle = mean_of(corners.data(), view(corners).size());
+      const Vector3 middle = mean_of(corners.data(), view(corners).size());
       for (std::size_t i = 0; i < corners.size(); ++i)
         visit(point(corners[i]), point(corners[(i + 1) % corners.size()]), middle);
     }
   }
 
-  bool has(vtkIdType cell, const Vector &p) {
+  bool has(vtkIdType cell, const Vector3 &p) {
     vtkIdType n = 0;
     const vtkIdType *ids = nullptr;
     grid_->GetCells()->GetCellAtId(cell, n, ids);
     if (grid_->GetCellType(cell) == VTK_TETRA)
       return contains(point(ids[0]), point(ids[1]), point(ids[2]), point(ids[3]), p);
-    const Vector middle = mean_of(ids, n);
+    const Vector3 middle = mean_of(ids, n);
     bool is_in = false;
-    for_each_triangle(cell, [&](const Vector &a, const Vector &b, const Vector &c) {
+    for_each_triangle(cell, [&](const Vector3 &a, const Vector3 &b, const Vector3 &c) {
       is_in = is_in || contains(middle, a, b, c, p);
     });
     return is_in;
   }
 
  private:
-  Vector point(vtkIdType id) const { return {xyz_[3 * id], xyz_[3 * id + 1], xyz_[3 * id + 2]}; }
-  Vector mean_of(const vtkIdType *ids, std::int64_t n) const {
-    Vector sum = {0, 0, 0};
+  Vector3 point(vtkIdType id) const { return {xyz_[3 * id], xyz_[3 * id + 1], xyz_[3 * id + 2]}; }
+  Vector3 mean_of(const vtkIdType *ids, std::int64_t n) const {
+    Vector3 sum = {0, 0, 0};
     for (std::int64_t i = 0; i < n; ++i) sum = sum + point(ids[i]);
     return 1.0 / static_cast<double>(n) * sum;
   }
@@ -165,7 +165,7 @@ struct SurfaceDeleter {
 };
 
 // Returns the distances of points from triangles, three corners each.
-std::vector<double> distances_from(const std::vector<Vector> &triangles, const std::vector<Vector> &points) {
+std::vector<double> distances_from(const std::vector<Vector3> &triangles, const std::vector<Vector3> &points) {
   std::vector<std::int64_t> corners(triangles.size());
   for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::int64_t>(i);
   riis_surface_arrays arrays;
@@ -209,7 +209,7 @@ struct Asked {
     }
   }
   std::vector<std::int64_t> number;
-  std::vector<Vector> points;
+  std::vector<Vector3> points;
 };
 
 void find_contained(SolidCells &cells, const Asked &asked, std::uint8_t *is_outside) {
@@ -224,7 +224,7 @@ void find_contained(SolidCells &cells, const Asked &asked, std::uint8_t *is_outs
 
 void find_near(SolidCells &cells, const Asked &asked, double distance, std::uint8_t *is_outside) {
   const PointGrid grid(asked.points);
-  std::vector<Vector> triangles;
+  std::vector<Vector3> triangles;
   cells.for_each([&](vtkIdType cell, CellBounds bounds) {
     for (std::size_t k = 0; k < 3; ++k) {
       bounds.lower[k] -= distance;
@@ -233,8 +233,8 @@ void find_near(SolidCells &cells, const Asked &asked, double distance, std::uint
     bool is_near = false;
     grid.for_each_in(bounds, [&](std::int64_t) { is_near = true; });
     if (!is_near) return;
-    cells.for_each_triangle(cell, [&](const Vector &a, const Vector &b, const Vector &c) {
-      const Vector normal = cross(b - a, c - a);
+    cells.for_each_triangle(cell, [&](const Vector3 &a, const Vector3 &b, const Vector3 &c) {
+      const Vector3 normal = cross(b - a, c - a);
       if (dot(normal, normal) > 0) triangles.insert(triangles.end(), {a, b, c});
     });
   });
