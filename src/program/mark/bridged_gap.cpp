@@ -46,10 +46,9 @@ Surface closed_surface(const ValveOptions &options, riis_valve *valve) {
 }
 
 // Returns the orifice, and as effective area what is left of it after its edge along the leaflets has moved inwards.
-riis_orifice orifice_of(const riis_surface *surface, double moved) {
+riis_orifice orifice_of(const riis_surface *surface, double moved, double rim_reach) {
   auto resistance = defaults<riis_resistance>();
-  const auto usual = get<riis_orifice>(riis_surface_get_orifice, surface, &resistance);
-  resistance.half_thickness = moved / usual.rim_reach;
+  resistance.half_thickness = moved / rim_reach;
   return get<riis_orifice>(riis_surface_get_orifice, surface, &resistance);
 }
 
@@ -63,17 +62,20 @@ void warn_of_bridged_gap(const ValveOptions &options, const riis_valve *valve, c
   if (!with_gap || !without_gap) return;
   const double bridged = 1 - options.surface_options.offset;  // in half thicknesses, on either side of the gap
   const double reach = bridged * info_of(with_gap).half_thickness;
-  const auto is_open = [&](double moved) {
-    const riis_orifice left = orifice_of(with_gap, moved), usual = orifice_of(without_gap, moved);
+  // The share of the half thickness by which a rim's band reaches inwards is the same for all half thicknesses.
+  const auto resistance = defaults<riis_resistance>();
+  const double rim_reach = get<riis_orifice>(riis_surface_get_orifice, with_gap, &resistance).rim_reach;
+  const auto is_open = [](const riis_orifice &left, const riis_orifice &usual) {
     return left.effective_area - usual.effective_area > least_share_left * usual.outline_area;
   };
-  const riis_orifice whole = orifice_of(with_gap, reach), usual = orifice_of(without_gap, reach);
+  const riis_orifice whole = orifice_of(with_gap, reach, rim_reach), usual = orifice_of(without_gap, reach, rim_reach);
   const double gap = whole.area - usual.area;
-  if (gap <= least_share * usual.outline_area || is_open(reach)) return;
+  if (gap <= least_share * usual.outline_area || is_open(whole, usual)) return;
   double open = 0, closed = reach;
   for (int i = 0; i < n_halvings; ++i) {
     const double middle = 0.5 * (open + closed);
-    (is_open(middle) ? open : closed) = middle;
+    const bool is_wider = is_open(orifice_of(with_gap, middle, rim_reach), orifice_of(without_gap, middle, rim_reach));
+    (is_wider ? open : closed) = middle;
   }
   warn((part.empty() ? "" : part + ": ") + "bumps leave a gap of " + shown(gap) +
        " in the closed valve, which is at most " + shown(2 * closed) + " wide, and the band closes gaps of up to " +
