@@ -79,7 +79,7 @@ void check_kind(const std::string &kind) {
                "; docs/patient.md has the single commands, which take every kind");
 }
 
-// The ending of a file of landmarks, which tells its format.
+// Returns the ending of a file of landmarks, which tells its format.
 std::string landmark_ending(const std::string &path) {
   const std::string slicer = ".mrk.json";
   const bool is_slicer =
@@ -87,10 +87,10 @@ std::string landmark_ending(const std::string &path) {
   return is_slicer ? slicer : ending_of(path);
 }
 
-// Returns the present number of a JSON file of a step.
+// Returns the numbers that a step wrote.
 Json stats_of(const std::string &name) { return parse_json_file("logs/" + name + ".json", "stats"); }
 
-// Returns whether the file exists, for outputs that may be missing.
+// Returns whether the file exists. Pictures and movies may be missing.
 bool exists(const char *path) {
   std::error_code error;
   return fs::exists(path, error);
