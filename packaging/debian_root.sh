@@ -198,7 +198,7 @@ picture() {
     print "CELL_TYPES", m ^ 3
     for (i = 0; i < m ^ 3; ++i) print 12
   }' >"$home/box.vtk"
-  logged unpack "${as_user[@]}" PATH="$PATH" tar -xJf "$input"/riis-*-linux-x86_64.tar.xz -C "$home"
+  logged unpack "${as_user[@]}" PATH="$PATH" tar -xJf "$input"/riis-*-linux-"$(uname -m)".tar.xz -C "$home"
   logged mark "${as_user[@]}" PATH=/usr/bin:/bin HOME="$home" sh -c "cd $home && riis-*/bin/riis mark box.vtk --unit cm \
     --valve coapting --opening 0.5 --output marked.vtu --stats stats.json --picture picture.png"
   echo "$((SECONDS - start))" >"$out/seconds.txt"

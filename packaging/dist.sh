@@ -69,9 +69,9 @@ for part in wheels program; do
   "packaging/$part.sh" "$rows"
 done
 cp out/packages/wheels/riis-*.whl out/packages/program/riis-*.tar.xz "$out"
-(cd "$out" && for file in riis-*.whl riis-*-linux-x86_64.tar.xz; do sha256sum "$file" >"$file.sha256"; done)
+(cd "$out" && for file in riis-*.whl riis-*-linux-"$(uname -m)".tar.xz; do sha256sum "$file" >"$file.sha256"; done)
 say "for users without a compiler, in out/dist:"
-(cd "$out" && ls -s --si riis-*.whl riis-*-linux-x86_64.tar.xz)
+(cd "$out" && ls -s --si riis-*.whl riis-*-linux-"$(uname -m)".tar.xz)
 [[ ${1:-} != files ]] || exit 0
 
 # Only these tests use these roots. In another root ninja would keep the objects of other sources, because the archive's files are

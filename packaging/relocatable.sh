@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# relocatable.sh FOLDER: makes riis-VERSION-linux-x86_64.tar.xz in the folder, on Debian 12. The archive has the program, all its
+# relocatable.sh FOLDER: makes riis-VERSION-linux-PROCESSOR.tar.xz in the folder, on Debian 12. The archive has the program, all its
 # libraries except the C library, and what pictures without a display need. It runs wherever it is unpacked, without root rights.
 #
 # Debian's VTK draws by X and OpenGL. For OpenGL the archive has a Mesa of its own, without LLVM, which alone takes 117 MB. This
@@ -14,7 +14,7 @@ cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
 work=$PWD/build-program most_bytes=200000000
 logs=$work/logs
 version=$(sed -n 's/^version: //p' CITATION.cff)
-name=riis-$version-linux-x86_64
+name=riis-$version-linux-$(uname -m)
 out=$(realpath -m -- "$1")
 tree=$work/$name
 mkdir -p "$logs" "$out"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""render_conda.py RECIPE: rattler-build reads the recipe and renders it for Linux, x86-64, with three versions of Python.
+"""render_conda.py RECIPE: rattler-build reads the recipe and renders it for Linux, on x86-64 and aarch64, with three versions of
+Python.
 
 py-rattler-build, from PyPI, is rattler-build itself. So a wrong field, function or requirement ends the script. Nothing is built.
 """
@@ -19,12 +20,13 @@ c_stdlib_version: ["2.28"]
 """
 
 recipe = rattler_build.Stage0Recipe.from_file(sys.argv[1])
-config = rattler_build.RenderConfig(platform=PlatformConfig(target_platform="linux-64"))
-packages = [variant.recipe for variant in recipe.render(rattler_build.VariantConfig.from_yaml(VARIANTS), config)]
-names = sorted(name for name, _ in {(package.package.name, package.build.string) for package in packages})
-for package in packages:
-    print(package.package.name, package.package.version, package.build.string)
-    if not package.to_dict().get("tests"):
-        sys.exit(f"render_conda.py: {package.package.name} has no tests")
-if names != ["libriis", "riis", "riis", "riis"]:
-    sys.exit(f"render_conda.py: the recipe makes {names}, not libriis once and riis for each version of Python")
+for platform in ("linux-64", "linux-aarch64"):
+    config = rattler_build.RenderConfig(platform=PlatformConfig(target_platform=platform))
+    packages = [variant.recipe for variant in recipe.render(rattler_build.VariantConfig.from_yaml(VARIANTS), config)]
+    names = sorted(name for name, _ in {(package.package.name, package.build.string) for package in packages})
+    for package in packages:
+        print(platform, package.package.name, package.package.version, package.build.string)
+        if not package.to_dict().get("tests"):
+            sys.exit(f"render_conda.py: {package.package.name} has no tests")
+    if names != ["libriis", "riis", "riis", "riis"]:
+        sys.exit(f"render_conda.py: for {platform} the recipe makes {names}, not libriis once and riis for each version of Python")

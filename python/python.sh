@@ -108,7 +108,7 @@ python_abi3_wheel() {
   tree=$(echo "$folder"/riis-*)
   rm "$tree"/riis/_riis.cpython-*.so &&
     cp "$(python_build_folder)/python/abi3/_riis.abi3.so" "$tree/riis" &&
-    sed -i 's/^Tag: .*/Tag: cp312-abi3-linux_x86_64/' "$tree"/*.dist-info/WHEEL &&
+    sed -i "s/^Tag: .*/Tag: cp312-abi3-linux_$(uname -m)/" "$tree"/*.dist-info/WHEEL &&
     mkdir -p "$python_folder/built-abi3" &&
     "$tools/wheel" pack --dest-dir "$python_folder/built-abi3" "$tree"
 }
@@ -224,7 +224,7 @@ python_manylinux() {
   [[ -x $venv/bin/cibuildwheel ]] ||
     step "cibuildwheel $cibuildwheel_version from PyPI" \
       sh -c "$(python_of_packages) -m venv $venv && $venv/bin/pip install cibuildwheel==$cibuildwheel_version"
-  step "build and test the wheels" "$venv/bin/cibuildwheel" --platform linux --archs x86_64 --output-dir out/wheels .
+  step "build and test the wheels" "$venv/bin/cibuildwheel" --platform linux --archs "$(uname -m)" --output-dir out/wheels .
   say "the wheels: $(echo out/wheels/*.whl)"
 }
 
@@ -269,7 +269,7 @@ python_wheels() {
   rm -rf out/wheels
   mkdir -p out/wheels
   for wheel in "$python_folder"/repaired/riis-*.whl "$python_folder"/repaired-abi3/riis-*.whl; do
-    if [[ ! $wheel =~ -manylinux_2_([0-9]+)_x86_64\.whl$ ]] || ((BASH_REMATCH[1] > 35)); then
+    if [[ ! $wheel =~ -manylinux_2_([0-9]+)_$(uname -m)\.whl$ ]] || ((BASH_REMATCH[1] > 35)); then
       echo "./run python wheels: $wheel needs a C library later than 2.35" >&2
       exit 1
     fi

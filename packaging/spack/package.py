@@ -51,7 +51,7 @@ class Riis(CMakePackage):
     depends_on("nlohmann-json@3.10:", when="+program")
     depends_on("mpi", when="+mpi")
 
-    requires("target=x86_64:", msg="riis was tested on x86-64 only")
+    requires("target=x86_64:", "target=aarch64:", policy="one_of", msg="riis was tested on x86-64 and aarch64 only")
     conflicts("platform=darwin", msg="riis was tested on Linux only")
     conflicts("platform=windows", msg="riis was tested on Linux only")
 
