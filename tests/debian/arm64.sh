@@ -1,37 +1,103 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# arm64.sh SOURCE FOLDER
-# Compiles the core for 64-bit ARM, and compares the bits of 60 states with those of this machine. An emulator runs the program,
-# 20 times as long as a processor. FOLDER keeps the compiled files, and Debian's libraries for ARM. apt fetches them there, and
-# this system's own packages stay as they are.
+# arm64.sh root FOLDER                   unpacks Debian's packages for 64-bit ARM in FOLDER/root, on the first call only
+# arm64.sh build SOURCE FOLDER           compiles everything for ARM in FOLDER/build
+# arm64.sh test SOURCE FOLDER [WORD...]  runs the tests whose names match a WORD, or the default suite, and judges the results
+# An emulator runs the programs for ARM. It needs 7 to 20 times as long as a processor. apt fetches the packages and dpkg unpacks
+# them. This system's own packages stay as they are, and no step needs root rights.
 set -euo pipefail
-source=$1 folder=$2
-root=$folder/root libraries=usr/lib/aarch64-linux-gnu
-packages=(libc6 libgcc-s1 libstdc++6 libgomp1 libembree3-3 libembree-dev libtbb12 libtbb-dev libtbbmalloc2 libtbbbind-2-5
-  libhwloc15 libudev1)
 
-if [[ ! -e $root ]]; then
-  mkdir -p "$folder"/apt/{state/lists/partial,cache/archives/partial} "$folder/debs"
+triplet=aarch64-linux-gnu
+# What the tests of ./run test need, as in the lists of run, and the C and Fortran libraries.
+packages=(libc-bin libstdc++-12-dev libgfortran-12-dev
+  libembree-dev libtbb-dev
+  libvtk9-dev libx11-dev nlohmann-json3-dev libcli11-dev libhdf5-dev libgl1-mesa-dri
+  libcmocka-dev)
+
+make_root() {
+  local folder=$1 part=$1/root.part link package options stated="(^|[^A-Za-z0-9_./}-])(/usr/lib/$triplet/)"
+  [[ ! -e $folder/root ]] || return 0
+  rm -rf "$folder/apt" "$part"
+  mkdir -p "$folder"/apt/{state/lists/partial,cache/archives/partial} "$part"/usr/{bin,lib,sbin}
   : >"$folder/apt/status"
-  apt_options=(-o APT::Architecture=arm64 -o APT::Architectures::=arm64 -o Dir::State="$folder/apt/state"
+  options=(-o APT::Architecture=arm64 -o APT::Architectures::=arm64 -o Dir::State="$folder/apt/state"
     -o Dir::State::status="$folder/apt/status" -o Dir::Cache="$folder/apt/cache" -o APT::Sandbox::User=root)
-  apt-get "${apt_options[@]}" -qq update
-  (cd "$folder/debs" && apt-get "${apt_options[@]}" -qq download "${packages[@]}")
-  for package in "$folder"/debs/*.deb; do dpkg -x "$package" "$root.partial"; done
-  mv "$root.partial" "$root"
-fi
+  apt-get "${options[@]}" -qq update
+  apt-get "${options[@]}" -q install --download-only --yes --no-install-recommends "${packages[@]}"
+  # In this system these folders are links too. A folder for ARM covers one of this system, so both need the same layout.
+  for link in bin lib sbin; do ln -s "usr/$link" "$part/$link"; done
+  for package in "$folder"/apt/cache/archives/*.deb; do
+    dpkg-deb --fsys-tarfile "$package" | tar -x --keep-directory-symlink --no-same-owner -C "$part"
+  done
+  # The cross compiler follows links outside the emulated system.
+  find "$part" -type l -lname '/*' | while read -r link; do
+    ln -sfnr "$part$(readlink "$link")" "$link"
+  done
+  # CMake does not look for a library whose path a package's file states.
+  grep -rlE --include='*argets*.cmake' "$stated" "$part/usr/lib/$triplet/cmake" | xargs sed -i -E "s,$stated,\\1$folder/root\\2,g"
+  # Debian's alternatives, which the packages' scripts would set.
+  ln -s blas/libblas.so.3 lapack/liblapack.so.3 "$part/usr/lib/$triplet"
+  rm -rf "$folder/apt"
+  mv "$part" "$folder/root"
+}
 
-cmake -S "$source" -B "$folder/build" -G Ninja -D CMAKE_BUILD_TYPE=Release -D RIIS_WARNINGS_AS_ERRORS=ON \
-  -D CMAKE_SYSTEM_NAME=Linux -D CMAKE_SYSTEM_PROCESSOR=aarch64 -D CMAKE_FIND_ROOT_PATH="$root" \
-  -D CMAKE_C_COMPILER=aarch64-linux-gnu-gcc -D CMAKE_CXX_COMPILER=aarch64-linux-gnu-g++ \
-  -D CMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER -D CMAKE_FIND_ROOT_PATH_MODE_PACKAGE=ONLY \
-  -D CMAKE_EXE_LINKER_FLAGS="-Wl,-rpath-link,$root/$libraries" \
-  -D RIIS_WITH_VTK=OFF -D RIIS_WITH_FORTRAN=OFF -D RIIS_BUILD_PROGRAM=OFF -D RIIS_BUILD_TESTS=OFF -D RIIS_BUILD_BENCH=OFF
-cmake --build "$folder/build" --target riis
-library=$(dirname "$(find "$folder/build" -name libriis.so)")
-aarch64-linux-gnu-gcc -std=c11 -O1 -ffp-contract=off -I "$source/include" "$source/tests/process/state_digests.c" \
-  -o "$folder/state_digests" -L "$library" -lriis -lm -Wl,-rpath-link,"$root/$libraries"
-paths=$library:$root/$libraries:$root/lib/aarch64-linux-gnu
-qemu-aarch64-static -L "$root" -E LD_LIBRARY_PATH="$paths" "$folder/state_digests" >"$folder/digests.txt"
-diff "$source/tests/process/state_digests.txt" "$folder/digests.txt"
-echo "arm64: the same bits in $(($(wc -l <"$folder/digests.txt") - 1)) states"
+write_toolchain() {
+  cat <<EOF
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_SYSROOT $1/root)
+set(CMAKE_C_COMPILER $triplet-gcc)
+set(CMAKE_CXX_COMPILER $triplet-g++)
+set(CMAKE_Fortran_COMPILER $triplet-gfortran)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+foreach(kind LIBRARY INCLUDE PACKAGE)
+  set(CMAKE_FIND_ROOT_PATH_MODE_\${kind} ONLY)
+endforeach()
+# The compiler wrappers of this system's MPI know only this system's processor.
+set(CMAKE_DISABLE_FIND_PACKAGE_MPI ON)
+EOF
+}
+
+build() {
+  local source=$1 folder=$2
+  write_toolchain "$folder" >"$folder/toolchain.new"
+  cmp -s "$folder/toolchain.new" "$folder/toolchain.cmake" || mv "$folder/toolchain.new" "$folder/toolchain.cmake"
+  cd "$source"
+  cmake --preset test -B "$folder/build" -D CMAKE_TOOLCHAIN_FILE="$folder/toolchain.cmake"
+  cmake --build "$folder/build" --parallel "$(nproc)"
+}
+
+# run_tests SOURCE FOLDER [WORD...]: PRoot shows the tests ARM's libraries where they stand in a Debian for ARM, and starts each
+# program for ARM by the emulator, also if a script or another such program calls it. Programs of this system run as usual.
+run_tests() {
+  local source=$1 folder=$2 select=(-LE slow) libraries=/usr/lib/$triplet name status=0 start=$SECONDS
+  shift 2
+  (($# == 0)) || select=(-R "$(IFS='|' && echo "$*")")
+  # Tests that call compilers by their short names get those for ARM.
+  mkdir -p "$folder/bin"
+  for name in gcc g++ gfortran; do ln -sfn "/usr/bin/$triplet-$name" "$folder/bin/$name"; done
+  ln -sfn gcc "$folder/bin/cc"
+  ln -sfn g++ "$folder/bin/c++"
+  cd "$folder/build"
+  rm -f "$folder/results.xml"
+  # Threads that wait would otherwise take the processors from the threads that compute.
+  env PATH="$folder/bin:$PATH" OMP_WAIT_POLICY=passive CMAKE_TOOLCHAIN_FILE="$folder/toolchain.cmake" \
+    PKG_CONFIG_SYSROOT_DIR="$folder/root" PKG_CONFIG_LIBDIR="$folder/root$libraries/pkgconfig:$folder/root/usr/share/pkgconfig" \
+    proot -q qemu-aarch64-static -r / -w "$folder/build" -b "$folder/root$libraries:$libraries" \
+    -b "$folder/root/usr/lib/ld-linux-aarch64.so.1:/usr/lib/ld-linux-aarch64.so.1" -b "$folder/root/usr/bin/ldd:/usr/bin/ldd" \
+    ctest --parallel "$(nproc)" --timeout 6000 --output-on-failure --test-output-size-passed 1000000 \
+    --output-junit "$folder/results.xml" "${select[@]}" || status=$?
+  python3 -B "$source/tests/debian/judge_arm64.py" "$folder/results.xml" "$source/tests/debian/arm64_skipped.txt" || status=$?
+  echo "arm64: $((SECONDS - start)) seconds under the emulator"
+  return "$status"
+}
+
+case ${1:-}/$# in
+  root/2) make_root "$(realpath -m -- "$2")" ;;
+  build/3) build "$2" "$(realpath -m -- "$3")" ;;
+  test/[3-9]*) run_tests "$2" "$(realpath -m -- "$3")" "${@:4}" ;;
+  *)
+    echo "usage: tests/debian/arm64.sh root FOLDER | build SOURCE FOLDER | test SOURCE FOLDER [WORD...]" >&2
+    exit 2
+    ;;
+esac
