@@ -74,7 +74,7 @@ static inline void join_near_nodes(test_mesh *mesh, const double *lower, const d
   for (int64_t i = 0; i < mesh->n; ++i) {
     const double *p = mesh->xyz + 3 * i;
     double best[32];
-    int64_t near[32];
+    int64_t near[32] = {0}; /* so that gcc for ARM does not suspect the entries from n_near on */
     int n_near = 0;
     for (int64_t z = CELL(p, 2) - 1; z <= CELL(p, 2) + 1; ++z)
       for (int64_t y = CELL(p, 1) - 1; y <= CELL(p, 1) + 1; ++y)
