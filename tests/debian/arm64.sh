@@ -12,7 +12,7 @@ triplet=aarch64-linux-gnu
 packages=(libstdc++-12-dev libgfortran-12-dev
   libembree-dev libtbb-dev
   libvtk9-dev libx11-dev nlohmann-json3-dev libcli11-dev libhdf5-dev libgl1-mesa-dri
-  libcmocka-dev)
+  libcmocka-dev libopenmpi-dev)
 
 make_root() {
   local folder=$1 part=$1/root.part link package options stated="(^|[^A-Za-z0-9_./}-])(/usr/lib/$triplet/)"
@@ -53,15 +53,43 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 foreach(kind LIBRARY INCLUDE PACKAGE)
   set(CMAKE_FIND_ROOT_PATH_MODE_\${kind} ONLY)
 endforeach()
-# The compiler wrappers of this system's MPI know only this system's processor.
-set(CMAKE_DISABLE_FIND_PACKAGE_MPI ON)
+set(MPI_C_COMPILER $1/bin/mpicc)
+set(MPI_CXX_COMPILER $1/bin/mpicxx)
+set(MPI_Fortran_COMPILER $1/bin/mpifort)
 # The Python of this system cannot load modules for ARM.
 set(CMAKE_DISABLE_FIND_PACKAGE_nanobind ON)
 EOF
 }
 
+# write_tools FOLDER: tests that call compilers or ldd by their short names get these, which know ARM. mpiexec is this system's.
+write_tools() {
+  local bin=$1/bin libraries=$1/root/usr/lib/$triplet name compiler
+  rm -rf "$bin"
+  mkdir -p "$bin"
+  for name in gcc g++ gfortran; do ln -s "/usr/bin/$triplet-$name" "$bin/$name"; done
+  ln -s gcc "$bin/cc"
+  ln -s g++ "$bin/c++"
+  while read -r name compiler; do
+    cat >"$bin/$name" <<EOF
+#!/bin/sh
+export $compiler OPAL_LIBDIR=$libraries/openmpi/lib OPAL_INCLUDEDIR=$libraries/openmpi/include
+exec $name.openmpi "\$@"
+EOF
+  done <<EOF
+mpicc OMPI_CC=$triplet-gcc
+mpicxx OMPI_CXX=$triplet-g++
+mpifort OMPI_FC=$triplet-gfortran
+EOF
+  cat >"$bin/ldd" <<'EOF'
+#!/bin/sh
+for file; do LD_TRACE_LOADED_OBJECTS=1 /usr/lib/ld-linux-aarch64.so.1 "$file" || exit; done
+EOF
+  chmod +x "$bin"/{ldd,mpicc,mpicxx,mpifort}
+}
+
 build() {
   local source=$1 folder=$2
+  write_tools "$folder"
   write_toolchain "$folder" >"$folder/toolchain.new"
   cmp -s "$folder/toolchain.new" "$folder/toolchain.cmake" || mv "$folder/toolchain.new" "$folder/toolchain.cmake"
   cd "$source"
@@ -72,19 +100,9 @@ build() {
 # run_tests SOURCE FOLDER [WORD...]: PRoot shows the tests ARM's libraries where they stand in a Debian for ARM, and starts each
 # program for ARM by the emulator, also if a script or another such program calls it. Programs of this system run as usual.
 run_tests() {
-  local source=$1 folder=$2 select=(-LE slow) libraries=/usr/lib/$triplet name status=0 start=$SECONDS
+  local source=$1 folder=$2 select=(-LE slow) libraries=/usr/lib/$triplet status=0 start=$SECONDS
   shift 2
   (($# == 0)) || select=(-R "$(IFS='|' && echo "$*")")
-  # Tests that call compilers or ldd by their short names get those for ARM.
-  mkdir -p "$folder/bin"
-  for name in gcc g++ gfortran; do ln -sfn "/usr/bin/$triplet-$name" "$folder/bin/$name"; done
-  ln -sfn gcc "$folder/bin/cc"
-  ln -sfn g++ "$folder/bin/c++"
-  cat >"$folder/bin/ldd" <<'EOF'
-#!/bin/sh
-for file; do LD_TRACE_LOADED_OBJECTS=1 /usr/lib/ld-linux-aarch64.so.1 "$file" || exit; done
-EOF
-  chmod +x "$folder/bin/ldd"
   cd "$folder/build"
   rm -f "$folder/results.xml"
   # Threads that wait would otherwise take the processors from the threads that compute.
