@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests failures inside the library that a caller cannot provoke. Exceptions become a status and a message. If memory
  * runs out, everything stays as it was. */
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,6 +11,18 @@
 
 #include "handles.h"
 #include "sanitized.h"
+
+enum { limit_is_ignored = 77 };
+
+/* Returns whether a child process can have more address space than its limit, which it has set. Emulators ignore the limit,
+ * because they need memory themselves. */
+static int exceeds_limit(const struct rlimit *limit) {
+  const size_t size = (size_t)limit->rlim_cur;
+  void *memory = mmap(NULL, size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory == MAP_FAILED) return 0;
+  munmap(memory, size);
+  return 1;
+}
 
 /* Updates a surface in a child process with little address space left. An update that needs much more is refused, and the
  * surface stays as it was. Returns 0 if this holds. */
@@ -31,6 +44,7 @@ static int update_without_memory(void) {
   const rlim_t unlimited = limit.rlim_cur;
   limit.rlim_cur = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + ((rlim_t)160 << 20);
   setrlimit(RLIMIT_AS, &limit);
+  if (exceeds_limit(&limit)) return limit_is_ignored;
   if (riis_surface_update(surface, valve, &options) != RIIS_OUT_OF_MEMORY) return 4;
   if (strcmp(riis_last_error(), "out of memory") != 0) return 5;
   limit.rlim_cur = unlimited; /* the checks below may need memory that other threads have taken meanwhile */
@@ -77,6 +91,7 @@ static int refusal_with_little_memory(void) {
   getrlimit(RLIMIT_AS, &limit);
   limit.rlim_cur = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + ((rlim_t)320 << 20);
   setrlimit(RLIMIT_AS, &limit);
+  if (exceeds_limit(&limit)) return limit_is_ignored;
   options.n_threads = 1;
   options.half_thickness = 1e-3;
   options.tolerance = 1e-5;
@@ -94,6 +109,7 @@ static void check_in_child(int (*returns_0)(void)) {
   int status = -1;
   assert_int_equal(waitpid(child, &status, 0), child);
   assert_true(WIFEXITED(status));
+  if (WEXITSTATUS(status) == limit_is_ignored) skip();
   assert_int_equal(WEXITSTATUS(status), 0);
 }
 
