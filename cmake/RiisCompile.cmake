@@ -52,21 +52,13 @@ if(RIIS_SANITIZE MATCHES "thread")
   target_compile_definitions(riis_compile INTERFACE RIIS_STD_THREADS $<$<C_COMPILER_ID:Clang>:__SANITIZE_THREAD__=1>)
 endif()
 
-# Gives a library of riis its version, and lets it export only names that begin with its own. (Hidden visibility alone would leave
-# weak template instances of the C++ runtime visible.)
+# Gives a library of riis its version, and lets it export only names that begin with its own.
 function(riis_finish_library target)
   set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
   # A user's -ffast-math would link start-up code into the library. That code sets flush-to-zero in every program that loads the
   # library.
   target_link_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-fast-math>)
   if(BUILD_SHARED_LIBS)
-    string(TOUPPER ${target}_${PROJECT_VERSION_MAJOR} node)
-    set(version_script ${CMAKE_CURRENT_BINARY_DIR}/${target}.map)
-    file(CONFIGURE OUTPUT ${version_script} CONTENT "${node} {\n  global: ${target}_*;\n  local: *;\n};\n")
-    target_link_options(${target} PRIVATE "LINKER:--version-script=${version_script}")
-    if(NOT RIIS_SANITIZE)  # with a sanitizer, the sanitizer's run-time stays undefined in the library
-      target_link_options(${target} PRIVATE "LINKER:--no-undefined")
-    endif()
-    set_target_properties(${target} PROPERTIES LINK_DEPENDS ${version_script})
+    riis_export_own_names(${target})
   endif()
 endfunction()

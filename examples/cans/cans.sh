@@ -3,6 +3,9 @@
 # The steps of ./run cans: copy the sources, insert the valve, compile, run, check, draw. `run` sources this file. The steps use
 # $build, $packages, install_library, install_missing, python_of_packages, say, set_ranks and step of `run`.
 
+# `run` refuses this command before, if bash lacks associative arrays.
+((BASH_VERSINFO[0] >= 4)) || return 0
+
 cans_packages=(gcc g++ gfortran cmake make ninja-build pkg-config libembree-dev libtbb-dev libfftw3-dev openmpi-bin
   libopenmpi-dev python3-numpy python3-matplotlib)
 cans_here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)

@@ -3,6 +3,9 @@
 # The steps of ./run demo, which reads this file: compile the program, make meshes, mark and draw, measure times, and print a
 # summary. The steps use $build, $logs, $n_jobs, $demo_packages, install_missing and step of `run`.
 
+# `run` refuses the commands of this file before, if bash lacks associative arrays.
+((BASH_VERSINFO[0] >= 4)) || return 0
+
 # build_demo: compiles the program. A folder that is configured for the tests keeps its configuration, so that ./run test need not
 # build everything again.
 build_demo() {

@@ -68,6 +68,8 @@ refuses shell SC2086
 # shellcheck disable=SC2016
 echo 'step $1' >>steps.sh
 refuses shell SC2086
+printf '%s\n' 'mapfile -t lines </dev/null' 'echo "${lines[@]}"' >>run
+refuses shell 'bash 3.2 lacks: run:5:mapfile'
 echo '# shellcheck shell=bash' >alone.sh
 refuses shell "alone.sh has no #!, and no script reads it"
 printf '# %0129d\n' 0 >>run

@@ -3,7 +3,7 @@
 # lint.sh SOURCE_FOLDER PART...
 # Checks the style of all files that git tracks, or of all files if the folder is not a git work tree. The parts:
 #   format   C and C++ is laid out as clang-format 14 does; the public headers are laid out by hand
-#   shell    shellcheck reports nothing; a script without #! is checked as part of the script that reads it; status 77 if
+#   shell    shellcheck reports nothing; `run` does without the features of bash 4; a script without #! is checked as part of the script that reads it; status 77 if
 #            RIIS_LINTED says that ./run lint has just found nothing
 #   columns  no line is too long (check_columns.py)
 #   python   pyflakes reports nothing
@@ -77,6 +77,9 @@ shell() {
       status=1
     fi
   done
+  # macOS has bash 3.2, and `run` begins before it can refuse that.
+  ! grep -snE 'mapfile|readarray|(declare|local) -[An]|\$\{[a-z_]+(,|\^)|&>>|\|&|coproc|;;&|wait -n' run |
+    sed 's/^/bash 3.2 lacks: run:/' | grep . >&2 || status=1
   # Scripts that `run` reads are checked together with `run`, because they use its variables.
   [[ ! -e run ]] || shellcheck --check-sourced -x -P . run || status=1
   printf '%s\0' "${scripts[@]}" | xargs -0 -P "$(nproc)" -n 8 shellcheck -x -P . || status=1

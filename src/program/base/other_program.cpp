@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "program/base/refusal.hpp"
+#include "program/base/system.hpp"
 #include "program/base/text.hpp"
 
 extern char **environ;
@@ -76,7 +77,7 @@ ProgramEnd run_program(const std::vector<std::string> &words, std::FILE *input,
   ProgramEnd end;
   const TemporaryFile messages = temporary_file();
   int ends[2];
-  if (!messages || pipe2(ends, O_CLOEXEC) != 0) {
+  if (!messages || !make_pipe(ends)) {
     end.error = errno;
     return end;
   }

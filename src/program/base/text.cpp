@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "common/nearest_name.hpp"
+#include "common/number_from_chars.hpp"
 #include "program/base/refusal.hpp"
 
 namespace riis::program {
@@ -24,7 +25,7 @@ std::optional<Number> whole_number_in(const std::string &text) {
   const char *first = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
   const char *last = text.data() + text.size();
   Number number{};
-  const auto [end, error] = std::from_chars(first, last, number);
+  const auto [end, error] = number_from_chars(first, last, number);
   return error == std::errc() && end == last ? std::optional(number) : std::nullopt;
 }
 
@@ -182,7 +183,7 @@ double tidied(double time, double step) {
   char text[32];
   double tidy = time;
   const char *end = std::to_chars(text, text + sizeof text, time, std::chars_format::general, 12).ptr;
-  std::from_chars(text, end, tidy);
+  number_from_chars(text, end, tidy);
   return std::abs(tidy - time) <= 1e-9 * step ? tidy : time;
 }
 

@@ -24,8 +24,8 @@ class VirtualDisplay {
   VirtualDisplay &operator=(const VirtualDisplay &) = delete;
 
  private:
-  pid_t process_ = -1;
-  int key_ = -1;  // a file in memory
+  [[maybe_unused]] pid_t process_ = -1;  // not used on macOS, like key_
+  [[maybe_unused]] int key_ = -1;        // a file in memory
   std::optional<std::string> display_before_, key_before_;
 };
 

@@ -2,7 +2,6 @@
 #include "program/input/mesh_reading.hpp"
 
 #include <fcntl.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,6 +17,7 @@
 #include <utility>
 
 #include "program/base/refusal.hpp"
+#include "program/base/system.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_source.hpp"
 #include "program/output/outputs.hpp"
@@ -58,14 +58,12 @@ void limit_memory([[maybe_unused]] const std::string &path) {
     const std::uintmax_t more = fs::file_size(file, unknown);
     if (!unknown) size += more;
   }
-  std::ifstream statm("/proc/self/statm");
-  std::uintmax_t n_pages = 0;
-  if (error || !(statm >> n_pages)) return;
+  const auto now = limited_memory();
+  if (error || !now) return;
   constexpr rlim_t base = rlim_t{2} << 30, per_byte = 1000;
-  const rlim_t now = n_pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
   rlimit limit;
   if (getrlimit(RLIMIT_AS, &limit) != 0) return;
-  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, now + base + per_byte * size);
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, *now + base + per_byte * size);
   setrlimit(RLIMIT_AS, &limit);
 #endif
 }
@@ -83,7 +81,7 @@ struct Answer {
   // This process ends with its parent, and removes nothing of its parent's.
   for (const int ending : UnbrokenWrite::signals)
     if (signal(ending, SIG_DFL) == SIG_IGN) signal(ending, SIG_IGN);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  end_with_parent(SIGKILL);
   if (getppid() != parent) _exit(1);
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
   const rlimit none = {0, 0};

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "common/number_from_chars.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
@@ -44,7 +45,7 @@ double rounded_up(double x) {
     char text[64];
     double rounded = 0;
     const char *end = std::to_chars(text, text + sizeof text, x + steps * unit, std::chars_format::general, 3).ptr;
-    std::from_chars(text, end, rounded);
+    number_from_chars(text, end, rounded);
     if (rounded >= x) return rounded;
   }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/number_from_chars.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/ranks.hpp"
 #include "program/base/text.hpp"
@@ -33,7 +34,7 @@ std::string coordinate_text(double x, double edge) {
   const int precision = std::min(n_digits, most_digits);
   double rounded = 0;
   const char *end = std::to_chars(text, text + sizeof text, x, std::chars_format::scientific, precision - 1).ptr;
-  std::from_chars(text, end, rounded);
+  number_from_chars(text, end, rounded);
   const bool is_usual = std::abs(rounded) >= 1e-9 && std::abs(rounded) < 1e15;
   const auto form = is_usual ? std::chars_format::fixed : std::chars_format::scientific;
   return {text, std::to_chars(text, text + sizeof text, rounded, form).ptr};

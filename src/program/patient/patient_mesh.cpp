@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "common/number_from_chars.hpp"
 #include "common/vectors.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/other_program.hpp"
@@ -106,7 +107,7 @@ class GmshReader {
     const char *const end = text_.data() + text_.size();
     while (next_ < end && (*next_ == ' ' || *next_ == '\n' || *next_ == '\r')) ++next_;
     Number value{};
-    const auto [after, error] = std::from_chars(next_, end, value);
+    const auto [after, error] = number_from_chars(next_, end, value);
     if (error != std::errc()) refuse_file(path_, "there is no number where one is expected, so it is not whole");
     next_ = after;
     return value;

@@ -8,6 +8,7 @@
 
 #include "program/base/other_program.hpp"
 #include "program/base/refusal.hpp"
+#include "program/base/system.hpp"
 #include "program/base/text.hpp"
 
 namespace riis::program {
@@ -81,11 +82,7 @@ void PatientFolder::finish() {
   if (error) refuse_data(std::string(marker_file) + ": cannot be removed: " + error.message());
 }
 
-PatientSteps::PatientSteps(bool quiet) : quiet_(quiet) {
-  std::error_code error;
-  program_ = fs::read_symlink("/proc/self/exe", error).string();
-  if (error) refuse_data("/proc/self/exe: cannot be read: " + error.message());
-}
+PatientSteps::PatientSteps(bool quiet) : program_(path_of_this_program()), quiet_(quiet) {}
 
 double PatientSteps::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();

@@ -3,7 +3,6 @@
 
 #include <pthread.h>
 #include <sched.h>
-#include <semaphore.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -18,6 +17,7 @@
 #include <utility>
 
 #include "parallel/parallel_for.hpp"
+#include "parallel/semaphore.hpp"
 
 namespace riis {
 namespace {
@@ -55,21 +55,6 @@ bool wait_awake(const Condition &holds) {
   }
 }
 
-// Threads sleep on semaphores. A condition variable would need a mutex. If the system interrupts a thread that holds the mutex,
-// the calling thread would also wait.
-class Semaphore {
- public:
-  Semaphore() { sem_init(&semaphore_, 0, 0); }
-  void post() { sem_post(&semaphore_); }
-  void wait() {
-    while (sem_wait(&semaphore_) != 0) {  // a signal has interrupted the wait
-    }
-  }
-
- private:
-  sem_t semaphore_;
-};
-
 // The state of a team's loop, in one word. The word holds the loop's number, how many workers are inside the loop, and how
 // many more may enter. A worker therefore enters only a loop that still has a place.
 struct State {
@@ -87,8 +72,9 @@ struct State {
 class Team {
  public:
   // Starts workers until the team has n_workers of them. Returns the number of workers, which is less if the system refuses a
-  // thread.
+  // thread. A team without semaphores has none.
   int grow_to(int n_workers) {
+    if (!may_start_.is_made() || !may_end_.is_made()) return 0;
     if (n_workers_ < n_workers) {
       n_processors_ = default_thread_count();
       // A caller's handlers of signals run on the caller's threads. The signal of an error cannot be blocked.
@@ -178,6 +164,8 @@ class Team {
   void *context_ = nullptr;
   std::atomic<bool> waits_awake_{false}, caller_sleeps_{false};
   std::atomic<int> n_asleep_{0};  // the workers that sleep and that no post will wake
+  // Threads sleep on semaphores. A condition variable would need a mutex. If the system interrupts a thread that holds the mutex,
+  // the calling thread would also wait.
   Semaphore may_start_, may_end_;
   int n_workers_ = 0, n_processors_ = 1;
 };

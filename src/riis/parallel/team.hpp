@@ -12,7 +12,8 @@ namespace riis {
 
 // Calls work(context, 0) on the calling thread. Calls work(context, thread), 0 < thread < n_threads, on each further thread that
 // comes before the calling thread's call has returned. Returns after all these calls have returned. Returns the number of
-// threads that took part. It is less than n_threads only if the system refuses a thread or memory. No call may throw.
+// threads that took part. It is less than n_threads only if the system refuses a thread, a semaphore or memory. No call may
+// throw.
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
 // Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they also run the

@@ -5,6 +5,8 @@
 
 #include <atomic>
 
+#include "parallel/stay_loaded.hpp"
+
 namespace riis {
 namespace {
 
@@ -21,6 +23,7 @@ bool begin_threads() noexcept {
     // Without memory for the handler, the library could not notice a fork. So it starts no threads.
     static const bool is_watched = pthread_atfork(nullptr, nullptr, begin_child) == 0;
     if (!is_watched) return false;
+    stay_loaded(&are_used);
     are_used = true;
   }
   return !has_lost_threads();

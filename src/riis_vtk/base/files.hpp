@@ -3,7 +3,6 @@
 // formats. This header also has the names of the arrays in files.
 #pragma once
 
-#include <charconv>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -13,6 +12,7 @@
 #include <vtkNew.h>
 #include <vtkType.h>
 
+#include "common/number_from_chars.hpp"
 #include "riis_vtk/base/vtk_errors.hpp"
 
 class vtkDataObject;
@@ -63,7 +63,7 @@ std::string_view take_word(std::string_view &text);
 // Reads the whole text as a number. Returns false if it is not a number of that type.
 template <class Number>
 bool read_number(std::string_view text, Number &number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size();
 }
 

@@ -15,9 +15,9 @@ class vtkUnsignedCharArray;
 
 namespace riis::vtk {
 
-// Holds a connection to the X display while VTK draws. VTK 9.1 renders only through X and GLX, and aborts the process if either
-// is missing. An X server resets itself after its last client has left, and refuses connections meanwhile. So this connection
-// stays open.
+// Holds a connection to the X display while VTK draws. On Linux VTK 9.1 renders only through X and GLX, and aborts the process
+// if either is missing. An X server resets itself after its last client has left, and refuses connections meanwhile. So this
+// connection stays open.
 class HeldDisplay {
  public:
   // Fails with RIIS_UNAVAILABLE if there is no display, or if the display lacks GLX.
@@ -27,7 +27,7 @@ class HeldDisplay {
   HeldDisplay &operator=(const HeldDisplay &) = delete;
 
  private:
-  _XDisplay *display_;
+  [[maybe_unused]] _XDisplay *display_ = nullptr;  // not used on macOS
 };
 
 // Blue, orange, bluish green, reddish purple, vermilion and sky blue. They are distinct for all kinds of colour vision (Okabe,

@@ -17,6 +17,7 @@
 #include <vtkInformationStringVectorKey.h>
 
 #include "common/array_view.hpp"
+#include "common/number_from_chars.hpp"
 #include "riis_vtk/read/grid_files.hpp"
 
 namespace riis::vtk {
@@ -40,7 +41,7 @@ bool is_number(std::string_view word, const std::string &type) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   if (type == "float" || type == "double") {
     double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, error] = number_from_chars(word.data(), word.data() + word.size(), value);
     if (end != word.data() + word.size()) return false;
     if (error == std::errc::result_out_of_range)
       return word.find_first_of("eE") < word.find('-', 1) && word.find('-', 1) < word.size();

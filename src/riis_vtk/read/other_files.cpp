@@ -12,6 +12,8 @@
 #include <vtkPoints.h>
 #include <vtkStringArray.h>
 
+#include "common/number_from_chars.hpp"
+
 namespace riis::vtk {
 
 void add_note(vtkUnstructuredGrid *grid, const std::string &note) {
@@ -105,7 +107,7 @@ double Source::real_of(std::string_view text) const {
   if (text.empty()) fail_file(path_, "is truncated: it ends within its numbers");
   double value = 0;
   const std::string_view digits = text[0] == '+' ? text.substr(1) : text;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto [end, error] = number_from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool is_whole = end == digits.data() + digits.size();
   // Numbers that are too small for a double count as 0.
   if (is_whole && error == std::errc::result_out_of_range && digits.find("e-") != std::string_view::npos) return 0;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the program needs of the system beyond POSIX. system_linux.cpp and system_darwin.cpp define these functions.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace riis::program {
+
+// Throws a Refusal if the system does not say.
+std::string path_of_this_program();
+
+// Makes a pipe whose ends no other program inherits. Returns whether it did; otherwise errno says why.
+bool make_pipe(int ends[2]);
+
+// Lets this process, a child by fork(), get the signal when its parent ends. A parent that has ended before is not noticed.
+void end_with_parent(int signal);
+
+// Returns the bytes that this process counts towards a limit of its memory (RLIMIT_AS), or nothing if the system does not say or
+// does not keep the limit.
+std::optional<std::uintmax_t> limited_memory();
+
+}  // namespace riis::program

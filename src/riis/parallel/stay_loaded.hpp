@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeps the library's code in memory once threads may run it, even if a plug-in that uses riis is closed. On Linux the linker's
+// option -z nodelete does that (cmake/RiisPlatform.cmake). Darwin's linker has no such option.
+#pragma once
+
+#if defined(__APPLE__)
+#include <dlfcn.h>
+#endif
+
+namespace riis {
+
+// `address` is one of the library's code or data.
+inline void stay_loaded([[maybe_unused]] const void *address) noexcept {
+#if defined(__APPLE__)
+  // The loader counts a second user of the file, who never closes it. A program that contains a static riis needs no such user,
+  // so a refusal does no harm.
+  Dl_info file{};
+  if (dladdr(address, &file) != 0) static_cast<void>(dlopen(file.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE));
+#endif
+}
+
+}  // namespace riis
