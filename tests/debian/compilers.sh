@@ -36,7 +36,7 @@ bits() {
     cmake --build "$1" --target riis --parallel "$(nproc)" &&
     "$cc" -std=c11 -O1 -ffp-contract=off -I "$source/include" "$source/tests/process/state_digests.c" -o "$1/state_digests" \
       -L "$1/src/riis" -lriis -lm -Wl,-rpath,"$1/src/riis" &&
-    "$source/tests/process/check_same_bits.sh" "$1/state_digests" "$source/tests/process/state_digests.txt" $runs
+    "$source/tests/process/check_same_bits.sh" "$1/state_digests" "$source/tests/process/state_digests.txt" "$runs"
 }
 
 # all_files FOLDER: reads all files of the preset default.
@@ -55,7 +55,7 @@ tried() {
 row() {
   [[ $wanted == "  " || $wanted == *" $1 "* ]] || return 0
   n_rows=$((n_rows + 1))
-  local cxx=$1 cc=$2 library=$3 flags=$4 name=$folder/$mode$1-$3 same more=''
+  local cxx=$1 cc=$2 library=$3 flags=$4 name=$folder/${mode:+$mode-}$1-$3 same more=''
   if same=$(tried "$name.log" bits "$name"); then
     same="$(grep -c ': the same bits$' "$name.log") runs: the same"
     ! grep -q ': not tested' "$name.log" || same+=", $(grep -c ': not tested' "$name.log") not possible"
