@@ -6,13 +6,12 @@
 set -euo pipefail
 flang=$1 source=$2 work=$3 library=$4
 flags=(-O1 -Werror)
-modules=(riis_c riis_support riis_calls riis_warping riis_valves riis_frames riis_surfaces riis_adjacencies riis_meshes
-  riis_marking riis_leaking riis_passages riis_measures riis_crossing riis_laws riis_placing riis_loading riis
-  riis_f77 riisf)
+# shellcheck source=tests/fortran/page_sources.sh
+. "$source/tests/fortran/page_sources.sh"
 rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
-for name in "${modules[@]}"; do
+for name in "${fortran_sources[@]}"; do
   "$flang" "${flags[@]}" -c "$(find "$source/fortran" -name "$name.f90")"
 done
 link=("$library" "-Wl,-rpath,$(dirname "$library")")

@@ -119,6 +119,20 @@ TEST(test_open_lines) {
   assert_true(shim_uncovered_inside(3, near_y[0], 0, NULL, n_lines) == -1);
 }
 
+/* Two triangles begin in one point of a line, at edges of different slopes. One of the edges counts, and always the same. */
+TEST(test_order_of_triangles) {
+  const double line = 1.0 / n_edge_lines, origin[2] = {0, 0}; /* a line of the upper half passes here */
+  const double upright[6] = {-0.5, line - 0.25, -0.5, line + 0.25, 0.5, line + 0.125};
+  const double slanted[6] = {-0.75, line - 0.5, -0.25, line + 0.5, 0.5, line + 0.25};
+  double xy[12];
+  memcpy(xy, upright, sizeof upright);
+  memcpy(xy + 6, slanted, sizeof slanted);
+  const int64_t one_order[6] = {0, 1, 2, 3, 4, 5}, other_order[6] = {3, 4, 5, 0, 1, 2};
+  const double edge = shim_edge_beyond(1, origin, 6, xy, 2, one_order, 0);
+  assert_true(edge > 1);
+  assert_true(edge == shim_edge_beyond(1, origin, 6, xy, 2, other_order, 0));
+}
+
 /* A round plate in the circle grows, so the ring around it shrinks. Or a plate with a round hole grows, so the hole
  * shrinks. */
 TEST(test_growing) {

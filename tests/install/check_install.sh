@@ -33,11 +33,8 @@ all_examples=(first_marking prosthesis opening_valve pressure_opens cell_centres
 few_examples=(first_marking openmp_caller)
 declare -A more_flags=([openmp_caller]=-fopenmp)
 
-# The installed Fortran sources, in the order in which they use each other.
-fortran_sources=(riis_c riis_support riis_calls riis_warping riis_valves riis_frames riis_surfaces riis_adjacencies riis_meshes
-  riis_marking riis_leaking riis_passages riis_measures riis_crossing riis_laws riis_placing riis_loading riis
-  riis_f77 riisf)
-
+# shellcheck source=tests/fortran/page_sources.sh
+. "$source/tests/fortran/page_sources.sh"
 
 # Empties a consumer's build directory, except for CMake's knowledge of the compilers. To examine three compilers takes longer
 # than to build a consumer.
@@ -294,7 +291,7 @@ quietly "$CMAKE" --install "$build" --prefix "$prefix"
 if has Fortran; then
   { printf '%s.f90\n' "${fortran_sources[@]}" && echo riisf.h; } | sort >"$work/fortran_files.txt"
   (cd "$source/fortran" && printf '%s\n' *.f90 generated/* | sed 's,^generated/,,' | sort) | diff "$work/fortran_files.txt" - ||
-    problem "this script does not know all Fortran sources"
+    problem "the list in docs/building.md is not that of all Fortran sources"
   (cd "$(dirname "$(find "$prefix" -name riis_c.f90)")" && printf '%s\n' *.f90 riisf.h | sort) |
     diff "$work/fortran_files.txt" - || problem "not all Fortran sources are installed"
 fi

@@ -285,7 +285,7 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
   constexpr std::size_t few = 1 << 16;
   std::vector<SharedNode> nodes = shared_out(in_one_list(std::move(by_piece)));
   std::sort(nodes.begin(), nodes.end(), [](const SharedNode &p, const SharedNode &q) {
-    return std::tie(p.key, p.piece) < std::tie(q.key, q.piece);
+    return std::tie(p.key, p.piece, p.region) < std::tie(q.key, q.piece, q.region);
   });
   MatchedNodes own;
   std::size_t n_kept = few;

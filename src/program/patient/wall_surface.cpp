@@ -210,7 +210,7 @@ class WallRepair {
     if (by_root.size() == 1) return;
     std::vector<Piece> pieces;
     for (const auto &[root, piece] : by_root) pieces.push_back(piece);
-    std::sort(pieces.begin(), pieces.end(), [](const Piece &a, const Piece &b) { return a.area > b.area; });
+    std::stable_sort(pieces.begin(), pieces.end(), [](const Piece &a, const Piece &b) { return a.area > b.area; });
     const auto middle = [&](const Piece &piece) {
       Vector3 point;
       for (std::size_t k = 0; k < 3; ++k) point[k] = 0.5 * (piece.box.lower[k] + piece.box.upper[k]);
@@ -447,7 +447,8 @@ class WallRepair {
   // Closes holes whose rims are flat. Whether these are ends is decided later. Refuses other holes.
   void close_holes() {
     std::vector<RimLoop> loops = open_loops();
-    std::sort(loops.begin(), loops.end(), [](const RimLoop &a, const RimLoop &b) { return a.size() > b.size(); });
+    std::stable_sort(loops.begin(), loops.end(),
+                     [](const RimLoop &a, const RimLoop &b) { return a.size() > b.size(); });
     for (const RimLoop &loop : loops) {
       Vector3 centre{}, area{};
       double length = 0, off = 0, width = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -178,7 +179,11 @@ struct Uncovered {
 
 // Measures the part of disjoint intervals that no cover contains. Also measures the edges of the covers at the ends of this part.
 Uncovered without(const std::vector<Interval> &intervals, std::vector<Interval> covers) {
-  std::sort(covers.begin(), covers.end(), [](const Interval &a, const Interval &b) { return a.begin.x < b.begin.x; });
+  // Covers of folded leaflets may begin or end in one point. Their order then says which edge counts, so it is total.
+  std::sort(covers.begin(), covers.end(), [](const Interval &a, const Interval &b) {
+    return std::tie(a.begin.x, a.end.x, a.begin.along, a.end.along) <
+           std::tie(b.begin.x, b.end.x, b.begin.along, b.end.along);
+  });
   Uncovered made;
   for (const Interval &interval : intervals) {
     End at{interval.begin.x, 0};

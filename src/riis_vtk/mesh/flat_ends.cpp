@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include <vtkIdList.h>
@@ -65,7 +66,7 @@ class Surroundings {
       normals_.push_back(normal);
     }
     std::sort(edges.begin(), edges.end(),
-              [](const Edge &e, const Edge &f) { return std::pair(e.a, e.b) < std::pair(f.a, f.b); });
+              [](const Edge &e, const Edge &f) { return std::tie(e.a, e.b, e.face) < std::tie(f.a, f.b, f.face); });
     neighbours_.resize(areas_.size());
     for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
       const Edge &e = edges[i], &f = edges[i + 1];
