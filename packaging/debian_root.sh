@@ -36,13 +36,11 @@ unpack() {
   fi
 }
 
-# openfoam_headers: gets the headers for riis-openfoam, once for each version of OpenFOAM.
+# openfoam_headers FOLDER: gets the headers for riis-openfoam, once for each version of OpenFOAM.
 openfoam_headers() {
   # shellcheck source=examples/openfoam/openfoam.sh
   . examples/openfoam/openfoam.sh
-  OPENFOAM_SOURCE=$work/openfoam-$(dpkg-query -W -f='${Version}' libopenfoam)/src
-  export OPENFOAM_SOURCE
-  [[ -e ${OPENFOAM_SOURCE%/src}/with_dynamicMesh ]] || openfoam_source "${OPENFOAM_SOURCE%/src}"
+  [[ -e $1/with_dynamicMesh ]] || openfoam_source "$1"
 }
 
 # build_once FOLDER: unpacks the sources and runs dpkg-buildpackage, then moves everything to the folder. Both times the build has
@@ -69,7 +67,10 @@ build() {
   install_packages dpkg-dev debhelper lintian ccache
   unpack "$work/here"
   logged build-dependencies apt-get build-dep -y --no-install-recommends -P "${profiles// /,}" "$work/here/riis-$version"
-  logged openfoam-headers openfoam_headers
+  # shellcheck disable=SC2016 # dpkg-query's own variable
+  OPENFOAM_SOURCE=$work/openfoam-$(dpkg-query -W -f='${Version}' libopenfoam)/src
+  export OPENFOAM_SOURCE
+  logged openfoam-headers openfoam_headers "${OPENFOAM_SOURCE%/src}"
   (umask 022 && TZ=UTC0 LC_ALL=C.UTF-8 && export TZ LC_ALL && logged build build_once "$work/1")
   find "$work/1" -maxdepth 1 -type f -exec cp -- {} out/packages \;
   # No bug is closed before a person has filed the intent to package (docs/releasing.md).
