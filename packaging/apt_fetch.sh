@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# apt_fetch.sh source PACKAGE FOLDER         downloads the sources from which the distribution built the installed package PACKAGE
-#                                            into FOLDER, without the distribution's patches. The file `package` there has the
-#                                            name and the version
-# apt_fetch.sh files SUITE PACKAGE FOLDER    unpacks the files of a package of another suite of Debian, such as trixie, into
-#                                            FOLDER. Nothing is installed
+# apt_fetch.sh source PACKAGE FOLDER [PART...]  downloads the sources from which the distribution built the installed package
+#                                               PACKAGE into FOLDER, without the distribution's patches. The file `package` there
+#                                               has the name and the version. With parts, which are files and folders, only these
+#                                               are unpacked
+# apt_fetch.sh files SUITE PACKAGE FOLDER       unpacks the files of a package of another suite of Debian, such as trixie, into
+#                                               FOLDER. Nothing is installed
 # apt checks the signature of the distribution. Neither command needs root rights.
 set -euo pipefail
 
@@ -17,7 +18,7 @@ begin() {
 }
 
 fetch_source() {
-  local folder package file
+  local folder package file parts=()
   folder=$(realpath -m -- "$2")
   package=$(dpkg-query -W -f='${source:Package}=${source:Version}' "$1")
   rm -rf "$folder"
@@ -32,9 +33,10 @@ fetch_source() {
   # Sources other than the distribution's may have no source packages. The next commands find out whether a source has this one.
   apt-get "${options[@]}" update || true
   (cd "$folder.part" && apt-get "${options[@]}" --download-only --tar-only source "$package")
+  for file in "${@:3}"; do parts+=("*/$file"); done
   mkdir "$folder"
   echo "$package" >"$folder/package"
-  tar -xf "$folder.part"/*.orig.tar.* --strip-components 1 -C "$folder"
+  tar -xf "$folder.part"/*.orig.tar.* --strip-components 1 -C "$folder" ${parts[@]+--wildcards "${parts[@]}"}
   rm -rf "$folder.part"
 }
 
@@ -54,10 +56,10 @@ fetch_files() {
 }
 
 case ${1:-}/$# in
-  source/3) fetch_source "${@:2}" ;;
+  source/[3-9]) fetch_source "${@:2}" ;;
   files/4) fetch_files "${@:2}" ;;
   *)
-    echo "usage: packaging/apt_fetch.sh source PACKAGE FOLDER, or packaging/apt_fetch.sh files SUITE PACKAGE FOLDER" >&2
+    echo "usage: packaging/apt_fetch.sh source PACKAGE FOLDER [PART...], or packaging/apt_fetch.sh files SUITE PACKAGE FOLDER" >&2
     exit 2
     ;;
 esac

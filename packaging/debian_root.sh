@@ -36,6 +36,13 @@ unpack() {
   fi
 }
 
+# openfoam_headers FOLDER: gets the headers for riis-openfoam, once for each version of OpenFOAM.
+openfoam_headers() {
+  # shellcheck source=examples/openfoam/openfoam.sh
+  . examples/openfoam/openfoam.sh
+  [[ -e $1/with_dynamicMesh ]] || openfoam_source "$1"
+}
+
 # build_once FOLDER: unpacks the sources and runs dpkg-buildpackage, then moves everything to the folder. Both times the build has
 # the same path, as in Debian, because gfortran writes the path of a source into messages. C and C++ are compiled once for both
 # times; all other steps run again.
@@ -51,15 +58,19 @@ build_once() {
 sums() { (cd "$1" && sha256sum ./*.deb ./*.dsc ./*.debian.tar.xz); }
 
 build() {
-  work=$PWD/build-deb logs=$PWD/build-deb/logs profiles=''
+  work=$PWD/build-deb logs=$PWD/build-deb/logs profiles=pkg.riis.openfoam
   version=$(echo "$input"/riis-*.tar.xz | sed 's/.*riis-\(.*\)\.tar\.xz/\1/')
-  [[ $debian != 12 ]] || profiles=nopython # Debian 12 has no nanobind
+  [[ $debian != 12 ]] || profiles+=" nopython" # Debian 12 has no nanobind
   rm -rf "$work/1" "$work/2" "$work/here" "$logs" out/packages
   mkdir -p "$logs" out/packages
   logged update apt-get update
   install_packages dpkg-dev debhelper lintian ccache
   unpack "$work/here"
-  logged build-dependencies apt-get build-dep -y --no-install-recommends ${profiles:+-P "$profiles"} "$work/here/riis-$version"
+  logged build-dependencies apt-get build-dep -y --no-install-recommends -P "${profiles// /,}" "$work/here/riis-$version"
+  # shellcheck disable=SC2016 # dpkg-query's own variable
+  OPENFOAM_SOURCE=$work/openfoam-$(dpkg-query -W -f='${Version}' libopenfoam)/src
+  export OPENFOAM_SOURCE
+  logged openfoam-headers openfoam_headers "${OPENFOAM_SOURCE%/src}"
   (umask 022 && TZ=UTC0 LC_ALL=C.UTF-8 && export TZ LC_ALL && logged build build_once "$work/1")
   find "$work/1" -maxdepth 1 -type f -exec cp -- {} out/packages \;
   # No bug is closed before a person has filed the intent to package (docs/releasing.md).
@@ -90,12 +101,13 @@ tests_of() {
     libriis-vtk*) echo cmake ;;
     python3-riis) echo python ;;
     riis) echo program ;;
+    riis-openfoam) echo openfoam ;;
     riis-doc) echo doc ;;
   esac
 }
 
 try() {
-  local out=$PWD/out/tried tree=/tmp/riis-tree deb name packages=() debs=() test passed
+  local out=$PWD/out/tried tree=/tmp/riis-tree deb name packages=() debs=() others test passed
   rows=$out/rows.tsv
   logs=$PWD/out/tried/logs
   rm -rf "$out" "$tree"
@@ -106,7 +118,11 @@ try() {
     [[ $deb != *-dbgsym_* ]] || continue
     debs+=("$deb") packages+=("$(dpkg-deb -f "$deb" Package)")
   done
-  logged install-riis apt-get install -y --no-install-recommends "${debs[@]}"
+  # riis-openfoam needs all of OpenFOAM, so the other packages come first.
+  mapfile -t others < <(printf '%s\n' "${debs[@]}" | grep -v '/riis-openfoam_')
+  logged install-riis apt-get install -y --no-install-recommends "${others[@]}"
+  install_packages openfoam openmpi-bin
+  logged install-plug-in apt-get install -y --no-install-recommends "${debs[@]}"
   dpkg -L "${packages[@]}" | grep -v '^$' | LC_ALL=C sort -u >"$out/files.txt"
   install_packages autopkgtest dpkg-dev
   logged source dpkg-source -x "$input"/riis_*.dsc "$tree"

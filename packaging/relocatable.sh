@@ -5,11 +5,13 @@
 #
 # Debian's VTK draws by X and OpenGL. For OpenGL the archive has a Mesa of its own, without LLVM, which alone takes 117 MB. This
 # Mesa draws by X alone, so it works with every X server. For a machine without a display the archive has Debian's Xvfb, which
-# the program starts. Embree is small, as in Python's wheel (python/embree.sh).
+# the program starts. Embree is the small one of Python's wheels (python/embree.sh).
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
 # shellcheck source=packaging/steps.sh
 . packaging/steps.sh
+# shellcheck source=python/python.sh
+. python/python.sh
 [[ $# == 1 ]] || { echo "usage: packaging/relocatable.sh FOLDER" >&2; exit 2; }
 work=$PWD/build-program most_bytes=200000000
 logs=$work/logs
@@ -34,16 +36,11 @@ build_mesa() {
   strip -o "$work/libGL.so.1" "$work"/mesa/src/gallium/targets/libgl-xlib/libGL.so.1.*.0
 }
 
-build_embree() {
-  python/embree.sh source "$work/embree-source"
-  python/embree.sh build "$work/embree-source" "$work/embree"
-}
-
 build_program() {
   cmake -S . -B "$work/riis" -G Ninja -D CMAKE_BUILD_TYPE=Release -D BUILD_SHARED_LIBS=OFF -D RIIS_WITH_FORTRAN=OFF \
     -D RIIS_BUILD_TESTS=OFF -D RIIS_BUILD_BENCH=OFF -D RIIS_UNITY_BUILD=ON -D RIIS_UNITY_CORE=ON \
-    -D CMAKE_UNITY_BUILD_BATCH_SIZE=20 -D CMAKE_PREFIX_PATH="$work/embree" \
-    -D embree_DIR="$(dirname "$(echo "$work"/embree/lib/cmake/embree-*/embree-config.cmake)")"
+    -D CMAKE_UNITY_BUILD_BATCH_SIZE=20 -D CMAKE_PREFIX_PATH="$PWD/$python_folder/embree" \
+    -D embree_DIR="$(dirname "$(echo "$PWD/$python_folder"/embree/lib/cmake/embree-*/embree-config.cmake)")"
   cmake --build "$work/riis" --target riis_program --parallel "$(nproc)"
 }
 
@@ -114,7 +111,7 @@ SH
 }
 
 [[ -f $work/libGL.so.1 ]] || logged mesa build_mesa
-[[ -d $work/embree ]] || logged embree build_embree
+logged embree python_embree
 logged program build_program
 logged collect collect
 bytes=$(du -s --block-size=1 --apparent-size "$tree" | cut -f 1)

@@ -6,10 +6,12 @@
 say() { printf '==> %s\n' "$*"; }
 
 # logged NAME COMMAND...: runs the command with its output in a log in the folder $logs, whose end it shows if the command fails.
+# The command runs beside this shell, because a function that is called before || would not end at its first failure.
 logged() {
   local name=$1 start=$SECONDS
   shift
-  "$@" >"$logs/$name.log" 2>&1 </dev/null || { tail -n 40 "$logs/$name.log" >&2 && exit 1; }
+  "$@" >"$logs/$name.log" 2>&1 </dev/null &
+  wait "$!" || { tail -n 40 "$logs/$name.log" >&2 && exit 1; }
   say "$name: $((SECONDS - start)) s"
 }
 

@@ -134,28 +134,32 @@ assert len(loaded) >= 2 and all("/riis.libs/" in file for file in loaded), "not 
 PYTHON
 }
 
-# python_test: runs all tests with the fresh environment.
+# python_test [PROGRAM]: runs all tests with the fresh environment. PROGRAM is the C program of the tests, by default that of the
+# wheel's build folder.
 python_test() {
   step "check that the module loads only its own libraries" python_is_alone
   step "check the types" "$python_folder/fresh/bin/python" -B python/tests/check_types.py "$python_folder/types"
   say "test"
-  RIIS_C_MARKS=$PWD/$(python_build_folder)/python/riis_python_c_marks \
+  RIIS_C_MARKS=${1:-$PWD/$(python_build_folder)/python/riis_python_c_marks} \
     xvfb-run -a "$python_folder/fresh/bin/python" -B -m pytest -p no:cacheprovider -q -rs python/tests
 }
 
 # python_c_program: builds the C program whose marks the tests compare with the wheel's, and what it needs.
 python_c_program() { python_wheel && cmake --build "$(python_build_folder)" --target riis_python_c_marks; }
 
-# python_test_wheel FILE: runs all tests with this wheel.
+# python_test_wheel FILE [PROGRAM]: runs all tests with this wheel, and with this C program of the tests, or with its own.
 python_test_wheel() {
-  [[ -f $1 ]] || { echo "./run python wheel: there is no file '$1'" >&2; exit 2; }
+  local file
+  for file in "$@"; do
+    [[ -f $file ]] || { echo "./run python wheel: there is no file '$file'" >&2; exit 2; }
+  done
   rm -rf "$python_folder/given"
   mkdir -p "$python_folder/given"
   cp "$1" "$python_folder/given"
   python_start
-  step "build the C program of the tests, with the distribution's Embree" python_c_program
+  [[ ${2:-} ]] || step "build the C program of the tests, with the distribution's Embree" python_c_program
   step "install the wheel into a fresh environment" python_environment "$(python_of_packages)" given
-  python_test
+  python_test "${@:2}"
 }
 
 # python_tell: prints a description of the wheel.
@@ -306,8 +310,9 @@ python_make_here() {
 # ./run python wheels
 #   Makes the two wheels of a release on Debian 12, for Python 3.11 and for Python 3.12 and later, and leaves them in out/wheels.
 #   ./run packages wheels tests them.
-# ./run python wheel FILE
-#   Runs all tests with this wheel, in a fresh environment.
+# ./run python wheel FILE [PROGRAM]
+#   Runs all tests with this wheel, in a fresh environment. PROGRAM is the C program of the tests, riis_python_c_marks, from a
+#   wheel's build folder. Without it, the program is built here.
 # ./run python manylinux
 #   Builds the wheels for all systems with glibc 2.28 or later by cibuildwheel, and tests them. It needs Docker, and leaves the
 #   wheels in out/wheels.
@@ -326,7 +331,7 @@ run_python() {
       return
       ;;
     'wheel '*)
-      python_test_wheel "$2"
+      python_test_wheel "${@:2}"
       return
       ;;
     manylinux)

@@ -3,8 +3,10 @@
 # The steps of ./run openfoam: fetch OpenFOAM's headers, compile the plug-in, mesh, run, check, draw. `run` sources this file. The
 # steps use $build, $n_jobs, $packages, install_missing, is_on_offer, python_of_packages, say and step of `run`.
 
-openfoam_packages=(openfoam mpi-default-bin openmpi-bin gcc g++ cmake make ninja-build libembree-dev libtbb-dev gmsh
-  bzip2 xz-utils python3-numpy python3-matplotlib)
+# Packages that the plug-in needs, and those that ./run openfoam needs.
+openfoam_plugin_packages=(openfoam mpi-default-bin openmpi-bin gcc g++ cmake make ninja-build libembree-dev libtbb-dev
+  bzip2 xz-utils)
+openfoam_packages=("${openfoam_plugin_packages[@]}" gmsh python3-numpy python3-matplotlib)
 openfoam_here=examples/openfoam
 openfoam_plugin=src/openfoam
 # shellcheck source=examples/openfoam/follow.sh
@@ -15,8 +17,9 @@ openfoam_plugin=src/openfoam
 #   pressure drops with OpenFOAM's porosity, and checks forces and a restart. It leaves plots in out/openfoam. It fetches
 #   OpenFOAM's headers (45 MB), and is left out if there is no package openfoam. --size 0.1 makes edges of 0.1 cm. --headers only
 #   compiles the plug-in, against the headers of another OpenFOAM. plugin only builds the plug-in, and installs it where the
-#   cases of riis patient look for it: in FOLDER, by default ~/.local/lib/riis/openfoam. patient runs a beat of a synthetic
-#   patient from landmarks to the table, five minutes of an idle processor, and fails if a number is out of its bounds.
+#   cases of riis patient look for it: in FOLDER, by default ~/.local/lib/riis/openfoam. It takes a minute of two idle
+#   processors, or half of it after ./run demo, which leaves a library. patient runs a beat of a synthetic patient from landmarks
+#   to the table, five minutes of an idle processor, and fails if a number is out of its bounds.
 run_openfoam() {
   of_size=0.16 of_time_step=1e-3 of_half_thickness=1.2e-3
   case $* in
@@ -85,27 +88,48 @@ run_openfoam() {
   say "wrote out/openfoam/beat.png, out/openfoam/velocity.png, and the heartbeat in $of_cases/beat"
 }
 
-# openfoam_install_plugin FOLDER: builds the plug-in with the library inside, so that it can lie anywhere, and installs it.
+# openfoam_install_plugin FOLDER: builds the plug-in with the library inside or beside it, so that it can lie anywhere, and
+# installs it. If the build folder has a library, as after ./run demo, the plug-in takes it. Otherwise the library is built, while
+# OpenFOAM's headers are fetched.
 openfoam_install_plugin() {
+  local library=$PWD/$build/src/riis/libriis.so.1 made=static
   openfoam_has_package || exit
-  packages=("${openfoam_packages[@]}")
+  packages=("${openfoam_plugin_packages[@]}")
   install_missing
   of_work=$PWD/$build/openfoam
   mkdir -p "$of_work"
-  openfoam_has_source || exit
-  step "build the library" install_library "$of_work/static" -D BUILD_SHARED_LIBS=OFF
-  step "build the plug-in" openfoam_build_plugin "$of_work/static" riisFvOption foamDigest
-  if [[ ! $1 -ef $of_work/static/plugin ]]; then
-    mkdir -p "$1"
-    cp "$of_work"/static/plugin/lib{riisFvOption,foamDigest}.so "$1"
+  if [[ -e $library ]]; then
+    made=shared
+    step "bring the library in $build up to date" cmake --build "$build" --target riis
+    openfoam_has_source || exit
+    step "build the plug-in" openfoam_build_plugin "$of_work/$made" riisFvOption foamDigest -- -D "RIIS_LIBRARY=$library"
+    cp "$library" "$of_work/$made/plugin"
+  else
+    step "build the library, and fetch OpenFOAM's headers meanwhile (45 MB)" openfoam_library_and_headers
+    openfoam_has_source || exit
+    step "build the plug-in" openfoam_build_plugin "$of_work/$made" riisFvOption foamDigest
   fi
+  mkdir -p "$1"
+  rm -f "$1"/lib{riisFvOption,foamDigest}.so "$1/libriis.so.1"
+  cp "$of_work/$made"/plugin/lib{riis*,foamDigest}.so* "$1"
   say "the plug-in is in $1"
+}
+
+# The kernels keep their -O3. Everything else in the library takes a thousandth of the solver's time, so it is optimised little,
+# which saves a third of the time of compiling.
+openfoam_library_and_headers() {
+  local fetching status=0
+  (openfoam_has_source) &
+  fetching=$!
+  install_library "$of_work/static" -D BUILD_SHARED_LIBS=OFF -D "CMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG" || status=$?
+  wait "$fetching" || status=$?
+  return "$status"
 }
 
 # Follows docs/patient_openfoam.md with the patient of docs/patient.md. The case is cut off once, and goes on.
 openfoam_patient() {
   local folder=$PWD/$build/openfoam/patient status=0
-  openfoam_install_plugin "$PWD/$build/openfoam/static/plugin"
+  openfoam_install_plugin "$folder.plugin"
   packages=("${demo_packages[@]}" python3)
   install_missing
   step "compile the program" build_demo
@@ -114,7 +138,7 @@ openfoam_patient() {
   python3 -B examples/patient/make_patient.py "$folder"
   step "from landmarks to a case" "$build/bin/riis" patient "$folder/root.stl" "$folder/landmarks.mrk.json" \
     --output "$folder/case" --solver openfoam
-  export RIIS_OPENFOAM=$PWD/$build/openfoam/static/plugin
+  export RIIS_OPENFOAM=$folder.plugin
   timeout 40 "$folder/case/openfoam/Allrun" >/dev/null 2>&1 || say "the beat was cut off"
   step "a beat" "$folder/case/openfoam/Allrun" || status=$?
   grep -c 'continues at time' "$folder/case/openfoam/log.pimpleFoam"
@@ -122,10 +146,17 @@ openfoam_patient() {
   return "$status"
 }
 
-# openfoam_build_plugin FOLDER [TARGET...]: compiles the plug-in in FOLDER/plugin, with the library in FOLDER/riis.
+# openfoam_build_plugin FOLDER TARGET... [-- OPTION...]: compiles the plug-in in FOLDER/plugin, with the library in FOLDER/riis.
+# The options are CMake's.
 openfoam_build_plugin() {
-  cmake -S "$openfoam_plugin" -B "$1/plugin" -G Ninja -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH="$1/riis" \
-    -D OPENFOAM_SOURCE="$of_source/src" && cmake --build "$1/plugin" --target "${@:2}"
+  local folder=$1 targets=()
+  shift
+  while (($# > 0)) && [[ $1 != -- ]]; do
+    targets+=("$1")
+    shift
+  done
+  cmake -S "$openfoam_plugin" -B "$folder/plugin" -G Ninja -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH="$folder/riis" \
+    -D OPENFOAM_SOURCE="$of_source/src" "${@:2}" && cmake --build "$folder/plugin" --target "${targets[@]}"
 }
 
 # openfoam_headers FOLDER: compiles the plug-in against the headers of another OpenFOAM, whose sources lie in FOLDER. Nothing is
@@ -188,35 +219,24 @@ openfoam_has_source() {
   version=$(dpkg-query -W -f='${source:Version}' openfoam)
   of_source=$folder/$version
   [[ ! -e $of_source/with_dynamicMesh ]] || return 0
-  rm -rf "$of_source"
-  mkdir -p "$of_source"
-  if ! (step "OpenFOAM's headers, from its source package (45 MB)" openfoam_source "$version" "$of_source"); then
+  mkdir -p "$folder"
+  if ! (step "OpenFOAM's headers, from its source package (45 MB)" openfoam_source "$of_source"); then
     say "OpenFOAM is left out: the source package of openfoam $version, which has its headers, is not available"
     return 1
   fi
 }
 
-# openfoam_source VERSION FOLDER: downloads the source package. A private folder of apt gets the system's own entries, changed to
-# entries for sources. The system's lists do not change. The option --tar-only is enough, as the original archive has all headers.
+# openfoam_source FOLDER: gets the headers from the source package of the installed OpenFOAM, whose original archive has them all.
 openfoam_source() {
-  local folder=$2 file apt_options part
-  mkdir -p "$folder/apt/parts" "$folder/apt/lists/partial" "$folder/apt/cache/archives/partial"
-  for file in /etc/apt/sources.list.d/*.sources; do
-    [[ -e $file ]] || continue
-    sed 's/^Types:.*/Types: deb-src/' "$file" >"$folder/apt/parts/${file##*/}"
-  done
-  cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null |
-    sed -nE 's/^[[:space:]]*deb(-src)?[[:space:]]/deb-src /p' | sort -u >"$folder/apt/parts/lines.list" || true
-  apt_options=(-o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$folder/apt/parts"
-    -o "Dir::State::lists=$folder/apt/lists" -o "Dir::Cache=$folder/apt/cache" -o APT::Sandbox::User=)
-  apt-get "${apt_options[@]}" update &&
-    (cd "$folder" && apt-get "${apt_options[@]}" source --download-only --tar-only "openfoam=$1") &&
-    tar -xf "$folder"/openfoam_*.orig.tar.* -C "$folder" --strip-components=1 --wildcards \
-      '*/wmake' '*/src/OpenFOAM' '*/src/OSspecific' '*/src/finiteVolume' '*/src/meshTools' '*/src/dynamicMesh' || return
+  local folder=$1 part
+  packaging/apt_fetch.sh source libopenfoam "$folder" \
+    src/OpenFOAM src/OSspecific src/finiteVolume src/meshTools src/dynamicMesh || return
+  # OpenFOAM's own wmakeLnInclude makes the same links, with a process for each of 4,000 files.
   for part in OpenFOAM OSspecific/POSIX finiteVolume meshTools dynamicMesh; do
-    "$folder/wmake/wmakeLnInclude" -s "$folder/src/$part" || return
+    mkdir "$folder/src/$part/lnInclude" && (cd "$folder/src/$part/lnInclude" &&
+      find .. \( -name lnInclude -o -name Make -o -name config -o -name noLink \) -prune -o -type f \
+        \( -name '*.[CHh]' -o -name '*.[ch]xx' -o -name '*.[ch]pp' -o -name '*.type' \) -exec ln -s -t . {} +) || return
   done
-  rm -rf "$folder/apt" "$folder"/openfoam_*
   touch "$folder/with_dynamicMesh"
 }
 

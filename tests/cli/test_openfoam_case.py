@@ -226,6 +226,7 @@ class OpenfoamCase(unittest.TestCase):
         done = self.run_case(case, tools=tools, RIIS_OPENFOAM=str(self.folder))
         self.assertEqual(done.returncode, 1)
         self.assertIn("./run openfoam plugin", done.stderr)
+        self.assertIn("The Debian package riis-openfoam also has it", done.stderr)
         done = self.run_case(case, "four", tools=tools)
         self.assertEqual(done.returncode, 1)
         self.assertIn("'four' is not a number of processes", done.stderr)

@@ -45,6 +45,41 @@ refused_file=riisLaw.C
 ends 1 "riisValve.C" run_openfoam --headers "$work/com"
 unset CXX
 
+# The plug-in takes the library of the build folder, if there is one. Otherwise it compiles the library, and keeps it inside. An
+# earlier plug-in leaves nothing behind.
+mkdir -p "$work/top"
+plugin_in() {
+  build=build n_jobs=1 library_fails=${2:-}
+  openfoam_has_package() { :; }
+  openfoam_has_source() { of_source=$work/headers; }
+  install_missing() { :; }
+  step() { say "$1" && "${@:2}" || exit; }
+  cmake() {
+    local folder
+    printf '%s\n' "$*" >>"$work/cmake"
+    folder=$(sed -n 's/.* -B \([^ ]*plugin\) .*/\1/p' <<<"$*")
+    [[ ! $folder ]] || { mkdir -p "$folder" && touch "$folder"/lib{riisFvOption,foamDigest}.so; }
+    [[ ! $library_fails || "$*" != *--preset* ]]
+  }
+  rm -f "$work/cmake"
+  cd "$work/top" && openfoam_install_plugin "$1"
+}
+installed() { (cd "$work/installed" && echo *); }
+ends 0 "the plug-in is in $work/installed" plugin_in "$work/installed"
+[[ $(installed) == 'libfoamDigest.so libriisFvOption.so' ]] || problem "a plug-in with its library has the files $(installed)"
+grep -q -- '--preset library .* -D BUILD_SHARED_LIBS=OFF ' "$work/cmake" || problem "the library is not inside the plug-in"
+ends 1 "build the library" plugin_in "$work/installed" fails
+mkdir -p "$work/top/build/src/riis"
+touch "$work/top/build/src/riis/libriis.so.1"
+ends 0 "the plug-in is in $work/installed" plugin_in "$work/installed"
+[[ $(installed) == 'libfoamDigest.so libriis.so.1 libriisFvOption.so' ]] ||
+  problem "a plug-in with the library beside it has the files $(installed)"
+grep -q -- "--build build --target riis$" "$work/cmake" || problem "the library may be out of date"
+grep -q -- "-D RIIS_LIBRARY=$work/top/build/src/riis/libriis.so.1" "$work/cmake" || problem "the plug-in has another library"
+rm "$work/top/build/src/riis/libriis.so.1"
+ends 0 "the plug-in is in $work/installed" plugin_in "$work/installed"
+[[ $(installed) == 'libfoamDigest.so libriisFvOption.so' ]] || problem "the former library is left: $(installed)"
+
 # A run with bad input must stop with the expected message, and leave no time folder.
 solver_says='' solver_ends=1 solver_leaves=''
 of_run() {
