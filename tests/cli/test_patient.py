@@ -283,8 +283,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         second mesh, which does not leak."""
         self.files()
         wall, first, _ = self.root_case()
-        words = ["--valve", "aortic_regurgitation_severe", *COARSE]
-        command = [PROGRAM, "patient", wall / "mesh.vtu", "landmarks.json", "--output", "case", *words]
+        command = [PROGRAM, "patient", wall / "mesh.vtu", "landmarks.json", "--output", "case", *COARSE]
         environment = {**os.environ, **self.undrawn}
         with subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, text=True, env=environment) as run:
             for line in run.stdout:
@@ -298,10 +297,10 @@ exec '{shutil.which("gmsh")}' "$@" $longer
 
         done = self.refused(1, r"\d+ edges? leaks? at 11 openings also in the second mesh, whose edges in the band have 0.855 "
                                "half thicknesses: --band-edge 0.769 makes them shorter, or --half-thickness '1.76 mm' thickens",
-                            *words, wall=wall / "mesh.vtu", **self.leaking_gmsh(2))
+                            *COARSE, wall=wall / "mesh.vtu", **self.leaking_gmsh(2))
         self.assertRegex(done.stdout, r"leaks? at 11 openings: the mesh is made once more, with edges of 0.855 half thicknesses")
 
-        report, done = self.made(*words, wall=wall / "mesh.vtu", **self.leaking_gmsh(1))
+        report, done = self.made(*COARSE, "--valve", "aortic_regurgitation_severe", wall=wall / "mesh.vtu", **self.leaking_gmsh(1))
         self.assertRegex(done.stdout, r"leaks? at 11 openings: the mesh is made once more, with edges of 0.855 half thicknesses")
         self.assertEqual((report["n_leaking_edges"], report["open"]), (0, "open"))
         self.assertAlmostEqual(report["band_edge"], 0.9 * first["band_edge"])
