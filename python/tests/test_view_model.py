@@ -14,7 +14,7 @@ import tube
 
 import riis
 from riis.view import model as view
-from riis.view import reading
+from riis.view import reading, rows
 from riis.view._bumps import free_edge
 from riis.view._valves import has_cusps, matrix_of, n_leaflets, rotation_of, turned
 
@@ -234,6 +234,21 @@ def test_an_orifice_is_drawn(random):
             after = numpy.roll(line, -1, axis=0)
             area += 0.5 * float((numpy.cross(line, after) @ measured.axis).sum())
         assert abs(area - measured.area) < 0.02 * measured.outline_area, kind
+
+
+def test_the_flow_goes_with_the_normals(random):
+    """The normals of closed leaflets point downstream, as riis/surface.h says."""
+    for kind in view.KINDS:
+        model = view.Model(numpy.zeros((1, 3)))
+        i = model.add(kind)
+        model.set(i, "opening", 0.0)
+        model.place(i, random.normal(size=3), axis=random.normal(size=3), reference=random.normal(size=3))
+        a, b, c = numpy.asarray(model.surface(i).vertices)[model.surface(i).triangles.vertex_id].transpose(1, 0, 2)
+        flow = numpy.asarray(model.valves[i].flow)
+        assert numpy.cross(b - a, c - a).sum(axis=0) @ flow > 0.0, kind
+        assert numpy.allclose(numpy.abs(flow @ model.valves[i].axis), 1.0), kind
+        words = {row["name"]: row["description"] for row in rows.placement_of(model.valves[i], "cm")}["axis"]
+        assert words.startswith("against the flow") == (flow @ model.valves[i].axis < 0.0), kind
 
 
 # ---- Placement ----

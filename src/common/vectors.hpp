@@ -24,5 +24,12 @@ inline Vector3 unit_vector(const Vector3 &a) {
   const double length = norm(a);
   return length > 0 ? 1 / length * a : Vector3{};
 }
+// Returns the vector, turned about an axis of any length other than 0 (Rodrigues' formula).
+inline Vector3 turned(const Vector3 &vector, const Vector3 &axis, double degrees) {
+  constexpr double pi = 3.14159265358979323846;
+  const Vector3 unit = unit_vector(axis);
+  const double angle = pi / 180 * degrees, cosine = std::cos(angle), sine = std::sin(angle);
+  return cosine * vector + sine * cross(unit, vector) + (1 - cosine) * dot(unit, vector) * unit;
+}
 
 }  // namespace riis

@@ -435,8 +435,13 @@ TEST(files_are_refused_by_name) {
   refuse_text("a.fcsv", "# CoordinateSystem = 1\n", "holds no landmarks");
   refuse_text("a.csv", "# unit = mm\nnadir,1,2,3\n", "states no axes: a line such as # axes = LPS is missing");
   refuse_text("a.csv", "# unit = mm\n# axes = LPI\nnadir,1,2,3\n",
-              "the axes are \"LPI\"; they must be LPS, RAS or mesh; LPS and RAS");
+              "the axes are \"LPI\"; they must be LPS, RAS or mesh; mesh stands for those");
   refuse_text("a.csv", "# axes = LPS\nnadir,1,2,3\n", "states no unit: a line such as # unit = mm is missing");
+  refuse_text("a.csv", "nadir,1,2,3\n",
+              "a line such as # unit = mm is missing; it must be m, cm or mm; and states no axes: a line "
+              "such as # axes = LPS is missing; they must be LPS, RAS or mesh; mesh stands for those");
+  refuse_text("a.json", "{\"landmarks\": {}}",
+              "unit: it is missing; it must be m, cm or mm; and the axes are missing; they must");
   refuse_text("a.csv", "# unit = inch\n# axes = LPS\nnadir,1,2,3\n", "the unit is \"inch\"; it must be m, cm or mm");
   refuse_text("a.csv", "# axis = LPS\n", "line 1: \"axis\" is unknown");
   refuse_text("a.csv", "# unit = mm\n# unit = mm\n", "line 2: the unit is given twice");

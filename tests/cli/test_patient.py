@@ -2,7 +2,8 @@
 """test_patient.py PROGRAM MAKE_PATIENT.py: runs riis patient on small patients.
 
 They are a root of make_patient.py with few triangles, and a ventricle. Checks the results by other commands and by units and axes
-that must not matter, and each refusal by its status and text. RIIS_TEST_LONG also runs random roots.
+that must not matter, and each refusal by its status and text. Only one run draws pictures, and its mesh is the wall of another
+run. RIIS_TEST_LONG also runs random roots.
 """
 import importlib.util
 import json
@@ -123,7 +124,8 @@ class Ventricle:
             t = math.radians(degrees)
             point = self.placed((a * math.cos(t), b * math.sin(t), 2.5 * math.sin(t)**2 + math.sin(t)))
             return [x + rng.gauss(0, noise) for x in point]
-        return {"annulus": [at(90 + 11.25 + 22.5 * i) for i in range(16)], "anterior_horn": at(90), "posterior_horn": at(-90)}
+        return {"annulus": [at(90 + 11.25 + 22.5 * i) for i in range(16)], "anterior_horn": at(90), "posterior_horn": at(-90),
+                "trigone": [at(48), at(132)]}
 
 
 class Patient(unittest.TestCase):
@@ -137,15 +139,33 @@ class Patient(unittest.TestCase):
         rng = random.Random(1)
         cls.triangles = list(PATIENT.wall_triangles(cls.root, PATIENT.waves(rng)))
         cls.landmarks = {name: [x + rng.gauss(0, 0.3) for x in place] for name, place in cls.root.landmarks(0)}
+        # A PATH without the programs for pictures and movies, which take half of a run's time.
+        cls.undrawn = {"PATH": str(cls.shared / "bin"), "DISPLAY": ""}
+        (cls.shared / "bin").mkdir()
+        for program in "gmsh", "timeout":
+            (cls.shared / "bin" / program).symlink_to(shutil.which(program))
+
+    @classmethod
+    def root_case(cls):
+        """Returns the folder of a complete run in mm, its report, and the finished process. The run is made once."""
+        case = cls.shared / "root"
+        if not case.exists():
+            write_stl(cls.shared / "root.stl", cls.triangles)
+            write_landmarks(cls.shared / "landmarks.json", cls.landmarks)
+            cls.root_run = subprocess.run([PROGRAM, "patient", "root.stl", "landmarks.json", "--output", "root", *COARSE],
+                                          cwd=cls.shared, capture_output=True, text=True, check=False)
+        assert cls.root_run.returncode == 0, cls.root_run.stdout + cls.root_run.stderr
+        return case, json.loads((case / "patient.json").read_text(encoding="utf-8")), cls.root_run
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def files(self, factor=1.0, sign=1.0, unit="mm", axes="LPS", wall_factor=1.0, wall_sign=1.0):
+    def files(self, factor=1.0, sign=1.0, unit="mm", axes="LPS", wall_factor=1.0, wall_sign=1.0, turned_inwards=False):
         """Writes the root and its landmarks."""
-        write_stl(self.folder / "root.stl", self.triangles, wall_factor, wall_sign)
+        triangles = [(a, c, b) for a, b, c in self.triangles] if turned_inwards else self.triangles
+        write_stl(self.folder / "root.stl", triangles, wall_factor, wall_sign)
         write_landmarks(self.folder / "landmarks.json", self.landmarks, factor, sign, unit, axes)
 
     def run_riis(self, *words, **environment):
@@ -156,8 +176,8 @@ class Patient(unittest.TestCase):
         return self.run_riis("patient", wall, landmarks, "--output", output, *words, **environment)
 
     def made(self, *words, output="case", **more):
-        """Runs the command, which must succeed. Returns the report."""
-        done = self.patient(*words, output=output, **more)
+        """Runs the command, which must succeed. Draws nothing. Returns the report and the process."""
+        done = self.patient(*words, output=output, **{**self.undrawn, **more})
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertFalse((self.folder / output / "UNFINISHED.txt").exists())
         return json.loads((self.folder / output / "patient.json").read_text(encoding="utf-8")), done
@@ -173,9 +193,8 @@ class Patient(unittest.TestCase):
 
     def test_root(self):
         """A root in mm: the report agrees with what other commands find in the folder."""
-        self.files()
-        report, done = self.made(*COARSE)
-        case = self.folder / "case"
+        case, report, done = self.root_case()
+        self.assertFalse((case / "UNFINISHED.txt").exists())
         self.assertEqual((report["valve"], report["unit"], report["wall"]["axes"]), ("coapting", "mm", "LPS"))
         self.assertEqual((report["n_leaking_edges"], report["closed"], report["open"]), (0, "closed", "open"))
         self.assertEqual(sorted(b["name"] for b in report["boundaries"]), ["inlet", "outlet", "wall"])
@@ -190,14 +209,16 @@ class Patient(unittest.TestCase):
         self.assertGreater(height["downstream"], max(h for _, h in self.root.commissures) - 8)
         # The mesh fills the wall.
         points = [",".join(map(str, report[name])) for name in ("upstream", "downstream")]
-        check = self.run_riis("check", "leaks", "case/mesh.msh", "--valve", "case/placed.json", "--skirt", "6", "--wall",
-                              "case/wall.stl", "--half-thickness", "1.6", "--opening", "0", "--demand-sealed", "--stats", "-",
+        check = self.run_riis("check", "leaks", case / "mesh.msh", "--valve", case / "placed.json", "--skirt", "6", "--wall",
+                              case / "wall.stl", "--half-thickness", "1.6", "--opening", "0", "--demand-sealed", "--stats", "-",
                               "--between=" + points[0], points[1], "--quiet")
         self.assertEqual(check.returncode, 0, check.stdout + check.stderr)
         stats = json.loads(check.stdout)
         self.assertEqual((stats["n_nodes"], stats["n_volume_cells"]), (report["n_nodes"], report["n_cells"]))
         for name in "wall.stl", "mesh.vtu", "faces/inlet.vtp", "closed.vtu", "open.vtu", "beat.pvd", "leaflets.pvd":
             self.assertTrue((case / name).is_file(), name)
+        for name, program in ("closed.png", "Xvfb"), ("open.png", "Xvfb"), ("beat.mp4", "ffmpeg"):
+            self.assertTrue((case / name).is_file() or not shutil.which(program), name)
         # The printed commands run again, as they stand, in the folder.
         printed = re.findall(r"^  \$ (riis (?:place|size-field) .*)$", done.stdout, re.MULTILINE)
         self.assertEqual(len(printed), 2, done.stdout)
@@ -206,31 +227,123 @@ class Patient(unittest.TestCase):
             subprocess.run([PROGRAM, *shlex.split(command)[1:]], cwd=case, check=True, capture_output=True)
         self.assertEqual(before, {name: (case / name).read_bytes() for name in before})
         # The folder is taken again only on request.
-        self.assertRegex(self.patient().stderr, "--output: case: the folder has the results of an earlier run: .* --replace")
+        again = self.run_riis("patient", self.shared / "root.stl", self.shared / "landmarks.json", "--output", case)
+        self.assertRegex(again.stderr, "--output: .*root: the folder has the results of an earlier run: .* --replace")
 
     def test_units_and_axes(self):
-        """Wall and landmarks in any unit and axes give the same valve and about the same mesh."""
-        found = {}
-        cases = [("mm", {}, [], "mm"),
-                 ("cm, landmarks in m and RAS", {"factor": 1e-3, "sign": -1, "unit": "m", "axes": "RAS", "wall_factor": 0.1}, [],
-                  "cm"),
-                 ("RAS wall", {"wall_sign": -1}, ["--unit", "cm"], "cm"),
-                 ("m", {"wall_factor": 1e-3}, [], "m")]
-        for name, files, words, unit in cases if os.environ.get("RIIS_TEST_LONG") == "1" else cases[:2]:
-            self.files(**files)
-            report, _ = self.made("--replace", *COARSE, *words)
-            self.assertEqual(report["unit"], unit, name)
-            self.assertEqual(report["wall"]["axes"], "RAS" if "wall_sign" in files else "LPS", name)
-            mm = {"mm": 1, "cm": 10, "m": 1000}[unit]
-            found[name] = (report["n_nodes"], report["effective_area_cm2"], report["gap"]["most"] * mm, report["fit"]["rms"] * mm)
+        """Wall and landmarks in any unit and axes give the same valve and about the same mesh. So do triangles that face inwards,
+        and without the programs that draw only pictures are missing."""
+        def measures_of(report):
+            mm = {"mm": 1, "cm": 10, "m": 1000}[report["unit"]]
+            return report["n_nodes"], report["effective_area_cm2"], report["gap"]["most"] * mm, report["fit"]["rms"] * mm
+        found = {"mm": measures_of(self.root_case()[1])}
+        cases = [("cm, landmarks in m and RAS", {"factor": 1e-3, "sign": -1, "unit": "m", "axes": "RAS", "wall_factor": 0.1}, [],
+                  "cm", "LPS"),
+                 ("RAS wall", {"wall_sign": -1}, ["--unit", "cm"], "cm", "RAS"),
+                 ("m, landmarks in the wall's axes", {"wall_factor": 1e-3, "axes": "mesh"}, [], "m", "mesh")]
+        for name, files, words, unit, axes in cases if os.environ.get("RIIS_TEST_LONG") == "1" else cases[:1]:
+            self.files(**files, turned_inwards=name.startswith("cm"))
+            report, done = self.made("--replace", *COARSE, *words)
+            self.assertEqual((report["unit"], report["wall"]["axes"]), (unit, axes), name)
+            found[name] = measures_of(report)
+            self.assertEqual(sorted(report["missing"]), ["beat.mp4", "closed.png", "open.png"], name)
+            self.assertRegex(done.stdout, "without closed.png: .*Xvfb.* package xvfb")
+            self.assertRegex(done.stdout, "without beat.mp4: .*ffmpeg")
+            if not name.startswith("cm"):
+                continue
+            self.assertRegex(done.stdout, "root.stl: all triangles face inwards, and are turned outwards")
+            # The written wall faces outwards.
+            data = (self.folder / "case" / "wall.stl").read_bytes()
+            rows = [struct.unpack_from("<12f", data, 84 + 50 * i) for i in range(len(self.triangles))]
+            self.assertGreater(1e3 * volume_of([(r[3:6], r[6:9], r[9:12]) for r in rows]), 0.99 * volume_of(self.triangles))
         nodes, *measures = found["mm"]
         for name, (other_nodes, *others) in found.items():
             self.assertLess(abs(other_nodes / nodes - 1), 0.03, found)
             for a, b in zip(measures, others):
                 self.assertAlmostEqual(a, b, delta=1e-3 * abs(a), msg=name)
 
+    def leaking_gmsh(self, n):
+        """Returns a PATH with a gmsh whose first n volumes have edges that are three times as long."""
+        tools = self.folder / f"bin{n}"
+        tools.mkdir()
+        (tools / "timeout").symlink_to(shutil.which("timeout"))
+        (tools / "gmsh").write_text(f"""#!/bin/sh
+longer=
+if [ "$1" = -3 ]; then
+  echo "$1" >>'{tools}/calls'
+  [ "$({shutil.which("wc")} -l <'{tools}/calls')" -gt {n} ] || longer='-clscale 3'
+fi
+exec '{shutil.which("gmsh")}' "$@" $longer
+""", encoding="utf-8")
+        (tools / "gmsh").chmod(0o755)
+        return {"PATH": str(tools)}
+
+    def test_volume_mesh_again(self):
+        """A volume mesh is the wall. A run is killed while gmsh works, both meshes of the next run leak, and the last run makes a
+        second mesh, which does not leak."""
+        self.files()
+        wall, first, _ = self.root_case()
+        command = [PROGRAM, "patient", wall / "mesh.vtu", "landmarks.json", "--output", "case", *COARSE]
+        environment = {**os.environ, **self.undrawn}
+        with subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, text=True, env=environment) as run:
+            for line in run.stdout:
+                if line.startswith("  $ gmsh -3"):
+                    run.kill()
+                    break
+        case = self.folder / "case"
+        self.assertTrue((case / "UNFINISHED.txt").exists())
+        self.assertTrue((case / "gmsh" / "surface.msh").exists())
+        (case / "mine.txt").write_text("kept", encoding="utf-8")
+
+        done = self.refused(1, r"\d+ edges? leaks? at 11 openings also in the second mesh, whose edges in the band have 0.855 "
+                               "half thicknesses: --band-edge 0.769 makes them shorter, or --half-thickness '1.76 mm' thickens",
+                            *COARSE, wall=wall / "mesh.vtu", **self.leaking_gmsh(2))
+        self.assertRegex(done.stdout, r"leaks? at 11 openings: the mesh is made once more, with edges of 0.855 half thicknesses")
+
+        report, done = self.made(*COARSE, "--valve", "aortic_regurgitation_severe", wall=wall / "mesh.vtu", **self.leaking_gmsh(1))
+        self.assertRegex(done.stdout, r"leaks? at 11 openings: the mesh is made once more, with edges of 0.855 half thicknesses")
+        self.assertEqual((report["n_leaking_edges"], report["open"]), (0, "open"))
+        self.assertAlmostEqual(report["band_edge"], 0.9 * first["band_edge"])
+        self.assertEqual(done.stdout.count("--band-edge 0.855"), 2, done.stdout)  # of riis size-field, and in the last lines
+        self.assertEqual((case / "mine.txt").read_text(encoding="utf-8"), "kept")
+        self.assertEqual(report["disease"], "aortic_regurgitation_severe")
+        self.assertIn("because the band closes the gap of aortic_regurgitation_severe", done.stdout)
+        # The ends of the volume mesh are found again.
+        before, after = ({b["name"]: b for b in one["boundaries"]} for one in (first, report))
+        self.assertEqual(sorted(before), sorted(after))
+        for name, boundary in after.items():
+            self.assertLess(math.dist(boundary["centre"], before[name]["centre"]), 0.3, name)
+            self.assertAlmostEqual(boundary["area"] / before[name]["area"], 1, delta=0.03, msg=name)
+
+    def test_folds(self):
+        """If the warp folds, the message names one cure, and riis place confirms it. The sizes of a valve may also make it fold,
+        which no warp cures."""
+        self.files()
+        places = dict(self.root.landmarks(3))
+        aside = PATIENT.unit(PATIENT.cross(self.root.e3, [x - c for x, c in zip(places["nadir_left"], self.root.centre)]))
+
+        def moved(name, direction, by):
+            point = [x + by * e for x, e in zip(places[name], direction)]
+            write_landmarks(self.folder / "landmarks.json", {**places, name: point})
+
+        def place(*words):
+            return self.run_riis("place", "landmarks.json", "--valve", "coapting", *words, "--output", "trial.json").returncode
+        moved("nadir_left", aside, 8)
+        done = self.refused(1, "the warp folds near .*--warp smoothed does not fold", "--warp", "exact")
+        self.assertEqual((done.stderr.count("not fold"), done.stderr.count("--noise")), (1, 0), done.stderr)
+        self.assertEqual((place("--warp", "exact"), place("--warp", "smoothed")), (1, 0))
+        moved("nadir_left", aside, -6)
+        for words in ["--warp", "exact"], []:
+            self.refused(1, r"the warp (folds|turns) .*\. It does not fold with --warp smoothed --noise '0.6 mm', but first look "
+                            "for a landmark that is not at its place", *words)
+        self.assertEqual((place("--warp", "smoothed"), place("--warp", "smoothed", "--noise", "0.6")), (1, 0))
+        moved("commissure_right_left", self.root.e3, -8)
+        done = self.refused(1, "the landmarks give .* and then cusp . would fold .*--set")
+        self.assertNotRegex(done.stderr, "not fold|--warp|--noise")
+        self.assertEqual((place("--warp", "none"), place("--warp", "smoothed")), (1, 1))
+
     def test_ventricle(self):
-        """A ventricle in metres with a mitral valve: the inlet is the end of the atrium."""
+        """A ventricle in metres with a mitral valve: the inlet is the end of the atrium. Trigones are among the landmarks."""
         try:
             ventricle = Ventricle()
             triangles = ventricle.triangles()
@@ -245,14 +358,11 @@ class Patient(unittest.TestCase):
         atrium = [1e-3 * x for x in ventricle.placed((0, 0, 16))]
         self.assertLess(math.dist(centre["inlet"], atrium), math.dist(centre["outlet"], atrium))
 
-    def test_options(self):
-        """Options of the wall's unit, of the ends and of sick valves."""
+    def test_wrong_end(self):
+        """An end on the wrong side of the valve."""
         self.files()
         inlet = ",".join(map(str, self.root.placed(0, 0, PATIENT.TOP)))
         self.refused(1, "the end inlet at .* is after the valve: write --inlet X,Y,Z", *COARSE, "--inlet", inlet)
-        report, done = self.made(*COARSE, "--valve", "aortic_regurgitation_severe")
-        self.assertEqual(report["disease"], "aortic_regurgitation_severe")
-        self.assertIn("because the band closes the gap of aortic_regurgitation_severe", done.stdout)
 
     def test_refused_options(self):
         self.files()
@@ -266,6 +376,12 @@ class Patient(unittest.TestCase):
         self.refused(2, "--valve: the aortic valve does not close: write --valve coapting", "--valve", "aortic")
         self.refused(2, "--valve: riis patient takes .* not bileaflet", "--valve", "bileaflet")
         self.assertIn("--output is required", self.run_riis("patient", "root.stl", "landmarks.json").stderr)
+        # Landmarks say their unit and axes themselves.
+        text = json.loads((self.folder / "landmarks.json").read_text(encoding="utf-8"))
+        for key, message in ("unit", "unit: it is missing; it must be m, cm or mm"), ("axes", "they must be LPS, RAS or mesh"):
+            less = {name: value for name, value in text.items() if name != key}
+            (self.folder / "landmarks.json").write_text(json.dumps(less), encoding="utf-8")
+            self.refused(1, message)
 
     def test_refused_folders(self):
         self.files()
@@ -290,15 +406,6 @@ class Patient(unittest.TestCase):
         far = [tuple((x + 200, y, z) for x, y, z in t) for t in self.triangles]
         write_stl(here / "two.stl", self.triangles + far)
         self.refused(1, "two.stl: .*2 pieces", wall="two.stl")
-        # Triangles that face inwards are turned, and the command says so.
-        write_stl(here / "inwards.stl", [(a, c, b) for a, b, c in self.triangles])
-        report, done = self.made(*COARSE, wall="inwards.stl", output="turned")
-        self.assertRegex(done.stdout, "inwards.stl: .*turned")
-        self.assertLess(report["n_leaking_edges"], 1)
-        # The written wall faces outwards.
-        data = (here / "turned" / "wall.stl").read_bytes()
-        rows = [struct.unpack_from("<12f", data, 84 + 50 * i) for i in range(len(self.triangles))]
-        self.assertGreater(volume_of([(r[3:6], r[6:9], r[9:12]) for r in rows]), 0.99 * volume_of(self.triangles))
         write_stl(here / "far.stl", far)
         self.refused(1, r"landmarks.json: the landmarks are \d+ mm from the wall of far.stl on average, and farther with "
                      "other units and axes.* same patient", wall="far.stl", output="none")

@@ -389,7 +389,7 @@ def sealed(scene: Scene) -> Light:
 
 
 def _sides(scene: Scene) -> tuple[int, int] | None:
-    """Returns an unmarked node on each side of the valve near its axis: one upstream of the least z, and one downstream of the
+    """Returns an unmarked node on each side of the valve near its axis: one below the least z of the valve, and one above the
     largest."""
     matrix, origin = scene.state.matrix, numpy.array(scene.state.origin)
     valve = (numpy.array(scene.surface.vertices) - origin) @ matrix

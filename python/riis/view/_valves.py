@@ -193,6 +193,11 @@ class ValveState:
         return vector(self.matrix[:, 2])
 
     @property
+    def flow(self) -> Vector:
+        """The direction of the blood. The z axis of a valve into a ventricle points to the atrium, against the flow."""
+        return vector(-self.matrix[:, 2] if is_atrioventricular(self.kind) else self.matrix[:, 2])
+
+    @property
     def reference(self) -> Vector:
         return vector(self.matrix[:, 0])
 

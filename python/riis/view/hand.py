@@ -226,7 +226,7 @@ class Hand(Part):
             place = rows.dragged(self.scene, tool, valve, dx, dy, shift)
             self._move(lambda: self.model.place(self.state.current, *place), ("place", self.state.current, tool))
             valve = self._valve()
-            self.scene.show_handle(valve.origin, valve.axis, 1.2 * self._reach())
+            self.scene.show_handle(valve.origin, valve.flow, 1.2 * self._reach())
         self._moved.set()
 
     def _on_gesture_ends(self) -> None:

@@ -483,7 +483,7 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
 
     def _show_placement(self) -> None:
         valve = self._valve()
-        self.scene.show_handle(valve.origin, valve.axis, 1.2 * self._reach())
+        self.scene.show_handle(valve.origin, valve.flow, 1.2 * self._reach())
         self.scene.cut_here(valve.origin, valve.axis)
 
     def _reach(self) -> float:
@@ -543,7 +543,7 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
         self._shows_gap = len(triangles) > 0
         self.scene.rest()
         valve = self._valve()
-        self.scene.show_handle(valve.origin, valve.axis, 1.2 * self._reach())
+        self.scene.show_handle(valve.origin, valve.flow, 1.2 * self._reach())
         self._show_orifice()
         with self.state as state:
             state.lights = [rows.light_of(light) for light in lights]

@@ -11,7 +11,7 @@ import numpy
 
 from riis.view._landmark_files import missing, role_of, roles_of
 from riis.view._numbers import in_unit, shown
-from riis.view._valves import SURFACE, n_leaflets
+from riis.view._valves import SURFACE, is_atrioventricular, n_leaflets
 
 _LIGHT = {
     "good": ("mdi-check-circle", "#009e73"),
@@ -136,9 +136,10 @@ def placement_of(valve: Any, unit: str) -> list[dict[str, Any]]:
         return [", ".join(shown(round(x, 6), 6) for x in values)]
 
     words = f" in {unit}" if unit else ""
+    flow = "against the flow, towards the atrium" if is_atrioventricular(valve.kind) else "the direction of the flow"
     return [
         row("origin", f"Centre{words}", [_number(x) for x in valve.origin], "the valve's origin, in the mesh's unit"),
-        row("axis", "Axis", direction(valve.axis), "the direction of the flow, of any length"),
+        row("axis", "Axis", direction(valve.axis), f"{flow}, of any length"),
         row("reference", "Turn", direction(valve.reference), "the direction of the valve's x axis, of any length"),
         row("scale", "Scale", [_number(valve.scale)], "the length of a centimetre of the valve, in the mesh's unit"),
     ]

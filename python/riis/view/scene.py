@@ -406,12 +406,12 @@ class Scene:
                 "riis bump place", data, color=BUMP, point_size=18, render_points_as_spheres=True, lighting=False, pickable=False
             )
 
-    def show_handle(self, origin: Any = None, axis: Any = None, length: float = 1.0) -> None:
-        """Draws the valve's axis as an arrow from its origin downstream, or nothing."""
+    def show_handle(self, origin: Any = None, flow: Any = None, length: float = 1.0) -> None:
+        """Draws an arrow from the valve's origin along its axis, in the direction of flow, or nothing."""
         self._drop("riis handle")
         if origin is not None:
             arrow = self._pv.Arrow(
-                start=origin, direction=axis, tip_length=0.12, tip_radius=0.025, shaft_radius=0.006, scale=length,
+                start=origin, direction=flow, tip_length=0.12, tip_radius=0.025, shaft_radius=0.006, scale=length,
                 tip_resolution=24,
             )
             self._put("riis handle", arrow, color=HANDLE, ambient=0.4, pickable=False)
@@ -419,7 +419,8 @@ class Scene:
     # the camera
 
     def look(self, how: str, origin: Any = None, axis: Any = None, reference: Any = None, reach: float | None = None) -> None:
-        """Looks at the valve obliquely, from downstream ("top") or from the side. Without a valve, looks at everything."""
+        """Looks at the valve obliquely, from the tip of its z axis ("top") or from the side. Without a valve, looks at
+        everything."""
         if how not in LOOKS:
             raise refuse(f"look: is '{how}'; it must be one of {', '.join(LOOKS)}")
         z = numpy.array([0.0, 0.0, 1.0]) if axis is None else numpy.asarray(axis, float)

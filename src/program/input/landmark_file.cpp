@@ -174,7 +174,8 @@ std::array<double, 3> point_in_row(const std::string &path, const CsvFile::Row &
 // ---- What a file states ----
 
 constexpr const char *why_axes =
-    "; LPS and RAS differ by half a turn about z, which the landmarks themselves cannot show";
+    "; mesh stands for those of the mesh or of the wall, and LPS and RAS differ by half a turn about z, which the "
+    "landmarks themselves cannot show";
 
 Unit stated_unit(const std::string &path, const std::string &text) {
   if (const auto unit = unit_of(text)) return *unit;
@@ -199,9 +200,12 @@ void read_json(const Json &root, LandmarkFile &file) {
   const CaseValues values(file.path, "", root, {"valve", "unit", "axes", "noise", "flow", "parameters", "landmarks"},
                           "the file");
   file.valve = values.text("valve");
-  if (!values.has("unit")) values.refuse("unit", "it is missing; it must be " + one_of(unit_names()));
+  const std::string no_axes = "missing; they must be " + one_of(axes_names()) + why_axes;
+  if (!values.has("unit"))
+    values.refuse("unit", "it is missing; it must be " + one_of(unit_names()) +
+                              (values.has("axes") ? "" : "; and the axes are " + no_axes));
   file.unit = stated_unit(file.path, values.text("unit"));
-  if (!values.has("axes")) values.refuse("axes", "they are missing; they must be " + one_of(axes_names()) + why_axes);
+  if (!values.has("axes")) values.refuse("axes", "they are " + no_axes);
   file.axes = stated_axes(file.path, values.text("axes"));
   file.noise = values.at_least_zero("noise");
   if (values.has("flow")) file.flow = point_of(file.path, "flow", values.needed("flow"));
@@ -343,12 +347,14 @@ void read_csv(const std::string &text, LandmarkFile &file) {
     to.add(row.cells[0], point_in_row(path, row, {1, 2, 3}));
   }
   const auto value_of = [&](const char *key) { return stated.count(key) ? stated.at(key) : std::string(); };
+  std::vector<std::string> missing;
   if (!stated.count("unit"))
-    refuse_file(path, "states no unit: a line such as # unit = mm is missing; it must be " + one_of(unit_names()));
-  file.unit = stated_unit(path, value_of("unit"));
+    missing.push_back("states no unit: a line such as # unit = mm is missing; it must be " + one_of(unit_names()));
   if (!stated.count("axes"))
-    refuse_file(path, "states no axes: a line such as # axes = LPS is missing; they must be " + one_of(axes_names()) +
-                          why_axes);
+    missing.push_back("states no axes: a line such as # axes = LPS is missing; they must be " + one_of(axes_names()) +
+                      why_axes);
+  if (!missing.empty()) refuse_file(path, joined_by(missing, "; and "));
+  file.unit = stated_unit(path, value_of("unit"));
   file.axes = stated_axes(path, value_of("axes"));
   file.valve = value_of("valve");
   if (stated.count("noise")) {

@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
 // Defaults of lengths, in millimetres.
-constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6;
+constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6, usual_noise = 0.3;
 // A half thickness outside this range has a wrong unit, or closes the open valve.
 constexpr double least_half_thickness_mm = 0.1, most_half_thickness_mm = 4, most_skirt_mm = 30;
 constexpr double usual_band_edge = 0.95, usual_largest_edge = 3;
@@ -177,10 +177,9 @@ class PatientRun {
   }
 
   std::string in_mm(double length) const { return printed("%.3g", length / millimetre_) + " mm"; }
-  // Returns a length as an option's value, rounded upwards.
-  std::string option_mm(double length) const {
-    return "'" + shortest(std::ceil(100 * length / millimetre_ - 1e-6) / 100) + " mm'";
-  }
+  // Return a length in millimetres, rounded upwards, and as the value of an option.
+  double rounded_mm(double length) const { return std::ceil(100 * length / millimetre_ - 1e-6) / 100; }
+  std::string option_mm(double length) const { return "'" + shortest(rounded_mm(length)) + " mm'"; }
 
   void copy_inputs() {
     landmarks_name_ = "landmarks" + landmark_ending(options_.landmarks);
@@ -208,7 +207,10 @@ class PatientRun {
     return words;
   }
 
-  double noise() const { return length_of(options_.noise, 0.3, 0, most_skirt_mm); }
+  double noise() const {
+    if (!options_.noise && landmarks_.noise) return factor_between(landmarks_.unit, unit_) * *landmarks_.noise;
+    return length_of(options_.noise, usual_noise, 0, most_skirt_mm);
+  }
 
   void place() {
     static const char *const names[] = {"none", "exact", "smoothed"};
@@ -230,30 +232,32 @@ class PatientRun {
     report_["fit"] = fit;
     const PlacedFile file = read_placed("placed.json", placed, unit_);
     for (std::size_t k = 0; k < 3; ++k) centre_[k] = file.where.translation[k];
-    flow_ = axis_of(file.where, is_mitral_ ? -1 : 1);
+    const double *const axis = file.where.rotation_axis;
+    // Mitral valves have their atrium towards z.
+    flow_ = turned({0, 0, is_mitral_ ? -1.0 : 1.0}, {axis[0], axis[1], axis[2]}, file.where.rotation_angle);
     name_ends(wall_, centre_, flow_);
-  }
-
-  // Returns the valve's z axis times a sign. Mitral valves have their atrium towards z.
-  static std::array<double, 3> axis_of(const riis_surface_options &where, double sign) {
-    const Vector3 k = unit_vector({where.rotation_axis[0], where.rotation_axis[1], where.rotation_axis[2]}),
-                  z = {0, 0, 1};
-    const double angle = where.rotation_angle * std::acos(-1.0) / 180, c = std::cos(angle), s = std::sin(angle);
-    return sign * (c * z + s * cross(k, z) + ((1 - c) * dot(k, z)) * k);
   }
 
   // If the warp folds, tries which noise smooths it enough.
   std::string cure_of_folds(const StepEnd &end) {
-    if (options_.warp_choice == no_warp || end.reason().find("fold") == std::string::npos) return "";
+    const auto says = [&](const char *text) { return end.reason().find(text) != std::string::npos; };
+    const bool is_cured = says("--warp smoothed does not fold");  // riis place has tried the landmarks' own noise
+    if (is_cured || !(says("the warp folds") || says("the warp turns"))) return "";
+    const auto is_placed = [&](const Words &how) {
+      return steps_.run_silently("place_trial", place_words(how)).is_fine();
+    };
+    const bool is_own_tried = noise() > 0;
+    const double own = is_own_tried ? noise() : usual_noise * millimetre_;
     for (const double factor : {1.0, 2.0, 3.0, 5.0}) {
-      if (factor == 1 && options_.warp_choice == smoothed_warp) continue;
-      const double tried = factor * noise();
-      const StepEnd trial = steps_.run_silently(
-          "place_trial", place_words({"--warp", "smoothed", "--noise", shortest(tried), "--output", "placed.json"}));
-      if (trial.is_fine())
-        return ". It does not fold with --warp smoothed" + (factor == 1 ? "" : " --noise " + option_mm(tried));
+      if (factor == 1 && is_own_tried) continue;
+      const double tried = rounded_mm(factor * own) * millimetre_;
+      if (is_placed({"--warp", "smoothed", "--noise", shortest(tried), "--output", "placed.json"}))
+        return ". It does not fold with --warp smoothed --noise " + option_mm(tried) +
+               ", but first look for a landmark that is not at its place";
     }
-    return ". --warp none places the valve without a warp";
+    return is_placed({"--warp", "none", "--output", "placed.json"})
+               ? ". --warp none places the valve without a warp, but first look for a landmark that is not at its place"
+               : "";
   }
 
   Words valve_words() const { return {"--valve", "placed.json", "--skirt", shortest(skirt_), "--wall", "wall.stl"}; }
@@ -306,6 +310,7 @@ class PatientRun {
   void make_mesh() {
     for (int attempt = 0;; ++attempt) {
       make_mesh_once();
+      find_sides();
       const std::int64_t n_leaks = mark_all_openings();
       report_["n_leaking_edges"] = n_leaks;
       if (n_leaks == 0)
@@ -379,7 +384,7 @@ class PatientRun {
 
   // ---- Does it seal? ----
 
-  void check_sealed() {
+  void find_sides() {
     MarkOptions marking;
     marking.valve = "placed.json";
     marking.skirt = skirt_;
@@ -388,9 +393,12 @@ class PatientRun {
     marking.surface_options.half_thickness = half_thickness_;
     use_named_valve(marking);
     apply_units(marking);
-    const double begin = steps_.seconds();
     sides_ = sides_of_valve("mesh.msh", marking, mesh_.boundaries, centre_, flow_, millimetre_);
     check_ends();
+  }
+
+  void check_sealed() {
+    const double begin = steps_.seconds();
     const std::string from = numbers_text(sides_.upstream.data(), 3, ","),
                       to = numbers_text(sides_.downstream.data(), 3, ",");
     const auto passage_at = [&](const char *opening, const std::string &name) {

@@ -15,6 +15,8 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
+#include "common/vectors.hpp"
+
 namespace riis::vtk {
 namespace {
 
@@ -145,18 +147,8 @@ class Dashes {
 }  // namespace
 
 Axes axes_turned(const double axis[3], double degrees) {
-  const double length = std::hypot(axis[0], axis[1], axis[2]), angle = vtkMath::RadiansFromDegrees(degrees);
-  const double cosine = std::cos(angle), sine = std::sin(angle);
-  const Vector unit = {axis[0] / length, axis[1] / length, axis[2] / length};
-  Axes turned;
-  for (std::size_t k = 0; k < 3; ++k) {
-    Vector mesh_axis = {0, 0, 0}, sideways;
-    mesh_axis[k] = 1;
-    vtkMath::Cross(unit.data(), mesh_axis.data(), sideways.data());
-    for (std::size_t i = 0; i < 3; ++i)
-      turned[k][i] = cosine * mesh_axis[i] + sine * sideways[i] + (1 - cosine) * unit[k] * unit[i];
-  }
-  return turned;
+  const Vector3 about = {axis[0], axis[1], axis[2]};
+  return {turned({1, 0, 0}, about, degrees), turned({0, 1, 0}, about, degrees), turned({0, 0, 1}, about, degrees)};
 }
 
 View::View(std::int32_t view, const Axes &valve) {
