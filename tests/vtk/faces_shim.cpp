@@ -4,7 +4,6 @@
 #include <iterator>
 #include <vector>
 
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkIdList.h>
@@ -118,18 +117,7 @@ int64_t shim_compare_outside(const char *path, int64_t *n_faces, int64_t *n_inwa
 
 int shim_flat_ends(int64_t n_points, const double *xyz, int64_t n_triangles, const int64_t *corners,
                    unsigned char *is_end) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (int64_t i = 0; i < n_points; ++i) points->InsertNextPoint(xyz + 3 * i);
-  vtkNew<vtkCellArray> triangles;
-  for (int64_t i = 0; i < n_triangles; ++i) {
-    const vtkIdType ids[3] = {corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]};
-    triangles->InsertNextCell(3, ids);
-  }
-  vtkNew<vtkPolyData> faces;
-  faces->SetPoints(points);
-  faces->SetPolys(triangles);
-  const riis::vtk::FlatParts parts = riis::vtk::flat_ends(faces);
+  const riis::vtk::FlatParts parts = riis::vtk::flat_ends(shim_polydata(n_points, xyz, n_triangles, corners));
   std::copy(parts.is_end.begin(), parts.is_end.end(), is_end);
   return parts.are_all;
 }

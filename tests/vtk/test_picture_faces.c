@@ -70,8 +70,8 @@ static int64_t make_tube(random_source *random, double noise, int open, double *
     const int ring = i / n_around, is_middle = ring == n_rings, is_last = ring == n_rings - 1 || i == n_tube - 1;
     const double angle = 2 * acos(-1.0) * i / n_around;
     const double radius = is_middle ? 0 : 1 + noise * random_between(random, -1, 1);
-    double p[3] = {radius * cos(angle), radius * sin(angle), is_middle ? 0 : 4.0 * ring / (n_rings - 1)};
-    if (is_last) p[2] = 4 + tilt * p[0];
+    double p[3] = {radius * cos(angle), radius * sin(angle), is_last ? 4 : is_middle ? 0 : 4.0 * ring / (n_rings - 1)};
+    p[2] *= 1 + 0.25 * tilt * p[0]; /* the rings lean more and more, so that the wall does not cross itself */
     if (ring > 0 && !is_middle && !is_last) p[2] += 0.5 * noise * random_between(random, -1, 1);
     for (int k = 0; k < 3; ++k)
       xyz[3 * i + k] = shift[k] + size * (p[0] * frame[0][k] + p[1] * frame[1][k] + p[2] * frame[2][k]);

@@ -181,6 +181,22 @@ CountingWindow *counting_window() {
 
 }  // namespace
 
+vtkSmartPointer<vtkPolyData> shim_polydata(int64_t n_points, const double *xyz, int64_t n_triangles,
+                                           const int64_t *corners) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int64_t i = 0; i < n_points; ++i) points->InsertNextPoint(xyz + 3 * i);
+  vtkNew<vtkCellArray> triangles;
+  for (int64_t i = 0; i < n_triangles; ++i) {
+    const vtkIdType ids[3] = {corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]};
+    triangles->InsertNextCell(3, ids);
+  }
+  const auto faces = vtkSmartPointer<vtkPolyData>::New();
+  faces->SetPoints(points);
+  faces->SetPolys(triangles);
+  return faces;
+}
+
 extern "C" {
 
 int shim_write_box(const char *path, int encoding, int n, const double lower[3], const double upper[3],
@@ -368,11 +384,7 @@ int shim_shape_functions(int cell_type, const double point[3], double *values, d
 }
 
 int shim_write_delaunay(const char *path, int64_t n, const double *xyz) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (int64_t i = 0; i < n; ++i) points->InsertNextPoint(xyz + 3 * i);
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
+  const auto data = shim_polydata(n, xyz, 0, nullptr);
   vtkNew<vtkDelaunay3D> delaunay;
   delaunay->SetInputData(data);
   delaunay->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
@@ -457,17 +469,7 @@ unsigned char *shim_read_clear_pixels(const char *path, int *width, int *height)
 
 void shim_distances(int method, int64_t n_vertices, const double *vertices, int64_t n_triangles, const int64_t *corners,
                     int64_t n_points, const double *points, double *distances) {
-  vtkNew<vtkPoints> vtk_points;
-  vtk_points->SetDataTypeToDouble();
-  for (int64_t i = 0; i < n_vertices; ++i) vtk_points->InsertNextPoint(vertices + 3 * i);
-  vtkNew<vtkCellArray> triangles;
-  for (int64_t i = 0; i < n_triangles; ++i) {
-    const vtkIdType ids[3] = {corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]};
-    triangles->InsertNextCell(3, ids);
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(vtk_points);
-  data->SetPolys(triangles);
+  const auto data = shim_polydata(n_vertices, vertices, n_triangles, corners);
   if (method == SHIM_IMPLICIT_DISTANCE) {
     vtkNew<vtkImplicitPolyDataDistance> implicit;
     implicit->SetInput(data);

@@ -108,6 +108,14 @@ void shim_say_error(void);
 
 #ifdef __cplusplus
 }
+
+class vtkPolyData;
+template <class T>
+class vtkSmartPointer;
+
+// Returns triangles with vertices xyz (3, n_points) and corners (3, n_triangles), for the other shims.
+vtkSmartPointer<vtkPolyData> shim_polydata(int64_t n_points, const double *xyz, int64_t n_triangles,
+                                           const int64_t *corners);
 #endif
 
 #endif

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "common/sets.hpp"
@@ -32,37 +30,6 @@ constexpr double thin_share = 2e-6, short_in_heights = 10;
 constexpr int most_thin_rounds = 20;
 
 constexpr const char *how_to_close = "close it, as by the filter Close Holes of MeshLab";
-
-// A side of a triangle, between two vertices a < b.
-struct WallSide {
-  std::int64_t a, b, triangle;
-  std::size_t k;    // which side of the triangle
-  bool is_forward;  // whether the triangle goes from a to b
-};
-
-// Returns the sides in the order of their edges, so that sides of one edge follow each other.
-std::vector<WallSide> sorted_wall_sides(const std::vector<Corners> &corners) {
-  std::vector<WallSide> sides;
-  sides.reserve(3 * corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int64_t from = corners[i][k], to = corners[i][(k + 1) % 3];
-      sides.push_back({std::min(from, to), std::max(from, to), static_cast<std::int64_t>(i), k, from < to});
-    }
-  std::sort(sides.begin(), sides.end(), [](const WallSide &s, const WallSide &t) {
-    return std::tie(s.a, s.b, s.triangle) < std::tie(t.a, t.b, t.triangle);
-  });
-  return sides;
-}
-
-// Calls `visit` with the first side and the number of sides of each edge.
-template <class Visit>
-void for_each_wall_edge(const std::vector<WallSide> &sides, const Visit &visit) {
-  for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-    while (end < sides.size() && sides[end].a == sides[i].a && sides[end].b == sides[i].b) ++end;
-    visit(&sides[i], end - i);
-  }
-}
 
 // Repairs a surface step by step.
 class WallRepair {
@@ -161,7 +128,7 @@ class WallRepair {
   // Joins vertices of open sides that are so near that only rounding parts them.
   void join_near_points() {
     std::vector<std::int64_t> open;
-    for_each_wall_edge(sorted_wall_sides(corners()), [&](const WallSide *side, std::size_t n) {
+    for_each_edge(sorted_sides(corners()), [&](const TriangleSide *side, std::size_t n) {
       if (n == 1) open.insert(open.end(), {side->a, side->b});
     });
     std::sort(open.begin(), open.end());
@@ -191,7 +158,7 @@ class WallRepair {
   void keep_one_piece() {
     const std::int64_t n = made_.triangles.n();
     DisjointSets sets(n);
-    for_each_wall_edge(sorted_wall_sides(corners()), [&](const WallSide *side, std::size_t n_sides) {
+    for_each_edge(sorted_sides(corners()), [&](const TriangleSide *side, std::size_t n_sides) {
       for (std::size_t i = 1; i < n_sides; ++i) sets.unite(side[0].triangle, side[i].triangle);
     });
     struct Piece {
@@ -240,7 +207,7 @@ class WallRepair {
   void refuse_forks() const {
     std::int64_t n_forks = 0, n_most = 0;
     Vector3 place{};
-    for_each_wall_edge(sorted_wall_sides(made_.triangles.corners), [&](const WallSide *side, std::size_t n) {
+    for_each_edge(sorted_sides(made_.triangles.corners), [&](const TriangleSide *side, std::size_t n) {
       if (n <= 2) return;
       if (++n_forks == 1) {
         n_most = static_cast<std::int64_t>(n);
@@ -261,7 +228,7 @@ class WallRepair {
       bool is_turned;
     };
     std::vector<std::array<Neighbour, 3>> beyond(corners().size(), {{{-1, false}, {-1, false}, {-1, false}}});
-    for_each_wall_edge(sorted_wall_sides(corners()), [&](const WallSide *side, std::size_t n_sides) {
+    for_each_edge(sorted_sides(corners()), [&](const TriangleSide *side, std::size_t n_sides) {
       if (n_sides != 2) return;
       const bool is_turned = side[0].is_forward == side[1].is_forward;
       view(beyond)[side[0].triangle][side[0].k] = {side[1].triangle, is_turned};
@@ -425,7 +392,7 @@ class WallRepair {
 
   std::vector<RimLoop> open_loops() const {
     std::multimap<std::int64_t, std::int64_t> next;
-    for_each_wall_edge(sorted_wall_sides(made_.triangles.corners), [&](const WallSide *side, std::size_t n) {
+    for_each_edge(sorted_sides(made_.triangles.corners), [&](const TriangleSide *side, std::size_t n) {
       if (n != 1) return;
       next.emplace(side->is_forward ? side->a : side->b, side->is_forward ? side->b : side->a);
     });
@@ -496,11 +463,11 @@ class WallRepair {
   void refuse_touching_points() const {
     const auto &all = made_.triangles.corners;
     DisjointSets fans(3 * made_.triangles.n());  // the corners of triangles
-    const auto slot = [&](const WallSide &side, std::int64_t vertex) {
+    const auto slot = [&](const TriangleSide &side, std::int64_t vertex) {
       const Corners &of = view(all)[side.triangle];
       return 3 * side.triangle + (of[0] == vertex ? 0 : of[1] == vertex ? 1 : 2);
     };
-    for_each_wall_edge(sorted_wall_sides(all), [&](const WallSide *side, std::size_t n) {
+    for_each_edge(sorted_sides(all), [&](const TriangleSide *side, std::size_t n) {
       for (std::size_t i = 1; i < n; ++i) {
         fans.unite(slot(side[0], side->a), slot(side[i], side->a));
         fans.unite(slot(side[0], side->b), slot(side[i], side->b));
@@ -544,52 +511,6 @@ class WallRepair {
 };
 
 }  // namespace
-
-Vector3 Triangles::area_of(std::int64_t triangle) const {
-  const Vector3 &a = corner(triangle, 0);
-  return 0.5 * cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
-}
-
-Vector3 Triangles::centre_of(std::int64_t triangle) const {
-  return 1.0 / 3 * (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2));
-}
-
-double Triangles::distance(std::int64_t triangle, const Vector3 &from) const {
-  const Vector3 normal = unit_vector(area_of(triangle));
-  bool is_above = norm(normal) > 0;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3 &a = corner(triangle, k);
-    const Vector3 side = corner(triangle, (k + 1) % 3) - a, to = from - a;
-    if (dot(cross(normal, side), to) < 0) is_above = false;
-    const double square = dot(side, side);
-    const double share = square > 0 ? std::clamp(dot(to, side) / square, 0.0, 1.0) : 0;
-    nearest = std::min(nearest, norm(to - share * side));
-  }
-  return is_above ? std::min(nearest, std::abs(dot(from - corner(triangle, 0), normal))) : nearest;
-}
-
-double Triangles::size() const {
-  Box box = empty_box();
-  for (const Vector3 &point : points) box.grow(point.data());
-  return hypotenuse(box.upper[0] - box.lower[0], box.upper[1] - box.lower[1], box.upper[2] - box.lower[2]);
-}
-
-double Triangles::volume() const {
-  double volume = 0;
-  const Vector3 origin = points[0];  // near the surface, for the sake of rounding
-  for (std::int64_t i = 0; i < n(); ++i) volume += dot(centre_of(i) - origin, area_of(i)) / 3;
-  return volume;
-}
-
-std::vector<Corners> neighbours_of(const Triangles &triangles) {
-  std::vector<Corners> beyond(triangles.corners.size());
-  for_each_wall_edge(sorted_wall_sides(triangles.corners), [&](const WallSide *side, std::size_t) {
-    view(beyond)[side[0].triangle][side[0].k] = side[1].triangle;
-    view(beyond)[side[1].triangle][side[1].k] = side[0].triangle;
-  });
-  return beyond;
-}
 
 ClosedSurface read_closed_surface(const std::string &path) { return WallRepair(path).result(); }
 

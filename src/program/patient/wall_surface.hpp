@@ -7,34 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "common/array_view.hpp"
-#include "common/vectors.hpp"
+#include "common/triangles.hpp"
 
 namespace riis::program {
 
-using Corners = std::array<std::int64_t, 3>;
-
-// Triangles with common vertices.
-struct Triangles {
-  std::vector<Vector3> points;
-  std::vector<Corners> corners;
-
-  std::int64_t n() const { return static_cast<std::int64_t>(corners.size()); }
-  const Vector3 &corner(std::int64_t triangle, std::size_t k) const { return view(points)[view(corners)[triangle][k]]; }
-  // Returns half the cross product of two sides: the area times the unit normal.
-  Vector3 area_of(std::int64_t triangle) const;
-  Vector3 centre_of(std::int64_t triangle) const;
-  // Returns the distance of a point from a triangle.
-  double distance(std::int64_t triangle, const Vector3 &from) const;
-  // Returns the diagonal of the box around the points.
-  double size() const;
-  // Returns the volume inside, if the triangles are closed and face outwards.
-  double volume() const;
-};
-
-// Returns for each triangle the triangles beyond its three sides. Side k goes from corner k to the next corner. Each side must
-// have exactly two triangles.
-std::vector<Corners> neighbours_of(const Triangles &triangles);
+using riis::Triangles;
+using Corners = Triangles::Corners;
 
 // A hole that was flat enough to be closed by a fan of triangles.
 struct ClosedHole {

@@ -11,7 +11,7 @@ namespace riis::vtk {
 
 struct FlatParts {
   std::vector<std::uint8_t> is_end;  // for each face, whether it belongs to an end
-  bool are_all = false;              // the faces have hardly any other part, as those of a box
+  bool are_all = false;              // the faces have hardly any other part, as in a box
 };
 
 // Finds the flat ends of a wall: connected faces in one plane that meet the rest of the wall at a sharp rim. The faces must share
