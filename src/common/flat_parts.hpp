@@ -112,7 +112,7 @@ class Finder {
       if (part.mean_angle < unclear_mean || !part.is_behind) continue;
       add(std::move(part), parts);
     }
-    std::sort(parts.begin(), parts.end(), [](const Part &a, const Part &b) { return a.area > b.area; });
+    std::stable_sort(parts.begin(), parts.end(), [](const Part &a, const Part &b) { return a.area > b.area; });
     mark_touching(parts);
     mark_facets(parts);
     return parts;
