@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# relocatable.sh FOLDER: makes riis-VERSION-linux-PROCESSOR.tar.xz in the folder, on Debian 12. The archive has the program, all its
-# libraries except the C library, and what pictures without a display need. It runs wherever it is unpacked, without root rights.
+# relocatable.sh FOLDER: makes riis-VERSION-linux-PROCESSOR.tar.xz in the folder, on Debian 12. The archive has the program, all
+# its libraries except the C library, and what pictures without a display need. It runs wherever it is unpacked, without root
+# rights.
 #
 # Debian's VTK draws by X and OpenGL. For OpenGL the archive has a Mesa of its own, without LLVM, which alone takes 117 MB. This
 # Mesa draws by X alone, so it works with every X server. For a machine without a display the archive has Debian's Xvfb, which

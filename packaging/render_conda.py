@@ -29,4 +29,4 @@ for platform in ("linux-64", "linux-aarch64"):
         if not package.to_dict().get("tests"):
             sys.exit(f"render_conda.py: {package.package.name} has no tests")
     if names != ["libriis", "riis", "riis", "riis"]:
-        sys.exit(f"render_conda.py: for {platform} the recipe makes {names}, not libriis once and riis for each version of Python")
+        sys.exit(f"render_conda.py: for {platform} the recipe makes {names}, not libriis once and riis for each Python")
