@@ -42,7 +42,8 @@ enum {
 /* The processor's instructions that a marking uses. All of them give the same bits. */
 enum {
   RIIS_INSTRUCTIONS_AUTO = 0,     /* the best available */
-  RIIS_INSTRUCTIONS_BASELINE = 1, /* available on every processor that the library was built for: SSE2 on x86-64 */
+  RIIS_INSTRUCTIONS_BASELINE = 1, /* available on every processor that the library was built for: SSE2 on x86-64, NEON
+                                     on 64-bit ARM */
   RIIS_INSTRUCTIONS_AVX2 = 2,     /* AVX2 and FMA */
   RIIS_INSTRUCTIONS_AVX512 = 3    /* AVX-512 F, DQ, BW and VL */
 };

@@ -3,6 +3,7 @@
 # arm64.sh root FOLDER                   unpacks Debian's packages for 64-bit ARM in FOLDER/root, on the first call only
 # arm64.sh build SOURCE FOLDER           compiles everything for ARM in FOLDER/build
 # arm64.sh test SOURCE FOLDER [WORD...]  runs the tests whose names match a WORD, or the default suite, and judges the results
+# arm64.sh count SOURCE FOLDER           prints the instructions of a marking, by NEON and by the portable code
 # An emulator runs the programs for ARM. It needs 7 to 20 times as long as a processor. apt fetches the packages and dpkg unpacks
 # them. This system's own packages stay as they are, and no step needs root rights.
 set -euo pipefail
@@ -87,14 +88,58 @@ EOF
   chmod +x "$bin"/{ldd,mpicc,mpicxx,mpifort}
 }
 
-build() {
+configure() {
   local source=$1 folder=$2
   write_tools "$folder"
   write_toolchain "$folder" >"$folder/toolchain.new"
   cmp -s "$folder/toolchain.new" "$folder/toolchain.cmake" || mv "$folder/toolchain.new" "$folder/toolchain.cmake"
   cd "$source"
   cmake --preset test -B "$folder/build" -D CMAKE_TOOLCHAIN_FILE="$folder/toolchain.cmake"
-  cmake --build "$folder/build" --parallel "$(nproc)"
+}
+
+build() {
+  configure "$1" "$2"
+  cmake --build "$2/build" --parallel "$(nproc)"
+}
+
+# instructions FOLDER PROGRAM STEPS prints the instructions that the program executed, and its own line. The emulator lists each
+# block of instructions when it first meets the block. Then it writes a line for each execution of a block.
+instructions() {
+  local libraries=$1/root/usr/lib/$triplet
+  qemu-aarch64-static -L "$1/root" -E LD_LIBRARY_PATH="$libraries" -d in_asm,nochain,exec -D /dev/stdout \
+    "$1/build/tests/$2" "$3" | awk '
+    /^Trace/ { split($0, part, "/"); n += length_of[part[2]]; next }
+    /^IN:/ { is_first = 1; next }
+    /^0x/ {
+      if (is_first) block = sprintf("%016s", substr($1, 3, length($1) - 3))
+      if (is_first) gsub(" ", "0", block)
+      length_of[block] = is_first ? 1 : length_of[block] + 1
+      is_first = 0
+    }
+    /marked/ { marked = $0 }
+    END { printf "%d %s\n", n, marked }'
+}
+
+# count SOURCE FOLDER: the difference of 5 and 3 markings leaves out the start, the first marking and its preparation.
+count() {
+  local folder=$2 program n_few n_many few many marked=
+  local -A of_marking
+  configure "$1" "$folder" >/dev/null
+  cmake --build "$folder/build" --parallel "$(nproc)" --target count_markings count_markings_portable >/dev/null
+  for program in count_markings_portable count_markings; do
+    read -r n_few few < <(instructions "$folder" "$program" 3)
+    read -r n_many many < <(instructions "$folder" "$program" 5)
+    if [[ -z $few || $few != "$many" || $few != "${marked:=$few}" ]]; then
+      echo "arm64: other marks: '$marked', '$few', '$many'" >&2
+      return 1
+    fi
+    of_marking[$program]=$(((n_many - n_few) / 2))
+  done
+  awk -v portable="${of_marking[count_markings_portable]}" -v neon="${of_marking[count_markings]}" -v marked="$marked" 'BEGIN {
+    printf "%s by both\n", marked
+    printf "portable code  %.2f million instructions a marking\n", portable / 1e6
+    printf "NEON           %.2f million, %.1f %% fewer\n", neon / 1e6, 100 * (1 - neon / portable)
+  }'
 }
 
 # run_tests SOURCE FOLDER [WORD...]: PRoot shows the tests ARM's libraries where they stand in a Debian for ARM, and starts each
@@ -121,9 +166,11 @@ run_tests() {
 case ${1:-}/$# in
   root/2) make_root "$(realpath -m -- "$2")" ;;
   build/3) build "$2" "$(realpath -m -- "$3")" ;;
+  count/3) count "$2" "$(realpath -m -- "$3")" ;;
   test/[3-9]*) run_tests "$2" "$(realpath -m -- "$3")" "${@:4}" ;;
   *)
-    echo "usage: tests/debian/arm64.sh root FOLDER | build SOURCE FOLDER | test SOURCE FOLDER [WORD...]" >&2
+    echo "usage: tests/debian/arm64.sh root FOLDER | build SOURCE FOLDER | count SOURCE FOLDER |" \
+      "test SOURCE FOLDER [WORD...]" >&2
     exit 2
     ;;
 esac

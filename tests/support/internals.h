@@ -110,7 +110,7 @@ int64_t order_found_nodes(const riis_surface *surface, int64_t n_nodes, int n_th
  * code for processors without these sets, which runs on any processor. */
 enum { baseline_set = 0, portable_set = 3, n_kernel_sets = 4 };
 int kernels_there(int set);
-/* Returns whether the flags of this build keep fused multiply-add instructions out of the baseline. */
+/* Returns whether the baseline lacks fused multiply-add instructions. NEON has them, and so may flags of the build. */
 int kernels_baseline_rounds_twice(void);
 const char *kernels_name(int set);
 

@@ -114,7 +114,7 @@ int kernels_there(int set) {
 }
 
 int kernels_baseline_rounds_twice() {
-#if defined(__FMA__)
+#if defined(__FMA__) || defined(__aarch64__)
   return 0;
 #else
   return 1;

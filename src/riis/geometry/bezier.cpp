@@ -3,6 +3,8 @@
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
 #endif
 
 #include <algorithm>
@@ -27,6 +29,8 @@ typedef double Two __attribute__((vector_size(16)));
 Two root(Two a) {
 #if defined(__SSE2__)
   return _mm_sqrt_pd(a);
+#elif defined(__aarch64__)
+  return (Two)vsqrtq_f64((float64x2_t)a);
 #else
   return Two{std::sqrt(a[0]), std::sqrt(a[1])};
 #endif

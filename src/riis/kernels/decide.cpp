@@ -59,6 +59,8 @@ RIIS_INLINE Doubles root(Doubles a) {
     r.part[i] = (DoubleRegister)_mm256_sqrt_pd((__m256d)a.part[i]);
 #elif defined(RIIS_SSE2)
     r.part[i] = (DoubleRegister)_mm_sqrt_pd((__m128d)a.part[i]);
+#elif defined(RIIS_NEON)
+    r.part[i] = (DoubleRegister)vsqrtq_f64((float64x2_t)a.part[i]);
 #else
     for (int j = 0; j < Doubles::per_register; ++j) r.part[i][j] = __builtin_sqrt(a.part[i][j]);
 #endif

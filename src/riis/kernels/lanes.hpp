@@ -5,11 +5,13 @@
 // compiler may emit as separate functions.
 #pragma once
 
-// RIIS_PORTABLE_LANES selects the code for processors without any of these instruction sets. Tests run that code on other
-// processors.
+// RIIS_PORTABLE_LANES selects the code for processors without SSE2 or NEON. Tests run that code on other processors.
 #if defined(__SSE2__) && !defined(RIIS_PORTABLE_LANES)
 #define RIIS_SSE2
 #include <immintrin.h>
+#elif defined(__aarch64__) && defined(__ARM_NEON) && !defined(RIIS_PORTABLE_LANES)
+#define RIIS_NEON
+#include <arm_neon.h>
 #endif
 #include <stdint.h>
 
@@ -59,6 +61,8 @@ struct ComparisonOf<DoubleRegister> {
   typedef LongRegister type;
 };
 
+// Returns a < b ? a : b. If a is NaN, b is therefore returned. NEON differs where b alone is NaN, or where both are zeros of
+// different signs. No result depends on this: b is NaN only where a is, and nothing reads the sign of a zero.
 RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_min_ps((__m512)a, (__m512)b);
@@ -66,11 +70,14 @@ RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
   return (FloatRegister)_mm256_min_ps((__m256)a, (__m256)b);
 #elif defined(RIIS_SSE2)
   return (FloatRegister)_mm_min_ps((__m128)a, (__m128)b);
+#elif defined(RIIS_NEON)
+  return (FloatRegister)vminnmq_f32((float32x4_t)a, (float32x4_t)b);
 #else
   return a < b ? a : b;
 #endif
 }
 
+// Returns a > b ? a : b, with the same exceptions.
 RIIS_INLINE FloatRegister greatest(FloatRegister a, FloatRegister b) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_max_ps((__m512)a, (__m512)b);
@@ -78,12 +85,13 @@ RIIS_INLINE FloatRegister greatest(FloatRegister a, FloatRegister b) {
   return (FloatRegister)_mm256_max_ps((__m256)a, (__m256)b);
 #elif defined(RIIS_SSE2)
   return (FloatRegister)_mm_max_ps((__m128)a, (__m128)b);
+#elif defined(RIIS_NEON)
+  return (FloatRegister)vmaxnmq_f32((float32x4_t)a, (float32x4_t)b);
 #else
   return a > b ? a : b;
 #endif
 }
 
-// Returns a < b ? a : b. If one of the numbers is NaN, b is therefore returned.
 RIIS_INLINE DoubleRegister least(DoubleRegister a, DoubleRegister b) {
 #if defined(__AVX512F__)
   return (DoubleRegister)_mm512_min_pd((__m512d)a, (__m512d)b);
@@ -91,12 +99,13 @@ RIIS_INLINE DoubleRegister least(DoubleRegister a, DoubleRegister b) {
   return (DoubleRegister)_mm256_min_pd((__m256d)a, (__m256d)b);
 #elif defined(RIIS_SSE2)
   return (DoubleRegister)_mm_min_pd((__m128d)a, (__m128d)b);
+#elif defined(RIIS_NEON)
+  return (DoubleRegister)vminnmq_f64((float64x2_t)a, (float64x2_t)b);
 #else
   return a < b ? a : b;
 #endif
 }
 
-// Returns a > b ? a : b.
 RIIS_INLINE DoubleRegister greatest(DoubleRegister a, DoubleRegister b) {
 #if defined(__AVX512F__)
   return (DoubleRegister)_mm512_max_pd((__m512d)a, (__m512d)b);
@@ -104,6 +113,8 @@ RIIS_INLINE DoubleRegister greatest(DoubleRegister a, DoubleRegister b) {
   return (DoubleRegister)_mm256_max_pd((__m256d)a, (__m256d)b);
 #elif defined(RIIS_SSE2)
   return (DoubleRegister)_mm_max_pd((__m128d)a, (__m128d)b);
+#elif defined(RIIS_NEON)
+  return (DoubleRegister)vmaxnmq_f64((float64x2_t)a, (float64x2_t)b);
 #else
   return a > b ? a : b;
 #endif
@@ -115,6 +126,8 @@ RIIS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRe
   return (FloatRegister)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
 #elif defined(__AVX2__) && defined(__FMA__)
   return (FloatRegister)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
+#elif defined(RIIS_NEON)
+  return (FloatRegister)vfmaq_f32((float32x4_t)c, (float32x4_t)a, (float32x4_t)b);
 #else
   return a * b + c;
 #endif
@@ -126,6 +139,8 @@ RIIS_INLINE FloatRegister subtract_product(FloatRegister a, FloatRegister b, Flo
   return (FloatRegister)_mm512_fnmadd_ps((__m512)a, (__m512)b, (__m512)c);
 #elif defined(__AVX2__) && defined(__FMA__)
   return (FloatRegister)_mm256_fnmadd_ps((__m256)a, (__m256)b, (__m256)c);
+#elif defined(RIIS_NEON)
+  return (FloatRegister)vfmsq_f32((float32x4_t)c, (float32x4_t)a, (float32x4_t)b);
 #else
   return c - a * b;
 #endif
@@ -299,6 +314,20 @@ RIIS_INLINE Mask opposite(Mask a) {
   return r;
 }
 
+#if defined(RIIS_NEON)
+// Takes 0 or -1 in each of eight lanes, and returns one bit for each. NEON has no instruction for this. So each lane keeps a bit of
+// its own, and the sum of the lanes has all bits.
+RIIS_INLINE uint32_t bits(uint16x8_t mask) {
+  return vaddvq_u16(vandq_u16(mask, uint16x8_t{1, 2, 4, 8, 16, 32, 64, 128}));
+}
+// The same for sixteen lanes. A byte of each lane suffices. The bytes of lanes i and i + 8 become neighbours.
+RIIS_INLINE uint32_t bits(uint16x8_t first, uint16x8_t last) {
+  const uint8x16_t bytes = vtrn1q_u8(vreinterpretq_u8_u16(first), vreinterpretq_u8_u16(last));
+  const uint16x8_t own_bits = {0x0101, 0x0202, 0x0404, 0x0808, 0x1010, 0x2020, 0x4040, 0x8080};
+  return vaddvq_u16(vandq_u16(vreinterpretq_u16_u8(bytes), own_bits));
+}
+#endif
+
 // Returns one bit for each lane. The lowest bit belongs to the first lane.
 RIIS_INLINE uint32_t bits(Floats::Mask mask) {
 #if defined(__AVX512DQ__)
@@ -310,6 +339,9 @@ RIIS_INLINE uint32_t bits(Floats::Mask mask) {
   uint32_t r = 0;
   for (int i = 0; i < 4; ++i) r |= static_cast<uint32_t>(_mm_movemask_ps((__m128)mask.part[i])) << 4 * i;
   return r;
+#elif defined(RIIS_NEON)
+  return bits(vuzp1q_u16((uint16x8_t)mask.part[0], (uint16x8_t)mask.part[1]),
+              vuzp1q_u16((uint16x8_t)mask.part[2], (uint16x8_t)mask.part[3]));
 #else
   uint32_t r = 0;
   for (int i = 0; i < 16; ++i) r |= static_cast<uint32_t>(mask.part[i / 4][i % 4] & 1) << i;
@@ -327,6 +359,10 @@ RIIS_INLINE uint32_t bits(Doubles::Mask mask) {
   uint32_t r = 0;
   for (int i = 0; i < 4; ++i) r |= static_cast<uint32_t>(_mm_movemask_pd((__m128d)mask.part[i])) << 2 * i;
   return r;
+#elif defined(RIIS_NEON)
+  const uint32x4_t first = vuzp1q_u32((uint32x4_t)mask.part[0], (uint32x4_t)mask.part[1]);
+  const uint32x4_t last = vuzp1q_u32((uint32x4_t)mask.part[2], (uint32x4_t)mask.part[3]);
+  return bits(vuzp1q_u16(vreinterpretq_u16_u32(first), vreinterpretq_u16_u32(last)));
 #else
   uint32_t r = 0;
   for (int i = 0; i < 8; ++i) r |= static_cast<uint32_t>(mask.part[i / 2][i % 2] & 1) << i;
@@ -396,6 +432,9 @@ RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
   const __m128i first = _mm_sll_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i *>(from)), shift);
   const __m128i last = _mm_sll_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i *>(from + 8)), shift);
   return static_cast<uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(first, last)));
+#elif defined(RIIS_NEON)
+  const uint16x8_t wanted = vdupq_n_u16(static_cast<uint16_t>(1 << bit));
+  return bits(vtstq_u16(vld1q_u16(from), wanted), vtstq_u16(vld1q_u16(from + 8), wanted));
 #else
   uint32_t r = 0;
   for (int i = 0; i < 16; ++i) r |= static_cast<uint32_t>(from[i] >> bit & 1) << i;
@@ -470,6 +509,11 @@ RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
   const __m128 first = _mm_min_ps(_mm_unpacklo_ps(m[0], m[1]), _mm_unpackhi_ps(m[0], m[1]));
   const __m128 last = _mm_min_ps(_mm_unpacklo_ps(m[2], m[3]), _mm_unpackhi_ps(m[2], m[3]));
   _mm_storeu_ps(least_lane, _mm_min_ps(_mm_movelh_ps(first, last), _mm_movehl_ps(last, first)));
+#elif defined(RIIS_NEON)
+  float32x4_t m[4];
+  for (int i = 0; i < 4; ++i)
+    m[i] = (float32x4_t)least(least(of[i].part[0], of[i].part[1]), least(of[i].part[2], of[i].part[3]));
+  vst1q_f32(least_lane, vpminnmq_f32(vpminnmq_f32(m[0], m[1]), vpminnmq_f32(m[2], m[3])));
 #else
   for (int i = 0; i < 4; ++i) {
     least_lane[i] = of[i].part[0][0];
