@@ -10,6 +10,7 @@
 #   includes each file of the core compiles alone, though other builds read the core in batches or with a precompiled header
 #   tidy     clang-tidy 14 (.clang-tidy) reports nothing in the files of build-lint/compile_commands.json; each name of a
 #            using-declaration is used
+#   bench    clang warns of nothing in the benchmarks
 #   tools    the programs for the other parts are installed; status 77 if one is missing or of another version
 # shellcheck disable=SC2317 # the parts are called by their names
 set -euo pipefail
@@ -115,10 +116,24 @@ usings() {
   return "$status"
 }
 
+# compiled_files: prints the files of build-lint/compile_commands.json.
+compiled_files() { sed -nE 's/^ *"file": "(.*)",?$/\1/p' build-lint/compile_commands.json | sort -u; }
+
+# The benchmarks. The programs of ./run figures and the study of accuracy are read like the library.
+of_bench='/bench/(peers|proofs|scale|shared|stages|steps)/'
+
+bench() {
+  mapfile -t found < <(compiled_files | grep -E "$of_bench")
+  # clang-tidy needs a check beside clang's warnings. CMake gives no option for a standard that gcc has by itself, and clang 14
+  # has another one.
+  printf '%s\0' "${found[@]}" | xargs -0 -P "$(nproc)" -n 1 clang-tidy-14 -p build-lint --quiet --header-filter="^$PWD/bench/" \
+    --checks='-*,clang-diagnostic-*,modernize-use-override' --extra-arg=-std=gnu++17 >&2 2>/dev/null
+}
+
 tidy() {
   local status=0 faults
   usings || status=1
-  mapfile -t found < <(sed -nE 's/^ *"file": "(.*)",?$/\1/p' build-lint/compile_commands.json | sort -u)
+  mapfile -t found < <(compiled_files | grep -v -E "$of_bench")
   # In a unity build a batch file includes the sources, so clang-tidy treats them as headers.
   faults=$(printf '%s\0' "${found[@]}" |
     xargs -0 -P "$(nproc)" -n 1 clang-tidy-14 -p build-lint --quiet --header-filter="^$PWD/(src|include)/" 2>/dev/null) ||
