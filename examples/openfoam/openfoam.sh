@@ -235,7 +235,8 @@ openfoam_source() {
   for part in OpenFOAM OSspecific/POSIX finiteVolume meshTools dynamicMesh; do
     mkdir "$folder/src/$part/lnInclude" && (cd "$folder/src/$part/lnInclude" &&
       find .. \( -name lnInclude -o -name Make -o -name config -o -name noLink \) -prune -o -type f \
-        \( -name '*.[CHh]' -o -name '*.[ch]xx' -o -name '*.[ch]pp' -o -name '*.type' \) -exec ln -s -t . {} +) || return
+        \( -name '*.[CHch]' -o -name '*.cc' -o -name '*.hh' -o -name '*.[ch]xx' -o -name '*.[ch]pp' -o -name '*.type' \) \
+        -exec ln -s -t . {} +) || return
   done
   touch "$folder/with_dynamicMesh"
 }
