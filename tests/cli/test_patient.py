@@ -300,7 +300,8 @@ exec '{shutil.which("gmsh")}' "$@" $longer
                             *COARSE, wall=wall / "mesh.vtu", **self.leaking_gmsh(2))
         self.assertRegex(done.stdout, r"leaks? at 11 openings: the mesh is made once more, with edges of 0.855 half thicknesses")
 
-        report, done = self.made(*COARSE, "--valve", "aortic_regurgitation_severe", wall=wall / "mesh.vtu", **self.leaking_gmsh(1))
+        report, done = self.made(*COARSE, "--valve", "aortic_regurgitation_severe", wall=wall / "mesh.vtu",
+                                 **self.leaking_gmsh(1))
         self.assertRegex(done.stdout, r"leaks? at 11 openings: the mesh is made once more, with edges of 0.855 half thicknesses")
         self.assertEqual((report["n_leaking_edges"], report["open"]), (0, "open"))
         self.assertAlmostEqual(report["band_edge"], 0.9 * first["band_edge"])
