@@ -300,14 +300,17 @@ exec '{shutil.which("gmsh")}' "$@" $longer
                             *COARSE, wall=wall / "mesh.vtu", **self.leaking_gmsh(2))
         self.assertRegex(done.stdout, r"leaks? at 11 openings: the mesh is made once more, with edges of 0.855 half thicknesses")
 
-        report, done = self.made(*COARSE, "--valve", "aortic_regurgitation_severe", wall=wall / "mesh.vtu", **self.leaking_gmsh(1))
+        # The gap of a sick valve takes seconds to measure, in each command.
+        sick = ["--valve", "aortic_regurgitation_severe"] if os.environ.get("RIIS_TEST_LONG") == "1" else []
+        report, done = self.made(*COARSE, *sick, wall=wall / "mesh.vtu", **self.leaking_gmsh(1))
         self.assertRegex(done.stdout, r"leaks? at 11 openings: the mesh is made once more, with edges of 0.855 half thicknesses")
         self.assertEqual((report["n_leaking_edges"], report["open"]), (0, "open"))
         self.assertAlmostEqual(report["band_edge"], 0.9 * first["band_edge"])
         self.assertEqual(done.stdout.count("--band-edge 0.855"), 2, done.stdout)  # of riis size-field, and in the last lines
         self.assertEqual((case / "mine.txt").read_text(encoding="utf-8"), "kept")
-        self.assertEqual(report["disease"], "aortic_regurgitation_severe")
-        self.assertIn("because the band closes the gap of aortic_regurgitation_severe", done.stdout)
+        if sick:
+            self.assertEqual(report["disease"], "aortic_regurgitation_severe")
+            self.assertIn("because the band closes the gap of aortic_regurgitation_severe", done.stdout)
         # The ends of the volume mesh are found again.
         before, after = ({b["name"]: b for b in one["boundaries"]} for one in (first, report))
         self.assertEqual(sorted(before), sorted(after))
