@@ -28,7 +28,8 @@ double shim_circle_area(double radius, const double centre[2], int64_t n_lines) 
 
 double shim_uncovered_circle(double radius, const double centre[2], int64_t n_triangles, const double *corners,
                              int64_t n_lines) {
-  return uncovered_area(circle(radius, {centre[0], centre[1]}), triangles_of(n_triangles, corners), 0, n_lines);
+  return uncovered_areas(circle(radius, {centre[0], centre[1]}), triangles_of(n_triangles, corners), 0, n_lines)
+      .outside;
 }
 
 double shim_uncovered_inside(int64_t n_segments, const double *points, int64_t n_triangles, const double *corners,
@@ -37,13 +38,13 @@ double shim_uncovered_inside(int64_t n_segments, const double *points, int64_t n
   for (const double *p = points; n_segments > 0; --n_segments, p += 6)
     lines.push_back({PlanePoint{p[0], p[1]}, PlanePoint{p[3], p[4]}});
   const auto outline = closed_outline(lines);
-  return outline ? uncovered_area(*outline, triangles_of(n_triangles, corners), 0, n_lines) : -1;
+  return outline ? uncovered_areas(*outline, triangles_of(n_triangles, corners), 0, n_lines).outside : -1;
 }
 
 double shim_area_beyond(double radius, const double centre[2], int64_t n_vertices, const double *xy,
                         int64_t n_triangles, const int64_t *vertex_id, double reach) {
-  return uncovered_area(circle(radius, {centre[0], centre[1]}), cover_of_arrays(n_vertices, xy, n_triangles, vertex_id),
-                        reach);
+  const Cover cover = cover_of_arrays(n_vertices, xy, n_triangles, vertex_id);
+  return uncovered_areas(circle(radius, {centre[0], centre[1]}), cover, reach).beyond_reach;
 }
 
 double shim_edge_beyond(double radius, const double centre[2], int64_t n_vertices, const double *xy,

@@ -36,12 +36,13 @@ Orifice measured(const TriangleSet &set, const SeenOutline &from, std::int32_t k
   for (std::int64_t i = 0; i < set.n_vertices(); ++i) vertices.push_back(from.seen(set.vertex(i)));
   const Cover cover = cover_of(vertices, set.skirt < 0 ? set.vertex_id : without_leaflet(set, set.skirt));
   const double whole = area_of(from.outline);
+  const UncoveredAreas open = uncovered_areas(from.outline, cover, limits.reach);
   // A closed valve leaves nothing but rounding between its triangles and its outline.
   const auto above_rounding = [&](double area) { return area > 1e-12 * whole ? area : 0; };
-  return {above_rounding(uncovered_area(from.outline, cover, 0)),
+  return {above_rounding(open.outside),
           whole,
           uncovered_edge(from.outline, cover, limits.slit),
-          above_rounding(uncovered_area(from.outline, cover, limits.reach)),
+          above_rounding(open.beyond_reach),
           from.seen.axis(),
           kind};
 }

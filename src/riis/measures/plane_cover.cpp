@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
@@ -20,8 +21,14 @@ struct End {
   double x, along;
 };
 
+// One end of an interval where only areas are measured.
+struct Place {
+  double x;
+};
+
+template <class AnEnd>
 struct Interval {
-  End begin, end;
+  AnEnd begin, end;
 };
 
 // The outline is cut into n strips of equal height. One line along x lies in the middle of each strip.
@@ -71,32 +78,37 @@ void for_each_cut(const ScanLines &lines, PlanePoint a, PlanePoint b, const Visi
   for (std::int64_t i = lines.first_from(a[1]); i < end; ++i) visit(i, x_at(a, b, lines.y(i)));
 }
 
-using IntervalsOfLines = std::vector<std::vector<Interval>>;
+template <class AnEnd>
+using IntervalsOfLines = std::vector<std::vector<Interval<AnEnd>>>;
+using Spans = std::vector<Interval<Place>>;
+using SpansOfLines = std::vector<Spans>;
 
-IntervalsOfLines circle_spans(const Outline &circle, const ScanLines &lines) {
-  IntervalsOfLines intervals(static_cast<std::size_t>(lines.n()));
+SpansOfLines circle_spans(const Outline &circle, const ScanLines &lines) {
+  SpansOfLines spans(static_cast<std::size_t>(lines.n()));
   for (std::int64_t i = 0; i < lines.n(); ++i) {
     const double y = lines.y(i) - circle.centre[1];
     const double half = std::sqrt(std::max(0.0, (circle.radius - y) * (circle.radius + y)));
-    view(intervals)[i].push_back({{circle.centre[0] - half, 0}, {circle.centre[0] + half, 0}});
+    view(spans)[i].push_back({{circle.centre[0] - half}, {circle.centre[0] + half}});
   }
-  return intervals;
+  return spans;
 }
 
-IntervalsOfLines inside(const Outline &outline, const ScanLines &lines) {
+SpansOfLines inside(const Outline &outline, const ScanLines &lines) {
   if (outline.radius > 0) return circle_spans(outline, lines);
   std::vector<std::vector<double>> cuts(static_cast<std::size_t>(lines.n()));
   for (const auto &[a, b] : outline.edges)
     for_each_cut(lines, a, b, [&](std::int64_t i, double x) { view(cuts)[i].push_back(x); });
-  IntervalsOfLines intervals(cuts.size());
+  SpansOfLines spans(cuts.size());
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     std::sort(cuts[i].begin(), cuts[i].end());
-    for (std::size_t k = 1; k < cuts[i].size(); k += 2) intervals[i].push_back({{cuts[i][k - 1], 0}, {cuts[i][k], 0}});
+    for (std::size_t k = 1; k < cuts[i].size(); k += 2) spans[i].push_back({{cuts[i][k - 1]}, {cuts[i][k]}});
   }
-  return intervals;
+  return spans;
 }
 
-// Collects the intervals of convex shapes on the lines. A convex shape meets a line in at most one interval.
+// Collects the intervals of convex shapes on the lines. A convex shape meets a line in at most one interval. Only for areas,
+// intervals of successive shapes are joined if they meet, so there are fewer to sort.
+template <class AnEnd>
 class Covered {
  public:
   Covered(const ScanLines &lines, bool counts_equal)
@@ -105,11 +117,48 @@ class Covered {
         counts_equal_(counts_equal),
         of_shape_(intervals.size(), -1) {}
 
-  void begin_shape() { ++shape_; }
+  void add_triangles(const Cover &cover) {
+    for (const PlaneTriangle &corner : cover.triangles) {
+      ++shape_;
+      for (std::size_t k = 0; k < 3; ++k) add_edge(corner[k], corner[(k + 1) % 3]);
+    }
+  }
+
+  // Adds the points within `reach` of the rim.
+  void add_rim(const Cover &cover, double reach) {
+    if (!(reach > 0)) return;
+    for (const auto &[a, b] : cover.rim) {
+      const double dx = b[0] - a[0], dy = b[1] - a[1], size = hypotenuse(dx, dy);
+      ++shape_;
+      add_disc(a, reach);
+      add_disc(b, reach);
+      if (!(size > 0)) continue;
+      for (const double aside : {reach / size, -reach / size}) {
+        const double x = -aside * dy, y = aside * dx;
+        add_edge({a[0] + x, a[1] + y}, {b[0] + x, b[1] + y});
+      }
+    }
+  }
+
+  IntervalsOfLines<AnEnd> intervals;
+
+ private:
+  static constexpr bool has_edges = std::is_same_v<AnEnd, End>;
+
+  // Returns an end on an edge in the direction (dx, dy).
+  AnEnd end_at(double x, double dx, double dy) const {
+    if constexpr (has_edges)
+      return {x, length_along(dx, dy, counts_equal_)};
+    else
+      return {x};
+  }
 
   void add_edge(const PlanePoint &a, const PlanePoint &b) {
-    const double along = length_along(b[0] - a[0], b[1] - a[1], counts_equal_);
-    for_each_cut(lines_, a, b, [&](std::int64_t i, double x) { widen(i, {x, along}); });
+    AnEnd end = end_at(0, b[0] - a[0], b[1] - a[1]);
+    for_each_cut(lines_, a, b, [&](std::int64_t i, double x) {
+      end.x = x;
+      widen(i, end);
+    });
   }
 
   void add_disc(const PlanePoint &centre, double radius) {
@@ -117,25 +166,34 @@ class Covered {
     for (std::int64_t i = lines_.first_from(centre[1] - radius); i < end; ++i) {
       const double y = lines_.y(i) - centre[1];
       const double half = std::sqrt(std::max(0.0, (radius - y) * (radius + y)));
-      const double along = length_along(y, half, counts_equal_);  // a circle runs at right angles to its radius (half,
-                                                                  // y)
-      widen(i, {centre[0] - half, along});
-      widen(i, {centre[0] + half, along});
+      // A circle runs at right angles to its radius (half, y).
+      AnEnd at = end_at(centre[0] - half, y, half);
+      widen(i, at);
+      at.x = centre[0] + half;
+      widen(i, at);
     }
   }
 
-  IntervalsOfLines intervals;
-
- private:
-  void widen(std::int64_t i, const End &at) {
+  void widen(std::int64_t i, const AnEnd &at) {
+    std::vector<Interval<AnEnd>> &line = view(intervals)[i];
     if (view(of_shape_)[i] != shape_) {
       view(of_shape_)[i] = shape_;
-      view(intervals)[i].push_back({at, at});
+      if constexpr (!has_edges) join_last(line);
+      line.push_back({at, at});
       return;
     }
-    Interval &interval = view(intervals)[i].back();
+    Interval<AnEnd> &interval = line.back();
     if (at.x < interval.begin.x) interval.begin = at;
     if (at.x > interval.end.x) interval.end = at;
+  }
+
+  static void join_last(Spans &line) {
+    if (line.size() < 2) return;
+    const Interval<Place> last = line.back();
+    Interval<Place> &before = line[line.size() - 2];
+    if (last.begin.x > before.end.x || last.end.x < before.begin.x) return;
+    before = {{std::min(before.begin.x, last.begin.x)}, {std::max(before.end.x, last.end.x)}};
+    line.pop_back();
   }
 
   const ScanLines &lines_;
@@ -144,71 +202,73 @@ class Covered {
   std::int64_t shape_ = -1;
 };
 
-// Returns the intervals within `reach` of the triangles. Their points lie in a triangle, or within `reach` of the rim.
-IntervalsOfLines covered(const Cover &cover, double reach, const ScanLines &lines, bool counts_equal) {
-  Covered made(lines, counts_equal);
-  for (const PlaneTriangle &corner : cover.triangles) {
-    made.begin_shape();
-    for (std::size_t k = 0; k < 3; ++k) made.add_edge(corner[k], corner[(k + 1) % 3]);
-  }
-  if (!(reach > 0)) return std::move(made.intervals);
-  for (const auto &[a, b] : cover.rim) {
-    const double dx = b[0] - a[0], dy = b[1] - a[1], size = hypotenuse(dx, dy);
-    made.begin_shape();
-    made.add_disc(a, reach);
-    made.add_disc(b, reach);
-    if (!(size > 0)) continue;
-    for (const double aside : {reach / size, -reach / size}) {
-      const double x = -aside * dy, y = aside * dx;
-      made.add_edge({a[0] + x, a[1] + y}, {b[0] + x, b[1] + y});
-    }
-  }
-  return std::move(made.intervals);
-}
-
-double total(const std::vector<Interval> &intervals) {
+double total(const Spans &spans) {
   double sum = 0;
-  for (const Interval &interval : intervals) sum += interval.end.x - interval.begin.x;
+  for (const Interval<Place> &span : spans) sum += span.end.x - span.begin.x;
   return sum;
 }
 
-struct Uncovered {
-  double length = 0, edge = 0;
-};
-
-// Measures the part of disjoint intervals that no cover contains. Also measures the edges of the covers at the ends of this part.
-Uncovered without(const std::vector<Interval> &intervals, std::vector<Interval> covers) {
-  std::sort(covers.begin(), covers.end(), [](const Interval &a, const Interval &b) { return a.begin.x < b.begin.x; });
-  Uncovered made;
-  for (const Interval &interval : intervals) {
-    End at{interval.begin.x, 0};
-    for (const Interval &cover : covers) {
-      if (cover.begin.x >= interval.end.x) break;
-      if (cover.begin.x > at.x) {
-        made.length += cover.begin.x - at.x;
-        made.edge += at.along + cover.begin.along;
-      }
-      if (cover.end.x > at.x) at = cover.end;
-    }
-    if (at.x < interval.end.x) {
-      made.length += interval.end.x - at.x;
-      made.edge += at.along;
-    }
-  }
-  return made;
+template <class AnEnd>
+void sort_by_begin(std::vector<Interval<AnEnd>> &intervals) {
+  std::sort(intervals.begin(), intervals.end(),
+            [](const Interval<AnEnd> &a, const Interval<AnEnd> &b) { return a.begin.x < b.begin.x; });
 }
 
-Uncovered uncovered(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines, bool counts_equal) {
-  const ScanLines lines(outline, n_lines);
-  const IntervalsOfLines insides = inside(outline, lines);
-  IntervalsOfLines covers = covered(cover, reach, lines, counts_equal);
-  Uncovered sum;
-  for (std::size_t i = 0; i < insides.size(); ++i) {
-    const Uncovered of_line = without(insides[i], std::move(covers[i]));
-    sum.length += of_line.length;
-    sum.edge += of_line.edge;
+// Sorts the spans, and joins those that meet.
+void join(Spans &spans) {
+  sort_by_begin(spans);
+  std::size_t n = 0;
+  for (const Interval<Place> &span : spans) {
+    if (n > 0 && span.begin.x <= spans[n - 1].end.x)
+      spans[n - 1].end.x = std::max(spans[n - 1].end.x, span.end.x);
+    else
+      spans[n++] = span;
   }
-  return {sum.length * lines.spacing(), sum.edge * lines.spacing()};
+  spans.resize(n);
+}
+
+// Measures the part of disjoint spans that no cover contains. The covers are joined.
+double length_without(const Spans &spans, const Spans &covers) {
+  double length = 0;
+  for (const Interval<Place> &span : spans) {
+    double at = span.begin.x;
+    for (const Interval<Place> &cover : covers) {
+      if (cover.begin.x >= span.end.x) break;
+      if (cover.begin.x > at) length += cover.begin.x - at;
+      at = std::max(at, cover.end.x);
+    }
+    if (at < span.end.x) length += span.end.x - at;
+  }
+  return length;
+}
+
+// Measures the edges of the covers at the ends of the part of disjoint spans that no cover contains.
+double edge_without(const Spans &spans, std::vector<Interval<End>> covers) {
+  sort_by_begin(covers);
+  double edge = 0;
+  for (const Interval<Place> &span : spans) {
+    End at{span.begin.x, 0};
+    for (const Interval<End> &cover : covers) {
+      if (cover.begin.x >= span.end.x) break;
+      if (cover.begin.x > at.x) edge += at.along + cover.begin.along;
+      if (cover.end.x > at.x) at = cover.end;
+    }
+    if (at.x < span.end.x) edge += at.along;
+  }
+  return edge;
+}
+
+// Measures the edge by lines along x.
+double uncovered_edge_along_x(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines,
+                              bool counts_equal) {
+  const ScanLines lines(outline, n_lines);
+  const SpansOfLines insides = inside(outline, lines);
+  Covered<End> covered(lines, counts_equal);
+  covered.add_triangles(cover);
+  covered.add_rim(cover, reach);
+  double edge = 0;
+  for (std::size_t i = 0; i < insides.size(); ++i) edge += edge_without(insides[i], std::move(covered.intervals[i]));
+  return edge * lines.spacing();
 }
 
 PlanePoint swapped(const PlanePoint &p) { return {p[1], p[0]}; }
@@ -299,13 +359,28 @@ double area_of(const Outline &outline, std::int64_t n_lines) {
   return length * lines.spacing();
 }
 
-double uncovered_area(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines) {
-  return uncovered(outline, cover, reach, n_lines, true).length;
+UncoveredAreas uncovered_areas(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines) {
+  const ScanLines lines(outline, n_lines);
+  const SpansOfLines insides = inside(outline, lines);
+  Covered<Place> covered(lines, true);
+  const auto measured = [&] {
+    double length = 0;
+    for (std::size_t i = 0; i < insides.size(); ++i) {
+      join(covered.intervals[i]);
+      length += length_without(insides[i], covered.intervals[i]);
+    }
+    return length * lines.spacing();
+  };
+  covered.add_triangles(cover);
+  UncoveredAreas areas{measured(), 0};
+  covered.add_rim(cover, reach);
+  areas.beyond_reach = reach > 0 ? measured() : areas.outside;
+  return areas;
 }
 
 double uncovered_edge(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines) {
-  return uncovered(outline, cover, reach, n_lines, true).edge +
-         uncovered(swapped(outline), swapped(cover), reach, n_lines, false).edge;
+  return uncovered_edge_along_x(outline, cover, reach, n_lines, true) +
+         uncovered_edge_along_x(swapped(outline), swapped(cover), reach, n_lines, false);
 }
 
 }  // namespace riis

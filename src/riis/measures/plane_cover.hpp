@@ -46,10 +46,15 @@ inline constexpr std::int64_t n_edge_lines = 512;
 
 double area_of(const Outline &outline, std::int64_t n_lines = n_scan_lines);
 
-// Returns the area inside the outline that is farther than `reach` from all triangles.
-double uncovered_area(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines = n_scan_lines);
+// Areas inside the outline.
+struct UncoveredAreas {
+  double outside = 0;       // outside all triangles
+  double beyond_reach = 0;  // farther than a reach from all triangles
+};
+UncoveredAreas uncovered_areas(const Outline &outline, const Cover &cover, double reach,
+                               std::int64_t n_lines = n_scan_lines);
 
-// Returns the length of the edge of the area that uncovered_area measures. The outline itself does not count. Lines along x
+// Returns the length of the edge of the area beyond the reach. The outline itself does not count. Lines along x
 // measure the steep edges, and lines along y measure the flat edges. Each end of an edge has an error of at most one spacing.
 double uncovered_edge(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines = n_edge_lines);
 
