@@ -13,7 +13,6 @@
 #include "program/commands/commands.hpp"
 #include "program/input/opening_law.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/bridged_gap.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/outputs.hpp"
 

@@ -12,7 +12,6 @@
 #include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
 #include "program/input/wall.hpp"
-#include "program/mark/bridged_gap.hpp"
 #include "program/mark/mesh_marking.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/svmultiphysics/uris_solver.hpp"

@@ -71,4 +71,9 @@ std::string place_text(const ValveOptions &options, const double *point, double 
 // Returns a number as a user would write it.
 std::string shown(double number);
 
+// Warns if bumps (docs/theory/bumps.md) leave a gap in the closed valve that is nowhere wider than the bridge between two bands.
+// The gap is that of the orifice, seen along its axis. The slits that the valve also has without bumps do not count. `part`
+// begins the warning.
+void warn_of_bridged_gap(const ValveOptions &options, const riis_valve *valve, const std::string &part);
+
 }  // namespace riis::program
