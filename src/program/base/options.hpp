@@ -175,7 +175,7 @@ struct ExportOptions : ValveOptions {
   std::string folder;
   std::string mesh;  // the mesh of the solver's run, for a forecast; "": none
   double time_step = 0;
-  // The density and the viscosity are for the forecast. Their defaults are those of blood.
+  // The density and the viscosity are for the forecast. By default they are blood's.
   std::optional<Amount> given_resistance, given_density, given_viscosity;
   double resistance = 0, density = 0, viscosity = 0;  // in the solver's units, g, cm and s
   double to_solver = 1;  // the factor from the mesh's unit of length to the solver's, which is cm
@@ -196,7 +196,7 @@ enum LandmarkWarp : std::int32_t { no_warp, exact_warp, smoothed_warp };
 struct PlaceOptions : ValveOptions {
   std::string landmarks, mesh;                                // files; the mesh may be ""
   bool has_valve = false;                                     // whether the user named the kind
-  std::string axes;                                           // of the mesh, or "" for those of the landmarks
+  std::string axes;                                           // of the mesh, or "" for the landmarks' axes
   std::int32_t warp_choice = 0;                               // a LandmarkWarp
   std::optional<double> noise;                                // noise in the unit of --unit or of the landmarks
   std::optional<std::vector<double>> flow;                    // in the mesh's axes

@@ -13,7 +13,7 @@ namespace riis::program {
 
 enum class Unit { metre, centimetre, millimetre };
 
-// The next functions return the names of units: those in options, such as "m", and those in messages, such as "metres".
+// The next functions return the names of units. Options have names such as "m", messages such as "metres".
 const std::vector<std::string> &unit_names();
 const char *name_of(Unit unit);
 const char *words_of(Unit unit);

@@ -92,7 +92,7 @@ class FaceCheck {
     return view(places_)[triangles_.vertex_id[3 * face + k % 3]];
   }
 
-  // Returns the faces without those that have the corners of an earlier face.
+  // Returns the faces, but of faces with equal corners only the first.
   std::vector<std::int64_t> different_faces() const {
     using Key = std::array<std::int64_t, 3>;
     std::vector<std::pair<Key, std::int64_t>> sorted;

@@ -56,7 +56,7 @@ enum class Reader { program, python };
 struct PlaceRequest {
   Reader reader = Reader::program;
   std::optional<Unit> unit;     // to which lengths are converted
-  std::string axes;             // "LPS" or "RAS", to which coordinates are converted; "": those of the landmarks
+  std::string axes;             // "LPS" or "RAS", to which coordinates are converted; "": the landmarks' axes
   std::optional<double> noise;  // in the unit after the conversion
   std::optional<std::vector<double>> flow;  // in the axes after the conversion
 };

@@ -42,7 +42,7 @@ Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valv
   return joined_surface(valves, &together);
 }
 
-// Adds the numbers of a piece or a rank to those of others. The numbers of nodes are counted by NodeCounts.
+// Adds the numbers of a piece or a rank to the sums. NodeCounts counts the nodes.
 void combine(riis_mark_stats &all, const riis_mark_stats &stats) {
   if (all.n_threads == 0) all.search = stats.search;
   all.complete = all.complete && stats.complete;
@@ -341,7 +341,7 @@ void Marking::judge() {
   report_.seconds.leaks += stage.seconds();
 }
 
-// Fills the report of a valve. The marks are those of its least opening.
+// Fills the report of a valve. The marks were found at its least opening.
 void Marking::report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts) {
   ValveReport &report = report_.valves[i];
   const MovingValve &valve = valves_[i];

@@ -90,7 +90,7 @@ class PieceNodes {
   const std::uint8_t *mask() const { return mask_.empty() ? nullptr : mask_.data(); }
   const riis_vtk_sharing &counts() const { return counts_; }
   bool is_whole() const { return is_whole_; }
-  // Both are those of all nodes but ghosts.
+  // Ghosts do not count in the box and the moments.
   const Box &box() const { return box_; }
   const Moments &moments() const { return moments_; }
   bool has_ids() const { return counts_.has_global_ids != 0; }
@@ -181,7 +181,7 @@ using JoinedRegions = std::array<PieceRegion, 2>;
 
 // The shared nodes of all pieces, each counted once.
 struct MatchedNodes {
-  std::int64_t n_nodes = 0, n_in_several = 0;  // all nodes, and those that more than one piece has
+  std::int64_t n_nodes = 0, n_in_several = 0;  // all nodes, and the nodes that more than one piece has
   std::vector<JoinedRegions> joined{};
 
   // Returns how many regions are a part of another region.
