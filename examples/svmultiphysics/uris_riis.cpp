@@ -200,8 +200,8 @@ Closest closest_points(const ComMod &com_mod, const riis_surface *surface, const
   return closest;
 }
 
-// Sets the distances to the leaflets and the leaflets' velocity at the nodes. The sign decides when the valve opens, so it is
-// the solver's: the sign for the triangle with the nearest middle.
+// Sets the distances to the leaflets and the leaflets' velocity at the nodes. The sign decides when the valve opens. So the
+// solver's rule gives it: the triangle with the nearest middle decides.
 void set_nodes(const ComMod &com_mod, urisType &uris, const Triangles &leaflets) {
   const auto nodes = nodes_in_box(com_mod, uris.x);
   const Closest exact = closest_points(com_mod, leaflets.surface, nodes);

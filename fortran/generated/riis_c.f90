@@ -586,7 +586,7 @@ module riis_c
 
   !> A leaflet of a surface. Lengths are in mesh units.
   type, bind(c) :: riis_leaflet
-    integer(c_int64_t) :: n_triangles !< the number of its triangles, without those of zero area
+    integer(c_int64_t) :: n_triangles !< the number of its triangles with an area above 0
     real(c_double) :: area            !< the area of its triangles
     real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 that only one of its patches has.
                                       !! For a surface from arrays: the edges that only one of its triangles has,

@@ -17,7 +17,7 @@ extern "C" {
 
 /* A leaflet of a surface. Lengths are in mesh units. */
 typedef struct riis_leaflet {
-  int64_t n_triangles; /* the number of its triangles, without those of zero area */
+  int64_t n_triangles; /* the number of its triangles with an area above 0 */
   double area;         /* the area of its triangles */
   double free_edge;    /* the length of its free edge: the sides v = 1 that only one of its patches has. For a surface
                           from arrays: the edges that only one of its triangles has, without the longest closed line of

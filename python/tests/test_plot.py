@@ -74,7 +74,7 @@ def test_a_new_picture_looks_at_the_whole_valve(surface, tmp_path):
 
 @pytest.mark.parametrize("parallel, zoom, unit", [(True, 1.0, "mm"), (False, 1.0, ""), (False, 3.7, "cm"), (True, 0.02, None)])
 def test_a_scale_bar_is_as_long_as_it_says(parallel, zoom, unit, surface, tmp_path):
-    """The line's length in the picture is the renderer's own projection of this length at the camera's focal point."""
+    """The renderer projects a length at the camera's focal point. The line in the picture is as long as this projection."""
     plotter = pyvista.Plotter(off_screen=True, window_size=(700, 500))
     plotter.camera_position = [(4.0, -7.0, 5.0), (0.3, 0.2, 0.1), (0.0, 0.0, 1.0)]
     plotter.camera.parallel_projection = parallel

@@ -16,7 +16,7 @@ def mesh(n, radius=1.3, length=4.0, n_z=None, middle=0.0):
     n_z = max(3, round(n * length / (2.0 * radius))) if n_z is None else n_z
     a = numpy.linspace(-1.0, 1.0, n)
     z, y, x = numpy.meshgrid(middle + numpy.linspace(-length / 2.0, length / 2.0, n_z), a, a, indexing="ij")
-    # The square and its squares |x|, |y| <= r become the disc and its circles.
+    # The square becomes the disc, and each smaller square |x|, |y| <= r becomes a circle.
     ring = numpy.maximum(numpy.abs(x), numpy.abs(y))
     turn = numpy.where(numpy.abs(x) >= numpy.abs(y), numpy.pi / 4 * y / numpy.where(x == 0, 1.0, x), 0.0)
     other = numpy.pi / 2 - numpy.pi / 4 * x / numpy.where(y == 0, 1.0, y)

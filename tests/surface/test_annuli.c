@@ -119,11 +119,14 @@ static int compare(const void *a, const void *b) {
 }
 
 TEST(annuli_are_fitted_or_refused) {
-  enum { most_trials = 200 };
-  const int n = is_long_test() ? most_trials : 20;
+  /* From one start, the fit of these annuli ends at a lean that is not the best one. */
+  static const uint64_t with_two_minima[] = {8067555987785431393u, 5133953779223791632u, 940912489951417561u};
+  enum { n_known = sizeof with_two_minima / sizeof *with_two_minima, most_trials = 200 + n_known };
+  const int n = is_long_test() ? most_trials : 20 + n_known;
   static double errors[most_trials], leans[most_trials];
   int n_accepted = 0, n_behind = 0;
   for (int trial = 0; trial < n; ++trial) {
+    if (trial >= n - n_known) rng.state = with_two_minima[n - 1 - trial];
     const unsigned long long seed = rng.state;
     const shape s = random_shape();
     marked m = marked_annulus(&s, (int)between(8, 25), 0.3);

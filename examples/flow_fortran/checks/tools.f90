@@ -43,7 +43,7 @@ contains
     print '(a)', ''
   end subroutine demand
 
-  !> Sets the vessel of in_vessel: its kind, which is a kind of valve, and its placement, which is the valve's placement.
+  !> Sets the vessel of in_vessel. A vessel has the name of a kind of valve as its kind, and the valve's placement.
   subroutine place_vessel(kind, place, axis, angle)
     character(len=*), intent(in) :: kind
     real(dp), intent(in) :: place(3), axis(3), angle

@@ -163,7 +163,7 @@ class ReadLandmarks(NamedTuple):
 
 
 def read_file(path: str | os.PathLike[str], unit: str | None, axes: str | None) -> ReadLandmarks:
-    """Reads a file of landmarks. unit and axes are those of the mesh. None: the file's."""
+    """Reads a file of landmarks. unit and axes belong to the mesh. By default the file's apply."""
     name = os.fspath(path)
     turned = axes if axes in ("LPS", "RAS") else None
     found = read_landmarks(name, Path(path).read_text("utf-8", "replace"), unit, turned)

@@ -278,7 +278,7 @@ class LandmarkedValves(Valves):
         result.
 
         points  (n, 3), in the mesh's unit, or what riis.fit takes
-        free    names of the sizes to fit. None: those of ``sizes_to_fit``
+        free    names of the sizes to fit. Without names, ``sizes_to_fit`` chooses them
         """
         state = self._at(i).state
         if state.surface is not None:

@@ -171,7 +171,7 @@ class ValveState:
     scale: float
     rotation: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 0.0)  #: an axis, and degrees
     origin: Vector = (0.0, 0.0, 0.0)  #: the place of the valve's own origin, mesh units
-    parameters: Mapping[str, Value] = field(default_factory=lambda: MappingProxyType({}))  #: those that were set
+    parameters: Mapping[str, Value] = field(default_factory=lambda: MappingProxyType({}))  #: only parameters that were set
     triangulation: Literal["adapted", "fixed"] = "adapted"
     cycle: Cycle | None = None
     surface: SurfaceSource | None = None

@@ -64,7 +64,7 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
     saved   a saved view to open, or None
     unit    of the meshes: "mm", "cm" or "m". None: not known
     folder  the folder to which the page writes, and from which relative paths start
-    cells_where  NAME=VALUES: the cells of the mesh to take. None: all, or those of the saved view
+    cells_where  NAME=VALUES: the cells of the mesh to take; by default all cells, or the saved view's
     wall    the wall to read, or None. With a wall there may be no mesh
     placed  the file of a placed valve to open, or None
     landmarks  a file of landmarks to read, or None

@@ -149,7 +149,7 @@ def placement_of(valve: Any, unit: str) -> list[dict[str, Any]]:
 
 
 def landmarks_of(kind: str, points: Any) -> list[dict[str, Any]]:
-    """Returns the rows of the landmarks: those that are set, and those that a kind may have, in the order of its list."""
+    """Returns a row for each landmark that is set, or that a kind may have, in the order of the kind's list."""
     needed = set(missing(kind, points))
     rows, done = [], set()
 

@@ -575,7 +575,7 @@ class Scene:
     def save_picture(self, path: str, size: tuple[int, int] | None = None) -> None:
         """Writes the picture as .png, without what helps to place the valve: lights, the gap, the axis and clicked points.
 
-        size  width and height in pixels. None: those of the page. Lines, points and letters grow with the height
+        size  width and height in pixels, by default the page's. Lines, points and letters grow with the height
         """
         with self.for_a_report(size):
             self.plotter.screenshot(path)

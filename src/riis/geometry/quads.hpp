@@ -46,7 +46,7 @@ struct LevelledGrid {
   QuadGrid grid;
   Vector<int> levels;
   std::int64_t n_triangles = 0;  // for one image, including triangles that turn out to have no area
-  std::int64_t n_collapsed = 0;  // those of them at the sides that have two equal corners, and therefore surely no area
+  std::int64_t n_collapsed = 0;  // triangles at the sides with two equal corners, and therefore surely without area
   std::int64_t n_vertices = 0;
   double error_bound = 0;  // bounds the distance between the triangles and the smooth patch
 };

@@ -371,6 +371,10 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
         made.models[0]->sizes[horn_size].value *= -1;
     }
   }
+  // A few points with noise can hold the fit at a lean that is not the best one.
+  const Pose upright = made.starts[0];
+  for (const double lean : {-10.0, 10.0})
+    made.starts.push_back({upright.rotation * rotation_about({1, 0, 0}, lean), upright.translation});
   made.check = [=](const LandmarkModel &fitted, const LandmarkFit &fit, const Landmarks &given) {
     if (!is_side_known) check_side(fitted, given);
     check_axis(fit, given, normal);

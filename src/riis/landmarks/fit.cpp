@@ -198,7 +198,8 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
     problem.has_differences = true;
     std::vector<double> x = problem.start();
     const double cost = problem.minimize(x).cost;
-    if (!(cost < least)) continue;
+    // A later start that lowers the sum of squares by less than the noise found the same minimum, but for rounding.
+    if (!(cost < least - landmarks.noise * landmarks.noise)) continue;
     least = cost;
     best = problem.pose_at(x);
     best_sizes = model.sizes;

@@ -67,7 +67,7 @@ class Grid {
     GridIndex index;
     return find(number, index);
   }
-  // Returns the coordinates of the node with a number. A number without a node gives those of the first node.
+  // Returns the coordinates of the node with a number. A number without a node gives the first node's coordinates.
   Vec3 operator[](std::int64_t number) const {
     GridIndex index;
     find(number, index);

@@ -12,7 +12,7 @@
 namespace riis {
 namespace {
 
-// Positions in the list of specs below. First come the parameters of the whole valve, then those of each cusp, and last those of
+// Positions in the list of specs below. First come parameters of the whole valve, then of each cusp, and last of
 // the open state.
 // clang-format off
 enum General {

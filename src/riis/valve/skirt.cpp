@@ -25,7 +25,7 @@ constexpr double most_between_ends = 0.5;
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
 // The sine also falls to 0 if the sine of the line's angle to the axis is below this.
 constexpr double least_sine_to_axis = 0.2;
-// A side leans as its tangent does if the sine of its rise is at least this. A flatter side leans less, and a side perpendicular
+// A side whose rise has at least this sine leans as its tangent does. A flatter side leans less, and a side perpendicular
 // to the axis does not lean.
 constexpr double least_rise = 0.5;
 // A skirt that is turned at rest keeps its place there, as long as the warp turns it by less than this. In between it goes over.

@@ -52,7 +52,7 @@ vtkDataArray *numbers_of_cells(vtkUnstructuredGrid *grid, const std::string &nam
   return array && array->GetNumberOfComponents() == 1 ? array : nullptr;
 }
 
-// A cell of gmsh's may be in several physical groups. The array of the first group is followed by those of further groups.
+// A cell of gmsh's may be in several physical groups. Arrays of further groups follow the array of the first group.
 std::vector<vtkDataArray *> arrays_of(vtkUnstructuredGrid *grid, const std::string &name) {
   std::vector<vtkDataArray *> arrays;
   vtkDataArray *next = numbers_of_cells(grid, name);

@@ -51,13 +51,13 @@ struct riis_vtk_mesh {
   // If there are centres, they are the mesh's nodes, and data of nodes is data of cells.
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
   std::vector<riis::vtk::RegionName> region_names = {};  // of gmsh's physical groups of volumes
-  riis::vtk::Regions regions = {};                       // those that riis_vtk_mesh_find_regions gave
+  riis::vtk::Regions regions = {};                       // as riis_vtk_mesh_find_regions found them
   // If only a part of the cells was kept, the ids of its nodes and cells in the whole mesh. Otherwise empty.
   std::vector<std::int64_t> whole_node_ids = {}, whole_cell_ids = {};
 
   std::int64_t n_nodes() const { return centers ? n_cells() : axes ? axes->n_nodes() : data->GetNumberOfPoints(); }
   std::int64_t n_cells() const { return axes ? axes->n_cells() : data->GetNumberOfCells(); }
-  // Whether the nodes are those of axes.
+  // Whether the nodes lie on axes.
   bool is_of_axes() const { return axes && !centers; }
   vtkDataSetAttributes *node_data() const;
   void make_points() const;           // of axes, unless they are made

@@ -57,7 +57,7 @@ std::vector<vtkIdType> ids_of(const Chosen &chosen) {
   return ids;
 }
 
-// Returns ids in the whole mesh. `whole` has those of the mesh, or is empty if the mesh is whole.
+// Returns ids in the whole mesh. `whole` has the ids of the mesh's nodes, or is empty if the mesh is whole.
 std::vector<std::int64_t> whole_ids(const std::vector<vtkIdType> &ids, const std::vector<std::int64_t> &whole) {
   std::vector<std::int64_t> made(ids.begin(), ids.end());
   if (!whole.empty())
@@ -97,7 +97,7 @@ void add_cell(vtkUnstructuredGrid *grid, vtkIdType cell, const std::vector<vtkId
   part->InsertNextCell(type, nodes);
 }
 
-// Makes a grid of cells and of the chosen nodes, among which are those of the cells.
+// Makes a grid of cells and of the chosen nodes. The chosen nodes include the cells' nodes.
 vtkSmartPointer<vtkUnstructuredGrid> part_of(const riis_vtk_mesh &mesh, const std::vector<vtkIdType> &cells,
                                              const Chosen &chosen) {
   vtkUnstructuredGrid *const grid = mesh.grid();

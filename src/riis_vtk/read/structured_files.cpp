@@ -30,7 +30,7 @@
 namespace riis::vtk {
 namespace {
 
-// Returns the corners of the first cell. Adding a node's number gives those of the cell that begins at this node.
+// Returns the corners of the first cell. Adding a node's number gives the corners of the cell that begins at this node.
 std::vector<std::int64_t> corners_of_first(const std::array<std::int64_t, 3> &n) {
   std::vector<std::int64_t> corners = {0};
   std::int64_t stride = 1;
