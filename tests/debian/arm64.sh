@@ -109,7 +109,7 @@ run_tests() {
   # code crashes in the emulator.
   env PATH="$folder/bin:$PATH" OMP_WAIT_POLICY=passive GALLIUM_DRIVER=softpipe CMAKE_TOOLCHAIN_FILE="$folder/toolchain.cmake" \
     PKG_CONFIG_SYSROOT_DIR="$folder/root" PKG_CONFIG_LIBDIR="$folder/root$libraries/pkgconfig:$folder/root/usr/share/pkgconfig" \
-    proot -q qemu-aarch64-static -r / -w "$folder/build" -b "$folder/root$libraries:$libraries" \
+    python3 -B "$source/tests/debian/older_calls.py" proot -q qemu-aarch64-static -r / -w "$folder/build" -b "$folder/root$libraries:$libraries" \
     -b "$folder/root/usr/lib/ld-linux-aarch64.so.1:/usr/lib/ld-linux-aarch64.so.1" \
     ctest --parallel "$(nproc)" --timeout 6000 --output-on-failure --test-output-size-passed 1000000 \
     --output-junit "$folder/results.xml" "${select[@]}" || status=$?
