@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """test_solver_cases.py WRITE_SOLVER_CASE TEXTS: reads the folders of solvers back, and runs stand-ins of the solvers."""
+import base64
 import importlib.util
 import json
 import math
 import os
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
@@ -13,6 +15,7 @@ import tempfile
 import types
 import unittest
 import xml.etree.ElementTree as xml
+import zlib
 
 WRITE, TEXTS = "", pathlib.Path()
 MMHG = 133.322
@@ -225,7 +228,9 @@ class Cases(unittest.TestCase):
         # It has two steps of backward flow, and one of forward flow, which it writes twice as a continued run does.
         stand_in.write_text("#!/bin/sh\ncp \"$1\" ran.xml && mkdir -p 1-procs && : >1-procs/stFile_last.bin\n"
                             "printf 'step time inlet outlet wall\\n\\n 1 .002 1.5 -1.5 0\\n 2 .004 0.5 -0.5 0\\n"
-                            " 3 .006 -100 100 0\\n 3 .006 -400 400 0\\n' >1-procs/B_NS_Velocity_flux.txt\n", encoding="ascii")
+                            " 3 .006 -100 100 0\\n 3 .006 -400 400 0\\n' >1-procs/B_NS_Velocity_flux.txt\n"
+                            "sed '/ [123] /s/ [^ ]*$/ 0/' 1-procs/B_NS_Velocity_flux.txt >1-procs/B_NS_Pressure_average.txt\n",
+                            encoding="ascii")
         stand_in.chmod(0o755)
 
         def allrun(*words, status=0, program=str(stand_in)):
@@ -238,12 +243,77 @@ class Cases(unittest.TestCase):
                       allrun(status=1, program="/no/solver"))
         self.assertIn("'two' is not a number of ranks: write ./Allrun 2", allrun("two", status=2))
         self.assertIn("ended with the status 1", allrun(status=1, program="false"))
-        self.assertIn("0.8 ml forward, 0.0 ml back, at most 400 ml/s at 0.006 s", allrun())
+        said = allrun()
+        self.assertIn("the valve does not move\nflow through the inlet: 0.8 ml forward, 0.0 ml back (0.5 %), at most 400 ml/s at "
+                      "0.006 s\n", said)
         self.assertIn("<Continue_previous_simulation> false", (folder / "ran.xml").read_text())
         self.assertIn("the run goes on", allrun())
         self.assertIn("<Continue_previous_simulation> true", (folder / "ran.xml").read_text())
         self.assertIn("1-procs has a run on another number of ranks. Continue it by ./Allrun 1 or remove it",
                       allrun("2", status=1))
+
+    @staticmethod
+    def leaflets(path, points, is_text):
+        """Writes a file of leaflets as the solver does."""
+        data = struct.pack(f"<{len(points)}d", *points)
+        parts = [data[i:i + 4096] for i in range(0, len(data), 4096)]
+        packed = [zlib.compress(part) for part in parts]
+        head = struct.pack(f"<{3 + len(parts)}I", len(parts), 4096, len(parts[-1]) % 4096, *map(len, packed))
+        body = b"".join(packed)
+        if is_text:
+            head, body = base64.b64encode(head), base64.b64encode(body)
+        encoding = "base64" if is_text else "raw"
+        path.write_bytes(b'<DataArray type="Float64" Name="other" format="appended" offset="0"/>\n<DataArray type="Float64" '
+                         b'Name="coordinates" NumberOfComponents="3" format="appended" RangeMin="0" offset="3"/>\n'
+                         + f'<AppendedData encoding="{encoding}">\n   _123'.encode() + head + body + b"\n</AppendedData>")
+
+    def test_svmultiphysics_report(self):
+        numbers = self.numbers("svmultiphysics")
+        self.write("svmultiphysics", numbers)
+        folder = pathlib.Path(numbers["solver"])
+        text, results = (folder / "solver.xml").read_text(), folder / "1-procs"
+        (folder / "solver.xml").write_text(text.replace("<Add_URIS_mesh", "<!-- area of the leaflets in the mesh, 9.5; -->"
+                                                        "<Add_URIS_mesh", 1))
+        results.mkdir()
+        # The valve opens after step 24 and closes after step 75, each in 20 steps. Then it leaks 1.25 times the ideal leak.
+        eps, resistance, drop, n_steps = 0.3, 1e5, 80 * 10 * MMHG, 200
+        leak = 1.25 * drop * eps * 9.5 / resistance
+        flows, pressures = (["face areas: 1 1 1", "step time inlet outlet wall"] for _ in range(2))
+        for step in range(1, n_steps + 1):
+            is_open = 24 < step <= 95
+            flow = 300 if is_open else -leak
+            flows.append(f" {step} {0.002 * step:e} {-flow:e} {flow + 3e-4:e} 0.0 ")
+            pressures.append(f" {step} {0.002 * step:e} {2e5 if is_open else 1e4:e} {1e4 + (0 if is_open else drop):e} 0.0 ")
+        for name, rows in (("Velocity_flux", flows), ("Pressure_average", pressures)):
+            (results / f"B_NS_{name}.txt").write_text("\n".join(rows) + "\n")
+        face = xml.fromstring(text).find("Add_URIS_mesh/Add_URIS_face")
+        frames = {}
+        for name in ("Open", "Close"):
+            lines = (folder / face.find(f"{name}_motion_file_path").text.strip()).read_text().split("\n")
+            n_vertices = int(lines[0].split()[1])
+            rows = [list(map(float, line.split())) for line in lines[1:] if line.strip()]
+            frames[name] = [sum(rows[i:i + n_vertices], []) for i in range(0, len(rows), n_vertices)]
+        self.assertEqual((len(frames["Open"]), len(frames["Close"])), (21, 21))
+        for step in range(10, n_steps + 1, 10):
+            shown = frames["Open"][min(max(step - 24, 0), 20)] if step < 76 else frames["Close"][min(step - 75, 20)]
+            self.leaflets(results / f"result_uris_aortic_valve_{step:03d}.vtu", shown + [9.0] * 30, is_text=step % 20 == 0)
+            speed = 250 if step == 30 else 150 if step == 150 else 20
+            (results / f"result_{step:03d}.vtu").write_text(
+                f'<DataArray type="Float64" Name="Velocity" RangeMin="0" RangeMax="{speed}" offset="0"/>')
+        done = subprocess.run([sys.executable, "-B", folder / "report.py", results], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for line in ("the valve opens from 0.048 to 0.088 s\nthe valve closes from 0.150 to 0.190 s\n",
+                     f"flow through the inlet: {300 * 0.142:.1f} ml forward, {leak * 0.002 * (n_steps - 71):.1f} ml back",
+                     "inflow less outflow, over the largest flow: 1.0e-06\n",
+                     f"leak at 80 mmHg between the ends: {leak:.2f} ml/s, 1.250 of the ideal leak\n",
+                     "fastest node while the valve moves: 2.50 m/s, in the 4 files of it\n",
+                     "fastest node while it is at rest: 1.50 m/s, in the 16 files of it\n"):
+            self.assertIn(line, done.stdout)
+        for words in ([], [str(self.folder)]):
+            done = subprocess.run([sys.executable, "-B", folder / "report.py", *words], capture_output=True, text=True,
+                                  check=False)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("report.py takes the folder of results, such as 1-procs, but got", done.stderr)
 
     def test_refusals(self):
         self.refused("svmultiphysics", "its mesh is in metres, and this solver needs centimetres", unit="m")
@@ -351,6 +421,37 @@ class Cases(unittest.TestCase):
         for _ in range(20000):
             last = body.pressure(3.0)
         self.assertAlmostEqual(last, 3.0 * 52, delta=1e-6)
+
+    def test_report(self):
+        run = self.program()
+        # A valve opens in 20 steps after 0.1 s, lets 200 ml/s pass, closes in 20 steps after 0.4 s while 50 ml/s return, and then
+        # leaks at 80 mmHg half as much again as an ideal valve of 9 cm2.
+        drop, area = -80 * MMHG, 9e-4
+        leak = 1.5 * drop * run.EPS * area / run.R
+
+        def row(step):
+            now = 0.002 * step
+            opening = round(min(max((now - 0.1) / 0.04, 0), 1, max((0.44 - now) / 0.04, 0)), 9)
+            if now < 0.1001 or now > 0.4401:
+                return [step, now, 0.0, 0, -drop, leak, 1.0, 0.3, 1e-9, area]
+            flow, fastest = (2e-4, 2.0) if now < 0.4001 else (-5e-5, 3.5 if now < 0.4101 else 2.5)
+            return [step, now, opening, 500, 0, flow, fastest, 9.0, -2e-9, area]
+
+        rows = [row(step) for step in range(1, 401)]
+        lines = "\n".join(run.report(rows))
+        self.assertIn("opens from 0.100 to 0.140 s, closes from 0.400 to 0.440 s", lines)
+        volumes = [float(word) for word in re.search(r"(\S+) ml forward, (\S+) ml back \(", lines).groups()]
+        lost = -1e6 * leak * 0.002 * (50 + 180)
+        self.assertAlmostEqual(volumes[0], 200 * 0.3, delta=0.051)
+        self.assertAlmostEqual(volumes[1], 50 * 0.04 + lost, delta=0.051)
+        self.assertIn("over the largest flow: 1.0e-05", lines)
+        self.assertIn("while the valve moves: 3.50 m/s, above 3 m/s for 10 ms", lines)
+        self.assertIn("at the closed valve: 0.30 m/s", lines)
+        self.assertIn(f"leak at 80 mmHg: {-1e6 * leak:.2f} ml/s, 1.500 of the ideal leak", lines)
+        # A valve that never moves has neither motions nor, so early, a steady leak.
+        lines = "\n".join(run.report(rows[:20]))
+        self.assertIn("opens never, closes never", lines)
+        self.assertNotIn("leak at", lines)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests judge_arm64.py: it must refuse a failure, an unexpected skip, another reason, and a list that it cannot read."""
+"""Tests judge_arm64.py: it must refuse a failure, an unexpected skip, another reason, and a list that it cannot read. ./run arm64
+must refuse other processors, and systems without apt-get."""
 
+import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -67,6 +70,20 @@ class Judge(unittest.TestCase):
         self.refused("line 1 is neither TEST", [PASSED], "test_sets: without the text that it prints\n")
         self.refused("line 2 is neither TEST", [PASSED], '\ntest_sets/case "text" : a case prints none\n')
         self.refused("line 1 is neither TEST", [PASSED], "test_sets/case\n")
+
+    def test_other_systems_are_refused(self):
+        for processor, text in ("riscv64", "the emulator needs x86_64, and this processor is riscv64"), (
+                "x86_64", "apt-get, which fetches the packages for ARM, is missing"):
+            with self.subTest(processor), tempfile.TemporaryDirectory() as folder:
+                for name in "bash", "dirname", "readlink", "nproc", "env":
+                    pathlib.Path(folder, name).symlink_to(shutil.which(name))
+                uname = pathlib.Path(folder, "uname")
+                uname.write_text(f"#!{shutil.which('sh')}\necho {processor}\n", encoding="utf-8")
+                uname.chmod(0o755)
+                answer = subprocess.run([HERE / "../../run", "arm64"], capture_output=True, text=True, check=False,
+                                        env=dict(os.environ, PATH=folder))
+                self.assertEqual(answer.returncode, 2, answer)
+                self.assertIn(f"./run arm64: {text}", answer.stderr)
 
     def test_the_list_can_be_read(self):
         answer = self.judge([PASSED], (HERE / "arm64_skipped.txt").read_text(encoding="utf-8"))

@@ -158,8 +158,10 @@ void write_svmultiphysics_case(const SolverCase &solver) {
                      {"DENSITY", printed("%.6g", solver.density * factor_from_si(a_density, Unit::centimetre))},
                      {"VISCOSITY", printed("%.6g", solver.viscosity * factor_from_si(a_viscosity, Unit::centimetre))},
                      {"CONDITIONS", conditions_of(solver, ends)}}));
-  write_into(solver, "Allrun", filled(case_texts().at("svmultiphysics/Allrun"), {{"TIME_STEP", step}}));
-  make_runnable(solver, "Allrun");
+  for (const char *name : {"Allrun", "report.py"}) {
+    write_into(solver, name, case_texts().at(std::string("svmultiphysics/") + name));
+    make_runnable(solver, name);
+  }
   print_line("a beat has " + std::to_string(n_steps) + " steps of " + step + " s; svMultiPhysics needs about " +
              duration_text(seconds_of_cell * static_cast<double>(solver.n_cells) * n_steps) + " on one processor");
 }

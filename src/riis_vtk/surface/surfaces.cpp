@@ -276,7 +276,8 @@ void append_faces(Faces &faces, const Faces &other) {
   if (joined.attached.empty() || added.attached.empty())
     joined.attached.clear();
   else
-    joined.attached.insert(joined.attached.end(), added.attached.begin(), added.attached.end());
+    // In a batch of files, gcc 14 falsely warns of insert.
+    for (const auto is_attached : added.attached) joined.attached.push_back(is_attached);
   joined.leaflet_id.resize(joined.vertex_ids.size() / n_corners, joined.n_joined++);
   faces = std::move(joined);
 }

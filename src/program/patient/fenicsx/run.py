@@ -6,7 +6,8 @@
     mpirun -n 2 python3 -m mpi4py run.py                 # two
 
 Velocity and pressure are linear, with the usual stabilisation, and are solved together with K in the matrix. K is exact at the
-quadrature points. A run that was cut off goes on. valve.csv has a row for each step, and flow_*.bp is for ParaView.
+quadrature points. A run that was cut off goes on. valve.csv has a row for each step, and flow_*.bp is for ParaView. At the end
+it prints when the valve opens and closes, what leaks, and whether the flow in and out is the same.
 """
 import csv
 import json
@@ -41,6 +42,10 @@ RHO, MU, R, EPS, DT = (CASE[name] for name in ("density", "viscosity", "resistan
 assert gmsh  # dolfinx reads mesh.msh by it
 EACH = 10  # steps from one file to the next
 MMHG = 133.322
+REST = 0.05  # the leak is steady so long after the valve has closed [s]
+# Of each step. The balance is the flow out of all ends. The area is that of the leaflets and the skirt in the mesh.
+COLUMNS = ("step", "time_s", "opening", "before_Pa", "behind_Pa", "flow_m3_s", "fastest_m_s", "fastest_in_band_m_s",
+           "balance_m3_s", "area_m2")
 
 
 def read_stl(path):
@@ -143,6 +148,39 @@ def curve(keys):
     return lambda now: numpy.interp(now % CASE["period"], times, pressures)
 
 
+def motions(times, opening, sign):
+    """Returns in words when the opening grows, or falls with the sign -1."""
+    moves = numpy.append(sign * numpy.diff(opening, prepend=0.0 if CASE["starts_closed"] else 1.0) > 0, False)
+    edges = numpy.flatnonzero(numpy.diff(moves, prepend=False))
+    return " and ".join(f"from {times[a] - DT:.3f} to {times[b - 1]:.3f} s" for a, b in zip(edges[::2], edges[1::2])) or "never"
+
+
+def report(rows):
+    """Returns the lines that tell of all steps. Each row has the values of COLUMNS."""
+    table = dict(zip(COLUMNS, numpy.array(rows).T))
+    times, opening, flow, drop = table["time_s"], table["opening"], table["flow_m3_s"], table["before_Pa"] - table["behind_Pa"]
+    forward, back = (1e6 * DT * numpy.maximum(sign * flow, 0).sum() for sign in (1, -1))
+    largest = numpy.abs(flow).max()
+    lines = [f"opens {motions(times, opening, 1)}, closes {motions(times, opening, -1)}",
+             f"{forward:.1f} ml forward, {back:.1f} ml back" + (f" ({100 * back / forward:.1f} %)" if forward > 0 else ""),
+             f"inflow less outflow, over the largest flow: {numpy.abs(table['balance_m3_s']).max() / largest:.1e}"]
+    moves = numpy.diff(opening, prepend=0.0 if CASE["starts_closed"] else 1.0) != 0
+    if moves.any():
+        lines.append(f"fastest node while the valve moves: {table['fastest_m_s'][moves].max():.2f} m/s, above 3 m/s for "
+                     f"{1e3 * DT * (table['fastest_m_s'][moves] > 3).sum():.0f} ms")
+    shut = (opening == 0) & ~moves
+    if shut.any():
+        lines.append(f"fastest node at the closed valve: {table['fastest_in_band_m_s'][shut].max():.2f} m/s")
+    moved = numpy.maximum.accumulate(numpy.where(moves, times, 0))
+    still = shut & (times > moved + REST) & (drop < 0)
+    if still.any():
+        still &= drop < 0.8 * drop[still].min()
+        ideal = -drop[still] * EPS * table["area_m2"][still] / R
+        lines.append(f"leak at {-drop[still].min() / MMHG:.0f} mmHg: {-1e6 * flow[still].mean():.2f} ml/s, "
+                     f"{-flow[still].sum() / ideal.sum():.3f} of the ideal leak")
+    return lines
+
+
 def main(n_steps):
     comm = MPI.COMM_WORLD
     mesh, _, tags = io.gmshio.read_from_msh(str(HERE / "mesh.msh"), comm, 0, gdim=3)
@@ -186,6 +224,7 @@ def main(n_steps):
     lu = {"ksp_type": "preonly", "pc_type": "lu", "pc_factor_mat_solver_type": "mumps", "mat_mumps_icntl_14": 60}
     problem = LinearProblem(a, L, [fem.dirichletbc(still, at_wall, W.sub(0))], new, petsc_options=lu)
     outflows = {name: fem.form(dot(u_old, normal) * ds(groups[name])) for name in pressures}
+    resistance, n_cells = fem.form(K * inside), mesh.topology.index_map(3).size_local
 
     before, behind = (Ball(comm, Q, CASE[name], name) for name in ("upstream", "downstream"))
     driven = {name: curve(keys) for name, keys in CASE["pressures"].items()}
@@ -224,8 +263,11 @@ def main(n_steps):
         u_old.x.scatter_forward()
         p_old.x.scatter_forward()
         flows = {name: comm.allreduce(fem.assemble_scalar(form)) for name, form in outflows.items()}
-        fastest = comm.allreduce(numpy.linalg.norm(u_old.x.array.reshape(-1, 3), axis=1).max(), MPI.MAX)
-        rows.append([step, now, state.opening, before.mean(p_old), behind.mean(p_old), -flows["inlet"], fastest])
+        speed = numpy.linalg.norm(u_old.x.array.reshape(-1, 3), axis=1)
+        band = V.dofmap.list[:n_cells][K_most.x.array[:n_cells] > 0].ravel()
+        fastest, in_band = (comm.allreduce(speeds.max(initial=0.0), MPI.MAX) for speeds in (speed, speed[band]))
+        rows.append([step, now, state.opening, before.mean(p_old), behind.mean(p_old), -flows["inlet"], fastest, in_band,
+                     sum(flows.values()), EPS / R * comm.allreduce(fem.assemble_scalar(resistance))])
         if not numpy.isfinite(fastest):
             raise FloatingPointError(f"step {step}: the velocity is not finite; a smaller time_step in case.json may help")
         say(f"{now:.3f} s, opening {state.opening:.3f}, drop {(rows[-1][3] - rows[-1][4]) / MMHG:7.2f} mmHg, "
@@ -239,11 +281,9 @@ def main(n_steps):
                                    "bodies": {name: body.stored for name, body in bodies.items()}})
             if comm.rank == 0:
                 with open(HERE / "valve.csv", "w", newline="", encoding="utf-8") as table:
-                    names = ["step", "time_s", "opening", "before_Pa", "behind_Pa", "flow_m3_s", "fastest_m_s"]
-                    csv.writer(table).writerows([names, *rows])
+                    csv.writer(table).writerows([COLUMNS, *rows])
     file.close()
-    forward, back = (1e6 * DT * sum(max(sign * row[5], 0) for row in rows) for sign in (1, -1))
-    say(f"{forward:.1f} ml forward, {back:.1f} ml back, largest opening {max(row[2] for row in rows):.2f}")
+    say("\n".join(report(rows)))
 
 
 if __name__ == "__main__":
