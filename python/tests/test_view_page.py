@@ -351,6 +351,9 @@ def test_leaflets_and_bumps_have_sliders(tmp_path):
         assert skirt["colour"] == scene.colour_of(0, 3)
         choose(kind="mitral")
         assert state.most_bumps == 0 and state.bumps == [] and state.sizes == []
+        # The arrow points downstream, and the z axis to the atrium.
+        heights = (numpy.asarray(page.scene._data["riis handle"].points) - valve().origin) @ valve().axis
+        assert heights.min() < -1.0 and heights.max() < 0.1
 
     asyncio.run(use())
 

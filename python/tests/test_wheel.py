@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The installed wheel has the licence of every library that it contains."""
+"""The installed package has all its files, and a wheel has the licence of every library that it contains."""
 
 import importlib.metadata
 import pathlib
@@ -10,7 +10,15 @@ import tomllib
 
 import pytest
 
+import riis
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def test_every_file_is_installed():
+    sources, package = ROOT / "python/riis", pathlib.Path(riis.__file__).parent
+    files = [file.relative_to(sources) for file in sources.rglob("*") if file.is_file() and "__pycache__" not in file.parts]
+    assert len(files) > 30 and not [str(file) for file in files if not (package / file).is_file()]
 
 
 def files_of_the_wheel():
