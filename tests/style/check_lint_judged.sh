@@ -71,6 +71,7 @@ refuses shell SC2086
 # shellcheck disable=SC2016
 echo 'step $1' >>steps.sh
 refuses shell SC2086
+# shellcheck disable=SC2016
 printf '%s\n' 'mapfile -t lines </dev/null' 'echo "${lines[@]}"' >>run
 refuses shell 'bash 3.2 lacks: run:5:mapfile'
 echo '# shellcheck shell=bash' >alone.sh

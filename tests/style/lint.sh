@@ -3,8 +3,8 @@
 # lint.sh SOURCE_FOLDER PART...
 # Checks the style of all files that git tracks, or of all files if the folder is not a git work tree. The parts:
 #   format   C and C++ is laid out as clang-format 14 does; the public headers are laid out by hand
-#   shell    shellcheck reports nothing; `run` does without the features of bash 4; a script without #! is checked as part of the script that reads it; status 77 if
-#            RIIS_LINTED says that ./run lint has just found nothing
+#   shell    shellcheck reports nothing; `run` does without the features of bash 4; a script without #! is checked as part of
+#            the script that reads it; status 77 if RIIS_LINTED says that ./run lint has just found nothing
 #   columns  no line is too long (check_columns.py)
 #   python   pyflakes reports nothing
 #   includes each file of the core compiles alone, though other builds read the core in batches or with a precompiled header
