@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * count_markings MARKINGS [INSTRUCTIONS]
+ * count_markings MARKINGS [INSTRUCTIONS [K]]
  * Marks one mesh repeatedly on one thread, so that the instructions of a marking can be counted. INSTRUCTIONS is one of
- * RIIS_INSTRUCTIONS_*, by default the baseline. Prints the number of marked nodes, and a digest of the nodes and distances. */
+ * RIIS_INSTRUCTIONS_*, by default the baseline. A third argument requests K. Prints the number of marked nodes, and a digest of
+ * the nodes and distances. */
 #include <inttypes.h>
 #include <riis/riis.h>
 #include <stdio.h>
@@ -31,7 +32,7 @@ static void check(riis_status status) {
 
 int main(int argc, char **argv) {
   if (argc < 2) {
-    fprintf(stderr, "usage: %s MARKINGS [INSTRUCTIONS]\n", argv[0]);
+    fprintf(stderr, "usage: %s MARKINGS [INSTRUCTIONS [K]]\n", argv[0]);
     return 2;
   }
   static double xyz[3 * n_nodes];
@@ -53,6 +54,10 @@ int main(int argc, char **argv) {
   riis_mark_options_init(&options, sizeof options);
   options.n_threads = 1;
   options.instructions = argc > 2 ? (int32_t)strtol(argv[2], NULL, 10) : RIIS_INSTRUCTIONS_BASELINE;
+  riis_resistance resistance;
+  riis_resistance_init(&resistance, sizeof resistance);
+  resistance.R = 1e4;
+  if (argc > 3) options.resistance = &resistance;
   for (long i = strtol(argv[1], NULL, 10); i > 0; --i) check(riis_mark_nodes(surface, mesh, &options, marks));
   riis_mark_list list = {0};
   check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &list, sizeof list));

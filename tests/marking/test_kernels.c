@@ -727,8 +727,8 @@ TEST(points_are_placed) {
 /* --- Without any instruction set ------------------------------------------------------------------------------------- */
 
 /* On processors without any of these instruction sets, the portable code does the same operations as the baseline set. If the
- * baseline fuses multiplications and additions, its filter rounds differently. The groups are equal even then, and the tests above
- * check each filter by itself. */
+ * baseline fuses multiplications and additions, its filter rounds differently. The groups are equal even then, and the tests
+ * above check each filter by itself. */
 TEST(portable_kernels_have_the_bits_of_the_baseline) {
   if (!kernels_there(portable_set)) skip();
   const int rounds_twice = kernels_baseline_rounds_twice();
@@ -792,8 +792,7 @@ TEST(portable_kernels_have_the_bits_of_the_baseline) {
   printf("%lld groups, %lld pairs; %lld groups near some boxes, %lld near none\n", (long long)n_groups,
          (long long)n_pairs_compared, (long long)n_near, (long long)n_cleared);
   assert_true(is_more(n_groups, 3000));
-  if (rounds_twice)
-    assert_true(is_more(n_pairs_compared, 100000) && is_more(n_near, 5000) && is_more(n_cleared, 100));
+  if (rounds_twice) assert_true(is_more(n_pairs_compared, 100000) && is_more(n_near, 5000) && is_more(n_cleared, 100));
 }
 
 /* --- The order of nodes ---------------------------------------------------------------------------------------------- */
