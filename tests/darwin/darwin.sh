@@ -53,6 +53,8 @@ compiler clang
 compiler clang++ --driver-mode=g++ -nostdinc++ -D_LIBCPP_ABI_VERSION=1 -D_LIBCPP_ABI_NAMESPACE=__1 \
   -D_LIBCPP_HARDENING_MODE=_LIBCPP_HARDENING_MODE_NONE -D_LIBCPP_PSTL_CPU_BACKEND_SERIAL \
   "-isystem '$zig/lib/libcxx/include' -isystem '$zig/lib/libcxxabi/include'"
+# CMake sets run paths only if this program names a version.
+printf '#!/bin/sh\necho 13.3\n' >"$folder/bin/sw_vers"
 chmod +x "$folder"/bin/*
 
 for name in /usr/include/{embree[34],tbb,oneapi,nlohmann,CLI,cmocka*} "$(newest '/usr/lib/llvm-*/lib/clang/*/include/omp.h')"; do
@@ -78,7 +80,7 @@ cp "$zig/lib/libc/darwin/libSystem.tbd" "$folder/lib"
 for name in m pthread dl; do ln -sfn libSystem.tbd "$folder/lib/lib$name.tbd"; done
 
 # CMake's batches of files and a low optimisation take the least time.
-cmake -S "$source" -B "$folder/build" -G Ninja \
+PATH=$folder/bin:$PATH cmake -S "$source" -B "$folder/build" -G Ninja \
   -D FOLDER="$folder" -D CMAKE_TOOLCHAIN_FILE="$source/tests/darwin/toolchain.cmake" \
   -D CMAKE_BUILD_TYPE=Debug -D CMAKE_INSTALL_PREFIX="$folder/installed" -D RIIS_WARNINGS_AS_ERRORS=ON \
   -D RIIS_UNITY_BUILD=ON -D RIIS_UNITY_CORE=ON -D CMAKE_UNITY_BUILD_BATCH_SIZE=20 -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON \

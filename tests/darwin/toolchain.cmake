@@ -3,7 +3,6 @@
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES FOLDER)
 set(CMAKE_SYSTEM_NAME Darwin)
 set(CMAKE_SYSTEM_PROCESSOR arm64)
-set(CMAKE_SYSTEM_VERSION 22.4.0) # of the kernel of macOS 13.3; CMake sets run paths by it
 set(CMAKE_C_COMPILER ${FOLDER}/bin/clang)
 set(CMAKE_CXX_COMPILER ${FOLDER}/bin/clang++)
 foreach(tool ar ranlib nm install-name-tool)
