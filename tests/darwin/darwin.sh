@@ -37,15 +37,19 @@ done
 exec "${0%/*}/../llvm/ld64.lld" "${words[@]}"
 END
 
-# compiler NAME OPTION...: makes a compiler for macOS.
+# compiler NAME OPTION...: makes a compiler for macOS. Headers of Linux's C library are not searched.
 compiler() {
   local name=$1
   shift
   cat >"$folder/bin/$name" <<END
 #!/bin/bash
+words=()
+for word; do
+  if [[ \$word == /usr/include && \${words[-1]-} == -isystem ]]; then unset 'words[-1]'; else words+=("\$word"); fi
+done
 exec "$zig/zig" clang -target arm64-apple-macos13.3 $* -nostdlibinc -isystem "$zig/lib/include" \\
   -isystem "$zig/lib/libc/include/any-macos-any" -mlinker-version=705 --ld-path="$folder/bin/ld64.lld" -L"$folder/lib" \\
-  -Wno-unused-command-line-argument "\$@"
+  -Wno-unused-command-line-argument "\${words[@]}"
 END
 }
 compiler clang
@@ -60,6 +64,8 @@ chmod +x "$folder"/bin/*
 for name in /usr/include/{embree[34],tbb,oneapi,nlohmann,CLI,cmocka*} "$(newest '/usr/lib/llvm-*/lib/clang/*/include/omp.h')"; do
   [[ ! -e $name ]] || ln -sfn "$name" "$folder/include/${name##*/}"
 done
+
+: >"$folder/include/features.h" # a header of Linux, which Debian's HDF5 includes
 
 # stand_in NAME PATH: makes a library without functions.
 stand_in() {
