@@ -37,15 +37,19 @@ done
 exec "${0%/*}/../llvm/ld64.lld" "${words[@]}"
 END
 
-# compiler NAME OPTION...: makes a compiler for macOS.
+# compiler NAME OPTION...: makes a compiler for macOS. Headers of Linux's C library are not searched.
 compiler() {
   local name=$1
   shift
   cat >"$folder/bin/$name" <<END
 #!/bin/bash
+words=()
+for word; do
+  if [[ \$word == /usr/include && \${words[-1]-} == -isystem ]]; then unset 'words[-1]'; else words+=("\$word"); fi
+done
 exec "$zig/zig" clang -target arm64-apple-macos13.3 $* -nostdlibinc -isystem "$zig/lib/include" \\
   -isystem "$zig/lib/libc/include/any-macos-any" -mlinker-version=705 --ld-path="$folder/bin/ld64.lld" -L"$folder/lib" \\
-  -Wno-unused-command-line-argument "\$@"
+  -Wno-unused-command-line-argument "\${words[@]}"
 END
 }
 compiler clang
@@ -53,11 +57,15 @@ compiler clang
 compiler clang++ --driver-mode=g++ -nostdinc++ -D_LIBCPP_ABI_VERSION=1 -D_LIBCPP_ABI_NAMESPACE=__1 \
   -D_LIBCPP_HARDENING_MODE=_LIBCPP_HARDENING_MODE_NONE -D_LIBCPP_PSTL_CPU_BACKEND_SERIAL \
   "-isystem '$zig/lib/libcxx/include' -isystem '$zig/lib/libcxxabi/include'"
+# CMake sets run paths only if this program names a version.
+printf '#!/bin/sh\necho 13.3\n' >"$folder/bin/sw_vers"
 chmod +x "$folder"/bin/*
 
 for name in /usr/include/{embree[34],tbb,oneapi,nlohmann,CLI,cmocka*} "$(newest '/usr/lib/llvm-*/lib/clang/*/include/omp.h')"; do
   [[ ! -e $name ]] || ln -sfn "$name" "$folder/include/${name##*/}"
 done
+
+: >"$folder/include/features.h" # a header of Linux, which Debian's HDF5 includes
 
 # stand_in NAME PATH: makes a library without functions.
 stand_in() {
@@ -78,7 +86,7 @@ cp "$zig/lib/libc/darwin/libSystem.tbd" "$folder/lib"
 for name in m pthread dl; do ln -sfn libSystem.tbd "$folder/lib/lib$name.tbd"; done
 
 # CMake's batches of files and a low optimisation take the least time.
-cmake -S "$source" -B "$folder/build" -G Ninja \
+PATH=$folder/bin:$PATH cmake -S "$source" -B "$folder/build" -G Ninja \
   -D FOLDER="$folder" -D CMAKE_TOOLCHAIN_FILE="$source/tests/darwin/toolchain.cmake" \
   -D CMAKE_BUILD_TYPE=Debug -D CMAKE_INSTALL_PREFIX="$folder/installed" -D RIIS_WARNINGS_AS_ERRORS=ON \
   -D RIIS_UNITY_BUILD=ON -D RIIS_UNITY_CORE=ON -D CMAKE_UNITY_BUILD_BATCH_SIZE=20 -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
@@ -96,7 +104,7 @@ fault() {
 for name in riis riis_vtk; do
   library=$(readlink -f "$folder/installed/lib/lib$name.dylib")
   expected=$(sed -nE 's/^(riis_[a-z0-9_]+) [0-9.]+$/_\1/p' "$source/abi/$name.symbols" | sort)
-  differ=$(diff <(echo "$expected") <(nm --defined-only "$library" | grep -v '^_riis_component_error$')) ||
+  differ=$(diff <(echo "$expected") <(nm --defined-only "$library")) ||
     fault "lib$name exports other functions than $source/abi/$name.symbols lists: $differ"
   [[ $("$folder/llvm/llvm-otool" -D "$library") == *"@rpath/lib$name.1.dylib"* ]] || fault "$library is not found by a run path"
   echo "lib$name.dylib exports $(wc -l <<<"$expected") functions, as on Linux"

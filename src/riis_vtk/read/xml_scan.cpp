@@ -242,7 +242,7 @@ std::uint64_t XmlSizes::n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *
   if (block == 0 || last > block) refuse(element, "claims compressed blocks of ", block, " bytes, the last of ", last);
   const std::uint64_t n_head = (3 + n_blocks) * word_size;
   const std::uint64_t n_before = data.form == ArrayData::raw ? n_head : (n_head + 2) / 3 * 4;
-  std::uint64_t n_left = n_decoded(data.end - std::min(data.begin + n_before, data.end)), n_bytes = 0;
+  std::uint64_t n_left = n_decoded(data.end - std::min<std::uint64_t>(data.begin + n_before, data.end)), n_bytes = 0;
   const std::vector<std::uint64_t> sizes = words(data, word, is_big, 3 + n_blocks);
   for (std::uint64_t i = 0; i < n_blocks; ++i) {
     const std::uint64_t compressed = sizes[3 + i], uncompressed = i + 1 == n_blocks && last > 0 ? last : block;
