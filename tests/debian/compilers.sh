@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# compilers.sh SOURCE FOLDER all|quick|'' [COMPILER...]
+# compilers.sh SOURCE FOLDER all|quick|musl|'' [COMPILER...]
 # Builds the core with every compiler and standard library that is installed here, or with the named compilers. Prints a line for
 # each: whether 60 states have the bits of tests/process/state_digests.txt in every run, and whether the core compiles as C++20
 # and C++23. Warnings are errors. With the word all, each compiler also reads all files of the preset default: program, tests and
 # benchmarks. With the word quick, the core is compiled with -O1 and as C++17 only, and the states are made only three times.
+# With the word musl, clang only reads the core's files, with the headers of the C library musl.
 # FOLDER keeps the compiled files and a log for each line.
 # shellcheck disable=SC2317 # functions are called by their names
 set -euo pipefail
@@ -28,11 +29,15 @@ configure() {
     -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON -D RIIS_WITH_FORTRAN=OFF
 }
 
+configure_core() {
+  configure "$1" -D RIIS_WITH_VTK=OFF -D RIIS_BUILD_PROGRAM=OFF -D RIIS_BUILD_TESTS=OFF -D RIIS_BUILD_BENCH=OFF
+}
+
 # bits FOLDER: builds the core and compares its bits.
 bits() {
   local runs=all
   [[ $mode != quick ]] || runs=''
-  configure "$1" -D RIIS_WITH_VTK=OFF -D RIIS_BUILD_PROGRAM=OFF -D RIIS_BUILD_TESTS=OFF -D RIIS_BUILD_BENCH=OFF &&
+  configure_core "$1" &&
     cmake --build "$1" --target riis --parallel "$(nproc)" &&
     "$cc" -std=c11 -O1 -ffp-contract=off -I "$source/include" "$source/tests/process/state_digests.c" -o "$1/state_digests" \
       -L "$1/src/riis" -lriis -lm -Wl,-rpath,"$1/src/riis" &&
@@ -75,6 +80,25 @@ row() {
     "$same" "$more"
 }
 
+# musl FOLDER: reads the core's files with musl's headers, libc++, and Embree's and TBB's headers of this system.
+musl() {
+  local name llvm
+  configure_core "$1" || return
+  llvm=/usr/lib/llvm-$("$cxx" -dumpversion | sed 's/\..*//')
+  rm -rf "$1/headers"
+  mkdir "$1/headers"
+  for name in /usr/include/{embree*,tbb,oneapi}; do ln -s "$name" "$1/headers"; done
+  "$source/tests/debian/read_sources.py" "$1" c++17 --target=x86_64-linux-musl -nostdinc -nostdinc++ -D_LIBCPP_HAS_MUSL_LIBC \
+    "-isystem$llvm/include/c++/v1" "-isystem$("$cxx" -print-resource-dir)/include" -isystem/usr/include/x86_64-linux-musl \
+    "-isystem$1/headers"
+}
+
+if [[ $mode == musl ]]; then
+  cxx=clang++ cc=clang flags=''
+  tried "$folder/musl.log" musl "$folder/musl" || { echo && exit 1; }
+  echo "$system, musl | clang++ $(clang++ -dumpversion) | libc++ | $(tail -n 1 "$folder/musl.log")"
+  exit
+fi
 for version in 12 13 14; do
   ! command -v "g++-$version" >/dev/null || row "g++-$version" "gcc-$version" libstdc++ ''
 done

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""read_sources.py BUILD_FOLDER STANDARD...
+"""read_sources.py BUILD_FOLDER STANDARD... [-FLAG...]
 
 Lets the compiler of a configured folder read every C and C++ file that the folder would compile, in each of these standards of
-C++. The compiler makes no code. Warnings are errors if the folder was configured so. Files of C are read once.
+C++, with the flags. The compiler makes no code. Warnings are errors if the folder was configured so. Files of C are read once.
 """
 import concurrent.futures
 import json
@@ -13,20 +13,20 @@ import subprocess
 import sys
 
 
-def commands(folder, standards):
+def commands(folder, standards, flags):
     with open(os.path.join(folder, "compile_commands.json"), encoding="utf-8") as file:
         for entry in json.load(file):
             words = shlex.split(entry["command"])
             output = words.index("-o")
-            words = [word for i, word in enumerate(words) if i not in (output, output + 1)] + ["-fsyntax-only"]
+            words = [word for i, word in enumerate(words) if i not in (output, output + 1)] + flags + ["-fsyntax-only"]
             is_c = entry["file"].endswith(".c")
             for standard in standards[:1] if is_c else standards:
                 yield entry["directory"], words + ([] if is_c else ["-std=" + standard]), entry["file"]
 
 
 def main():
-    folder, standards = sys.argv[1], sys.argv[2:]
-    todo = list(commands(folder, standards))
+    folder, flags = sys.argv[1], [word for word in sys.argv[2:] if word.startswith("-")]
+    todo = list(commands(folder, [word for word in sys.argv[2:] if not word.startswith("-")], flags))
     if not todo:
         sys.exit(f"read_sources.py: {folder} has no files")
 
