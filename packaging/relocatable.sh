@@ -62,8 +62,9 @@ PYTHON
 
 # libraries FILE...: prints the libraries that the files need, without those of the C library and of Mesa.
 libraries() {
+  local left_out='c|m|pthread|dl|rt|resolv|util|nsl|GL|glapi|GLX|OpenGL|GLdispatch'
   ldd "$@" | awk '$2 == "=>" { if ($3 !~ /^\//) { print "there is no " $1 > "/dev/stderr"; exit 1 } print $3 }' | sort -u |
-    grep -v -E '/(libc|libm|libpthread|libdl|librt|libresolv|libutil|libnsl|libGL|libglapi|libGLX|libOpenGL|libGLdispatch)\.so\.[0-9]+$'
+    grep -v -E "/lib($left_out)\.so\.[0-9]+\$"
 }
 
 # licence FILE: keeps the licences of the package that has the file.
