@@ -22,7 +22,8 @@ out=$(realpath -m -- "$1")
 tree=$work/$name
 mkdir -p "$logs" "$out"
 
-# build_mesa: builds libGL.so.1 from the sources of Debian's libgl1-mesa-dri. It draws by the processor, for X without GLX.
+# build_mesa: builds libGL.so.1 and its libglapi.so.0 from the sources of Debian's libgl1-mesa-dri, in the folder mesa. libGL.so.1
+# draws by the processor, for X without GLX.
 build_mesa() {
   local off options=(-Dbuildtype=release -Doptimization=2 -Dplatforms=x11 -Dglx=xlib -Dgallium-drivers=swrast -Dvulkan-drivers=
     -Dglvnd=false -Dosmesa=false -Dbuild-tests=false)
@@ -34,7 +35,7 @@ build_mesa() {
   # Debian's own Python has the module mako, even if another python3 comes first.
   PATH=/usr/bin:$PATH meson setup "$work/mesa" "$work/mesa-source" "${options[@]}"
   ninja -C "$work/mesa"
-  strip -o "$work/libGL.so.1" "$work"/mesa/src/gallium/targets/libgl-xlib/libGL.so.1.*.0
+  touch "$work/mesa/complete"
 }
 
 build_program() {
@@ -60,10 +61,11 @@ file.write_bytes(found.replace(text, b"\0" + after.ljust(len(before), b"\0") + b
 PYTHON
 }
 
-# libraries FILE...: prints the libraries that the files need, without those of the C library and of OpenGL.
+# libraries FILE...: prints the libraries that the files need, without those of the C library and of Mesa.
 libraries() {
+  local left_out='c|m|pthread|dl|rt|resolv|util|nsl|GL|glapi|GLX|OpenGL|GLdispatch'
   ldd "$@" | awk '$2 == "=>" { if ($3 !~ /^\//) { print "there is no " $1 > "/dev/stderr"; exit 1 } print $3 }' | sort -u |
-    grep -v -E '/(libc|libm|libpthread|libdl|librt|libresolv|libutil|libnsl|libGL|libGLX|libOpenGL|libGLdispatch)\.so\.[0-9]+$'
+    grep -v -E "/lib($left_out)\.so\.[0-9]+\$"
 }
 
 # licence FILE: keeps the licences of the package that has the file.
@@ -74,7 +76,7 @@ licence() {
 }
 
 collect() {
-  local file
+  local file mesa=$work/mesa/src
   rm -rf "$tree"
   mkdir -p "$tree"/{bin,lib/path,share/doc,share/X11}
   strip -o "$tree/lib/riis" "$work/riis/bin/riis"
@@ -82,19 +84,20 @@ collect() {
   # Xvfb starts xkbcomp in the folder in which it runs itself.
   relative "$tree/lib/Xvfb" /usr/bin .
   cp -RL /usr/share/X11/xkb "$tree/share/X11/xkb"
-  libraries "$work/riis/bin/riis" /usr/bin/Xvfb /usr/bin/xkbcomp "$work/libGL.so.1" >"$work/libraries.txt"
+  strip -o "$tree/lib/libGL.so.1" "$mesa"/gallium/targets/libgl-xlib/libGL.so.1.*.0
+  strip -o "$tree/lib/libglapi.so.0" "$mesa/mapi/shared-glapi/libglapi.so.0.0.0"
+  libraries "$work/riis/bin/riis" /usr/bin/Xvfb /usr/bin/xkbcomp "$tree/lib/libGL.so.1" >"$work/libraries.txt"
   while IFS= read -r file; do
     cp -L "$file" "$tree/lib"
     licence "$file"
   done <"$work/libraries.txt"
-  cp "$work/libGL.so.1" "$tree/lib"
   for file in libGLX.so.0 libOpenGL.so.0; do ln -s libGL.so.1 "$tree/lib/$file"; done
   for file in libGL libX11-6 xvfb x11-xkb-utils xkb-data libgl1-mesa-dri libembree-dev; do
     [[ ! -f /usr/share/doc/$file/copyright ]] || cp "/usr/share/doc/$file/copyright" "$tree/share/doc/$file.copyright"
   done
   cp LICENSE "$tree/share/doc/riis.copyright"
   # All libraries are beside the program, and no others are taken, not even for libraries of libraries.
-  patchelf --force-rpath --set-rpath "\$ORIGIN" "$tree/lib/riis" "$tree/lib/Xvfb" "$tree/lib/xkbcomp"
+  patchelf --force-rpath --set-rpath "\$ORIGIN" "$tree"/lib/{riis,Xvfb,xkbcomp,libGL.so.1,libglapi.so.0}
   cat >"$tree/bin/riis" <<'SH'
 #!/bin/sh
 # The program riis. Without a display, pictures take the X server of this folder, unless the system has one.
@@ -111,7 +114,7 @@ SH
   cp -R examples/patient examples/demo "$tree/share/riis/examples"
 }
 
-[[ -f $work/libGL.so.1 ]] || logged mesa build_mesa
+[[ -e $work/mesa/complete ]] || logged mesa build_mesa
 logged embree python_embree
 logged program build_program
 logged collect collect

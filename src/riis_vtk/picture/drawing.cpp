@@ -2,9 +2,12 @@
 #include "riis_vtk/picture/drawing.hpp"
 
 #include <vtkActor.h>
+#include <vtkCellData.h>
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
@@ -13,6 +16,8 @@
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
+
+#include <vector>
 
 namespace riis::vtk {
 
@@ -30,9 +35,42 @@ vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data) {
   return actor;
 }
 
+namespace {
+
+// Returns cells that share no points, with the colours of the cells at their points. Mesa's softpipe, which the archive of the
+// program has, draws no cell that has a colour of its own.
+vtkSmartPointer<vtkPolyData> with_colours_of_points(vtkPolyData *cells) {
+  auto apart = vtkSmartPointer<vtkPolyData>::New();
+  vtkDataArray *colours = cells->GetCellData()->GetScalars();
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkUnsignedCharArray> at_points;
+  points->SetDataTypeToDouble();
+  at_points->SetNumberOfComponents(3);
+  apart->GetPointData()->CopyAllocate(cells->GetPointData(), 3 * cells->GetNumberOfCells());
+  apart->AllocateEstimate(cells->GetNumberOfCells(), 3);
+  std::vector<vtkIdType> corners;
+  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell) {
+    vtkIdType n = 0;
+    const vtkIdType *former = nullptr;
+    cells->GetCellPoints(cell, n, former);
+    corners.clear();
+    for (vtkIdType i = 0; i < n; ++i) {
+      corners.push_back(points->InsertNextPoint(cells->GetPoint(former[i])));
+      apart->GetPointData()->CopyData(cells->GetPointData(), former[i], corners.back());
+      at_points->InsertNextTuple(cell, colours);
+    }
+    apart->InsertNextCell(cells->GetCellType(cell), static_cast<int>(n), corners.data());
+  }
+  apart->SetPoints(points);
+  apart->GetPointData()->SetScalars(at_points);
+  return apart;
+}
+
+}  // namespace
+
 vtkSmartPointer<vtkActor> coloured_actor_of(vtkPolyData *faces) {
-  const vtkSmartPointer<vtkActor> actor = actor_of(faces);
-  actor->GetMapper()->SetScalarModeToUseCellData();
+  const vtkSmartPointer<vtkActor> actor = actor_of(with_colours_of_points(faces));
+  actor->GetMapper()->SetScalarModeToUsePointData();
   actor->GetMapper()->SetColorModeToDirectScalars();
   return actor;
 }

@@ -40,7 +40,7 @@ vtkSmartPointer<vtkRenderer> two_sided_renderer();
 
 vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data);
 
-// The cell scalars of `faces`, three bytes for each cell, are the faces' colours.
+// The cell scalars of `faces`, three bytes for each cell, are the faces' colours. The actor has its own points.
 vtkSmartPointer<vtkActor> coloured_actor_of(vtkPolyData *faces);
 
 // Returns the faces with normals at their corners. The normals make smooth edges between faces invisible, and sharp edges stay
