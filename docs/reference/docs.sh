@@ -37,8 +37,8 @@ run_docs() {
   "$venv/bin/python" -B docs/reference/figures_page.py README.md docs/*.md docs/theory/*.md >"$reference/figures.md"
   step "C and pages (Doxygen)" env RIIS_DOCS_PYTHON="$venv/bin/python" doxygen docs/reference/Doxyfile
   # Copies the files to which pages link and which are not pages themselves.
-  cp --parents examples/*.c examples/*.cpp examples/*.f90 examples/*.json examples/python/*.ipynb \
-    examples/cluster/mark_pieces.sh examples/flow_fortran/source.f90 \
+  cp --parents examples/*.c examples/*.cpp examples/*.f90 examples/*.f examples/*.json examples/python/*.ipynb \
+    examples/cluster/mark_pieces.sh examples/flow_fortran/{source,membrane}.f90 examples/nek5000/riis_nek.f \
     tests/marking/test_{resistance,empty_mesh}.c tests/process/test_restart.c CITATION.cff LICENSE docs/*_parameters.png out/docs
   cp /usr/share/texmf/fonts/opentype/public/lm-math/latinmodern-math.otf out/docs
   sed -i 's/( <math/(<math/g' out/docs/*.html # Doxygen inserts a blank before tags that it does not know

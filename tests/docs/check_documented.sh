@@ -65,7 +65,8 @@ undocumented() {
   mkdir -p "$to"
   (
     cat docs/reference/Doxyfile
-    printf '%s\n' "INPUT = $*" "OUTPUT_DIRECTORY = $to" 'GENERATE_HTML = NO' 'GENERATE_XML = YES' 'WARNINGS = NO'
+    printf '%s\n' "INPUT = $*" "OUTPUT_DIRECTORY = $to" 'GENERATE_HTML = NO' 'GENERATE_XML = YES' 'WARNINGS = NO' \
+      'GENERATE_TAGFILE =' # the file of ./run docs stays as it is
   ) | "$doxygen" - >"$to/log" 2>&1 || { cat "$to/log" >&2; return 1; }
   documented "$to/xml" >"$to/documented"
   comm -23 <(names "$@") "$to/documented"
