@@ -59,7 +59,8 @@ Json numbers_of(const SolverCase &solver, const Ends &ends, int n_steps) {
             {"open_above", opening_pressure},
             {"close_below", solver.is_mitral ? closing_flow_of_mitral : 0.0},
             {"filter_time", 0.002},
-            {"dwell_time", 0.02}}},
+            // The leaflets push blood back while they close, and must not open for the pressure that this makes.
+            {"dwell_time", motion_seconds}}},
           {"period", beat_period},
           {"time_step", dolfinx_step},
           {"steps", n_steps}};
