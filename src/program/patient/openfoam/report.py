@@ -19,10 +19,13 @@ def rows_of(case, name, file):
     for folder in sorted((case / "postProcessing" / name).glob("*"), key=lambda path: float(path.name)):
         for time in [time for time in rows if time > float(folder.name) + 1e-9]:
             del rows[time]
-        for line in (folder / file).read_text().split("\n"):
-            words = re.sub(r"\([^)]*\)", " ", line).split()  # without vectors
-            if words and not line.startswith("#"):
-                rows[float(words[0])] = words[1:]
+        # A run that was cut off before it wrote a time begins there again, with files such as riisValve_0.dat.
+        stem, ending = file.split(".")
+        for path in sorted([*folder.glob(file), *folder.glob(f"{stem}_*.{ending}")], key=lambda path: path.stat().st_mtime):
+            for line in path.read_text().split("\n"):
+                words = re.sub(r"\([^)]*\)", " ", line).split()  # without vectors
+                if words and not line.startswith("#"):
+                    rows[float(words[0])] = words[1:]
     return rows
 
 
