@@ -40,9 +40,11 @@ static void take_text(int file, char text[longest_output]) {
   close(file);
 }
 
-/* Returns whether the line tells what the program is doing, which it does on slow machines. test_progress tests these lines. */
+/* Returns whether the line tells what the program is doing, which it does on slow machines. test_progress tests these lines. A
+ * message that is cut off also ends in dots, but is longer. */
 static int is_progress(const char *line, const char *next) {
-  return next - line > 5 &&
+  enum { longest_progress = 200 };
+  return next - line > 5 && next - line < longest_progress &&
          (strncmp(next - 5, " ...\n", 5) == 0 || (strncmp(next - 5, "left\n", 5) == 0 && strstr(line, ": step ")));
 }
 

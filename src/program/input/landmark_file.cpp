@@ -174,8 +174,7 @@ std::array<double, 3> point_in_row(const std::string &path, const CsvFile::Row &
 // ---- What a file states ----
 
 constexpr const char *why_axes =
-    "; mesh stands for those of the mesh or of the wall, and LPS and RAS differ by half a turn about z, which the "
-    "landmarks themselves cannot show";
+    "; mesh stands for those of the mesh or of the wall, and LPS and RAS differ by half a turn about z";
 
 Unit stated_unit(const std::string &path, const std::string &text) {
   if (const auto unit = unit_of(text)) return *unit;
