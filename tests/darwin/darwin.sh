@@ -45,7 +45,11 @@ compiler() {
 #!/bin/bash
 words=()
 for word; do
-  if [[ \$word == /usr/include && \${words[-1]-} == -isystem ]]; then unset 'words[-1]'; else words+=("\$word"); fi
+  if [[ \$word == /usr/include && \${words[-1]-} == -isystem ]]; then
+    unset 'words[-1]'
+  elif [[ \$word != -I/usr/include ]]; then
+    words+=("\$word")
+  fi
 done
 exec "$zig/zig" clang -target arm64-apple-macos13.3 $* -nostdlibinc -isystem "$zig/lib/include" \\
   -isystem "$zig/lib/libc/include/any-macos-any" -mlinker-version=705 --ld-path="$folder/bin/ld64.lld" -L"$folder/lib" \\
