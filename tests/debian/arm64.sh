@@ -168,7 +168,7 @@ case ${1:-}/$# in
   root/2) make_root "$(realpath -m -- "$2")" ;;
   build/3) build "$2" "$(realpath -m -- "$3")" ;;
   count/3) count "$2" "$(realpath -m -- "$3")" ;;
-  test/[3-9]*) run_tests "$2" "$(realpath -m -- "$3")" "${@:4}" ;;
+  test/[3-9] | test/[1-9][0-9]*) run_tests "$2" "$(realpath -m -- "$3")" "${@:4}" ;;
   *)
     echo "usage: tests/debian/arm64.sh root FOLDER | build SOURCE FOLDER | count SOURCE FOLDER |" \
       "test SOURCE FOLDER [WORD...]" >&2

@@ -120,7 +120,7 @@ usings() {
 compiled_files() { sed -nE 's/^ *"file": "(.*)",?$/\1/p' build-lint/compile_commands.json | sort -u; }
 
 # The benchmarks. The programs of ./run figures and the study of accuracy are read like the library.
-of_bench='/bench/(peers|proofs|scale|shared|stages|steps)/'
+of_bench='/bench/(accuracy/accuracy|(peers|proofs|scale|shared|stages|steps)/)'
 
 bench() {
   mapfile -t found < <(compiled_files | grep -E "$of_bench")
