@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parallel/arena.hpp"
 
+#if !defined(RIIS_STD_THREADS)
+
 #include <tbb/global_control.h>
 #include <unistd.h>
 
@@ -89,3 +91,17 @@ KeepsArenas::~KeepsArenas() {
 }
 
 }  // namespace riis
+
+#else
+
+#include "parallel/threads.hpp"
+
+namespace riis {
+
+// There is no pool, so nothing is kept.
+KeepsArenas::KeepsArenas() noexcept = default;
+KeepsArenas::~KeepsArenas() = default;
+
+}  // namespace riis
+
+#endif
