@@ -5,6 +5,8 @@ target_compile_options(riis_compile INTERFACE
   $<$<COMPILE_LANGUAGE:C,CXX>:-Wall -Wextra -Wshadow -Wconversion>
   # In C++ gcc's -Wconversion leaves signs out, and clang's does not. With this option both report the same conversions.
   $<$<COMPILE_LANGUAGE:CXX>:-Wno-sign-conversion>
+  # gcc 13 and 14 warn of a reference to a list's element, if a temporary object such as view(list) has returned it.
+  $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-dangling-reference>
   # Results are promised bit for bit. So contraction to fused multiply-add and fast-math are off, even if the user's flags request
   # them.
   $<$<COMPILE_LANGUAGE:C,CXX>:-ffp-contract=off -fno-fast-math>
