@@ -186,6 +186,8 @@ struct Lanes {
                       f[4][offset], f[5][offset], f[6][offset], f[7][offset]};
     else if constexpr (per_register == 4)
       return Register{f[0][offset], f[1][offset], f[2][offset], f[3][offset]};
+    else if constexpr (per_register == 2)
+      return Register{f[0][offset], f[1][offset]};
     else {
       Register r;
       for (int j = 0; j < per_register; ++j) r[j] = f[j][offset];
