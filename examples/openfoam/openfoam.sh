@@ -17,9 +17,10 @@ openfoam_plugin=src/openfoam
 #   pressure drops with OpenFOAM's porosity, and checks forces and a restart. It leaves plots in out/openfoam. It fetches
 #   OpenFOAM's headers (45 MB), and is left out if there is no package openfoam. --size 0.1 makes edges of 0.1 cm. --headers only
 #   compiles the plug-in, against the headers of another OpenFOAM. plugin only builds the plug-in, and installs it where the
-#   cases of riis patient look for it: in FOLDER, by default ~/.local/lib/riis/openfoam. After ./run demo it takes the library
-#   from there, and needs half a minute, otherwise more than one. patient runs a beat of a synthetic patient from landmarks to
-#   the table, five minutes of an idle processor, and fails if a number is out of its bounds.
+#   cases of riis patient look for it: in FOLDER, by default ~/.local/lib/riis/openfoam. After ./run demo it takes the demo's
+#   library, and needs half a minute. Otherwise it also compiles a library, and needs a minute and a quarter. patient runs a beat
+#   of a synthetic patient from landmarks to the table, five minutes of an idle processor, and fails if a number is out of its
+#   bounds.
 run_openfoam() {
   of_size=0.16 of_time_step=1e-3 of_half_thickness=1.2e-3
   case $* in

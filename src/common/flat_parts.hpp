@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The flat parts of a wall, at which vessels may have been cut. In: triangles that face outwards. Out: connected triangles in one
-// plane, and the angle of the wall beside them. riis patient chooses ends among the parts, and pictures leave the parts out.
+// The flat parts of a wall, at which vessels may have been cut. In: triangles whose neighbours face alike. Out: connected
+// triangles in one plane, and the angle of the wall beside them. riis patient chooses ends among the parts, and pictures leave
+// the parts out.
 #pragma once
 
 #include <algorithm>
@@ -21,9 +22,9 @@ namespace riis::flat_parts {
 inline constexpr double half_turn = 2 * elementary::half_pi;
 // Distances from the plane, as shares of the wall's size: within a flat part, and within a part that the user points at.
 inline constexpr double flat_share = 5e-4, pointed_share = 5e-3;
-// Triangles of a flat part may lean by this much against its plane, in degrees. Short heights lean more by rounding.
+// Triangles of a flat part may lean by this much against its plane, in degrees. Triangles of little height lean more by rounding.
 inline constexpr double most_lean = 25;
-// A flat part below this share of the whole area is noise. Its triangles are at least so many.
+// A flat part below this share of the whole area is noise. It has at least so many triangles.
 inline constexpr double least_share = 3e-4;
 inline constexpr std::int64_t least_triangles = 4;
 // The wall beside a flat part is measured up to this share of the radius of a disc with the part's area, in sectors.
@@ -92,7 +93,7 @@ class Finder {
     }
   }
 
-  // Returns the flat parts that may be ends, the largest first. `parts` are known before. They are among the returned parts.
+  // Returns the flat parts that may be ends, the largest first. The result also has `parts`, which are known before.
   std::vector<Part> find(std::vector<Part> parts) {
     std::vector<char> is_known(all_.corners.size(), 0);
     for (const Part &part : parts)

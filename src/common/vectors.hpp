@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
 #include "common/elementary.hpp"
 
@@ -26,9 +25,8 @@ inline Vector3 unit_vector(const Vector3 &a) {
 }
 // Returns the vector, turned about an axis of any length other than 0 (Rodrigues' formula).
 inline Vector3 turned(const Vector3 &vector, const Vector3 &axis, double degrees) {
-  constexpr double pi = 3.14159265358979323846;
   const Vector3 unit = unit_vector(axis);
-  const double angle = pi / 180 * degrees, cosine = std::cos(angle), sine = std::sin(angle);
+  const auto [sine, cosine] = sine_cosine_degrees(degrees);
   return cosine * vector + sine * cross(unit, vector) + (1 - cosine) * dot(unit, vector) * unit;
 }
 
