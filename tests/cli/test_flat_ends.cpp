@@ -169,7 +169,7 @@ void random_vessels(random_source &random) {
     }
   }
   here = "all trials";
-  expect(is_sanitized() || (n_open > 0 && n_some > 0 && n_five > 0),
+  expect(is_short_test() || (n_open > 0 && n_some > 0 && n_five > 0),
          "open ends, turned triangles and five ends were met");
 }
 

@@ -118,7 +118,7 @@ TEST(graded_and_anisotropic_meshes) {
       options.half_thickness = fmax(1e-4, fmin(limits[k], 0.1));
       options.tolerance = 0.5;
       riis_surface *surface = valve_surface(mitral ? "mitral" : "aortic", options);
-      const int64_t n = is_sanitized() ? 12 : 30, counts[2][3] = {{n, n, n}, {5, 20, 9 * n}};
+      const int64_t n = is_short_test() ? 12 : 30, counts[2][3] = {{n, n, n}, {5, 20, 9 * n}};
       for (int kind = 0; kind < 2; ++kind) {
         const int n_outside = n_owned();
         const double lower[3] = {-2, -2, -2}, upper[3] = {2, 2, 2};
@@ -138,7 +138,7 @@ TEST(graded_and_anisotropic_meshes) {
 
 TEST(masked_nodes_are_left_out) {
   riis_surface *surface = aortic_surface(NULL);
-  test_mesh nodes = lattice_around(surface, is_sanitized() ? 0.15 : 0.09, 0.3);
+  test_mesh nodes = lattice_around(surface, is_short_test() ? 0.15 : 0.09, 0.3);
   riis_mesh *mesh = mesh_of(nodes.n, nodes.xyz);
   uint8_t *mask = own(malloc((size_t)nodes.n));
   for (int kind = 0; kind < 5; ++kind) {
@@ -403,9 +403,9 @@ TEST(every_distance_of_random_valves) {
  * between the leaflets. */
 TEST(large_leaves_near_small_triangles) {
   riis_surface_options options = surface_options();
-  options.tolerance = is_sanitized() ? 0.02 : 4e-4;
+  options.tolerance = is_short_test() ? 0.02 : 4e-4;
   riis_surface *surface = aortic_surface(&options);
-  if (!is_sanitized()) assert_true(info_of(surface).n_triangles > 16 * 4096);
+  if (!is_short_test()) assert_true(info_of(surface).n_triangles > 16 * 4096);
   const int n = 300;
   for (int i = 0; i < 3 * n; ++i) xyz[i] = random_between(&rng, -1, 1) * (i < 60 ? 1 : 30);
   riis_mark_options marking = mark_options();

@@ -356,7 +356,7 @@ static double *beyond_edges(const riis_triangles *c, double off) {
 /* No valve has a rim along the bending curve, along the symmetry planes or between patches. The closed mitral valve has no
  * rim along its free edges. */
 TEST(valves_have_a_rim_all_around_and_none_inside) {
-  const int step = is_sanitized() ? 4 : 1;
+  const int step = is_short_test() ? 4 : 1;
   for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
     int64_t n_rim = 0, n_inside = 0, n_free = 0, n_free_closed = 0;
     const char *kind = is_mitral ? "mitral" : "aortic";

@@ -8,7 +8,7 @@
 static random_source rng;
 
 /* Returns whether a count that all trials bring above n is large enough for the trials that are made. */
-static int is_more(int64_t count, int n) { return is_sanitized() || count > trials_of(n); }
+static int is_more(int64_t count, int n) { return is_short_test() || count > trials_of(n); }
 
 static double sign(void) { return random_bits(&rng) & 1 ? 1 : -1; }
 static void random_point(double size, double *p) {

@@ -15,7 +15,7 @@
 
 TEST(any_number_of_threads_gives_the_same_bits) {
   riis_surface *surface = aortic_surface(NULL);
-  test_mesh nodes = lattice_around(surface, is_sanitized() ? 0.07 : 0.05, 0.3);
+  test_mesh nodes = lattice_around(surface, is_short_test() ? 0.07 : 0.05, 0.3);
   riis_mesh *mesh = mesh_from(&nodes);
   CHECK_MET(nodes.n > 50000);
   static const int32_t searches[2] = {RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_PAPER};
@@ -112,7 +112,7 @@ TEST(the_default_has_the_threads_that_the_work_feeds) {
   const test_mesh few = lattice_around(surface, 0.12, 0.3), many = lattice_around(surface, 0.04, 0.3);
   assert_true(few.n > 8000 && few.n < 16384 && many.n > 250000);
   static const int32_t searches[3] = {RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_CLUSTERS};
-  for (int k = is_sanitized() ? 2 : 0; k < 3; ++k) {
+  for (int k = is_short_test() ? 2 : 0; k < 3; ++k) {
     const int32_t search = searches[k];
     const reported_threads of_few = threads_of(surface, &few, search), of_many = threads_of(surface, &many, search),
                            of_dot = threads_of(dot, &many, search);

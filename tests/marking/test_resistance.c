@@ -124,7 +124,7 @@ TEST(the_integral_is_the_area) {
                 {"part of a cylinder", cylinder, 60, 1, INFINITY},
                 {"part of a sphere", cap, 160, 60, sphere_radius * sphere_radius}};
   for (int i = 0; i < 3; ++i)
-    for (int fine = 0; fine < (is_sanitized() ? 1 : 2); ++fine) {
+    for (int fine = 0; fine < (is_short_test() ? 1 : 2); ++fine) {
       const double eps = i == 2 ? 0.3 : 0.15, r = pow(10, between(-3, 3));
       random_frame();
       riis_surface *surface = surface_of(shapes[i].at, shapes[i].n, shapes[i].m, eps);

@@ -116,7 +116,7 @@ static scene scene_by(int32_t n_threads) {
   riis_surface_options options = surface_options();
   options.n_threads = n_threads;
   s.surface = new_surface(s.valve, &options);
-  s.nodes = lattice_around(s.surface, is_sanitized() ? 0.13 : 0.08, 0.3);
+  s.nodes = lattice_around(s.surface, is_short_test() ? 0.13 : 0.08, 0.3);
   CHECK_MET(s.nodes.n > 50000);
   s.mesh = mesh_from(&s.nodes);
   s.k = own(calloc((size_t)s.nodes.n, sizeof *s.k));

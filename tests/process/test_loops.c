@@ -14,7 +14,7 @@ static int is_bound(void) { return omp_get_proc_bind() != omp_proc_bind_false; }
 /* This case comes first, while a team has one worker. */
 TEST(loops_end_while_a_thread_is_held) {
   assert_true(loops_while_a_thread_is_held(200));
-  for (int i = 0; i < 2000 && !is_sanitized(); ++i) assert_true(loops_while_a_thread_is_held(10));
+  for (int i = 0; i < 2000 && !is_short_test(); ++i) assert_true(loops_while_a_thread_is_held(10));
 }
 
 /* This case comes before all loops of OpenMP. One of these may wait long, and then all loops run on teams for a while. */

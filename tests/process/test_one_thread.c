@@ -104,7 +104,7 @@ static void check_surfaces(int32_t triangulation, double tolerance) {
 TEST(surfaces_of_valves) {
   check_surfaces(RIIS_TRIANGULATION_ADAPTED, 0.05);
   check_surfaces(RIIS_TRIANGULATION_FIXED, 0.05);
-  if (is_sanitized()) return; /* on one thread, more triangles take no other path */
+  if (is_short_test()) return; /* on one thread, more triangles take no other path */
   check_surfaces(RIIS_TRIANGULATION_ADAPTED, 0.005);
   check_surfaces(RIIS_TRIANGULATION_FIXED, 0.01);
 }
@@ -219,7 +219,7 @@ static void check_markings(int64_t side) {
   CALL_ALONE(closest_points_of(surface, n_points, xyz, xyz + 1, xyz + 2, 3, &of_points, &found));
 }
 
-TEST(markings) { check_markings(is_sanitized() ? 25 : most_side); }
+TEST(markings) { check_markings(is_short_test() ? 25 : most_side); }
 
 /* On a machine with one processor, the default never starts a thread. */
 TEST(little_work_by_default) {

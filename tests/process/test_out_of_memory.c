@@ -219,7 +219,7 @@ TEST(embrees_memory_runs_out) {
 /* Chance decides which thread does which work, so the test repeats until another thread allocates. The mesh is large enough to
  * give work to all threads. */
 TEST(memory_of_other_threads_runs_out) {
-  set_nodes(is_sanitized() ? 32 : 45);
+  set_nodes(is_short_test() ? 32 : 45);
   for (int i = 0; i < n_scenarios; ++i) {
     const scenario *s = scenarios + i;
     if (!(s->flags & ON_WORKERS)) continue;
@@ -280,7 +280,7 @@ static int set_up(void **state) {
   (void)state;
   coarse = surface_options();
   coarse.tolerance = 1;
-  set_nodes(is_sanitized() ? 12 : 18);
+  set_nodes(is_short_test() ? 12 : 18);
   fewer_nodes = lattice_of(9);
   keep_owned_for_group();
   strip = malloc(4 * n_cells * sizeof *strip);

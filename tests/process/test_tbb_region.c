@@ -40,7 +40,7 @@ static void mark(void *data, int task) {
 
 static void expect_same_as_outside(int region) {
   riis_surface *surface = aortic_surface(NULL);
-  test_mesh nodes = lattice_around(surface, is_sanitized() ? 0.13 : 0.09, 0.2);
+  test_mesh nodes = lattice_around(surface, is_short_test() ? 0.13 : 0.09, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
   riis_marks *expected = new_result();
   riis_mark_options options = mark_options();

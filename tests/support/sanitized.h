@@ -3,6 +3,9 @@
 #ifndef RIIS_TEST_SANITIZED_H
 #define RIIS_TEST_SANITIZED_H
 
+#include <stdlib.h>
+#include <string.h>
+
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define IS_SANITIZED 1
 #elif defined(__has_feature)
@@ -17,6 +20,12 @@ static inline int is_sanitized(void) {
 #else
   return 0;
 #endif
+}
+
+/* Returns whether tests shall be short: with a sanitizer, and with RIIS_TEST_SHORT=1, which an emulator's slow runs set. */
+static inline int is_short_test(void) {
+  const char *given = getenv("RIIS_TEST_SHORT");
+  return is_sanitized() || (given && strcmp(given, "1") == 0);
 }
 
 #endif

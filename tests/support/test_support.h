@@ -76,19 +76,20 @@ static inline int is_long_test(void) {
   return given && strcmp(given, "1") == 0;
 }
 
-/* Returns how many random trials to make: n usually, n_long with RIIS_TEST_LONG=1, and a twentieth of n with a sanitizer, at
- * least one. A sanitizer checks memory and undefined operations, and few further trials take another path. */
-static inline int trials(int n, int n_long) { return is_long_test() ? n_long : is_sanitized() ? (n + 19) / 20 : n; }
+/* Returns how many random trials to make: n usually, n_long with RIIS_TEST_LONG=1, and a twentieth of n in a short test, at
+ * least one. A sanitizer checks memory and undefined operations, an emulator checks another processor's instructions, and few
+ * further trials take another path in either. */
+static inline int trials(int n, int n_long) { return is_long_test() ? n_long : is_short_test() ? (n + 19) / 20 : n; }
 
 /* Returns how many of n random trials to make: all with RIIS_TEST_LONG=1, usually a fifth. */
 static inline int trials_of(int n) { return trials((n + 4) / 5, n); }
 
-/* Returns the step of a loop over combinations, such as kinds of valves with triangulations. With a sanitizer, every eleventh
+/* Returns the step of a loop over combinations, such as kinds of valves with triangulations. In a short test, every eleventh
  * combination is tried. Few numbers of kinds are multiples of eleven, so the kinds take turns. */
-static inline int trial_step(void) { return is_sanitized() ? 11 : 1; }
+static inline int trial_step(void) { return is_short_test() ? 11 : 1; }
 
-/* Checks that random trials met what they were made for. With a sanitizer they are too few to meet everything. */
-#define CHECK_MET(condition) assert_true(is_sanitized() || (condition))
+/* Checks that random trials met what they were made for. In a short test they are too few to meet everything. */
+#define CHECK_MET(condition) assert_true(is_short_test() || (condition))
 
 static inline uint64_t random_bits(random_source *random) {
   uint64_t z = (random->state += 0x9e3779b97f4a7c15u);

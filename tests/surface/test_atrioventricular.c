@@ -14,8 +14,8 @@ static const char *const kinds[2] = {"mitral_coapting", "tricuspid"};
 static const int n_leaflets[2] = {2, 3};
 static const double openings[5] = {0, 0.25, 0.5, 0.75, 1};
 
-/* With a sanitizer, only the ends of the opening are tried. */
-static int opening_step(void) { return is_sanitized() ? 4 : 1; }
+/* In a short test, only the ends of the opening are tried. */
+static int opening_step(void) { return is_short_test() ? 4 : 1; }
 
 static riis_surface *surface_at(riis_valve *valve, double opening, double tolerance) {
   riis_surface_options options = surface_options();
@@ -422,7 +422,7 @@ TEST(opens_to_another_valves_open_state) {
 TEST(velocities_are_differences) {
   for (int kind = 0; kind < 2; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
-      if (is_sanitized() && fixed != kind) continue;
+      if (is_short_test() && fixed != kind) continue;
       riis_surface_options options = surface_options();
       options.triangulation = fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
       riis_valve *valve = new_valve(kinds[kind]), *before = new_valve(kinds[kind]);

@@ -156,7 +156,7 @@ TEST(openings_have_the_areas_of_a_raster) {
   for (int kind = 0; kind < n_kinds; kind += trial_step()) {
     riis_valve *valve = new_valve(kinds[kind]);
     riis_area_search search = area_search();
-    search.n_samples = kind == 0 && !is_sanitized() ? 33 : 5;
+    search.n_samples = kind == 0 && !is_short_test() ? 33 : 5;
     const solution found = solve(valve, "opening", wanted[kind], &search);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", found.value));
     const double area = area_by_raster(new_surface(valve, search.surface));
@@ -231,7 +231,7 @@ TEST(sizes_have_their_areas) {
  * its keys, the rates. */
 TEST(a_cycle_is_recovered) {
   enum { most = 33 };
-  const int n = is_sanitized() ? 5 : most;
+  const int n = is_short_test() ? 5 : most;
   riis_opening_times law;
   CHECK_OK(riis_opening_times_init(&law, sizeof law));
   law.opening_start = 0.05, law.opening_duration = 0.1, law.closing_start = 0.35, law.closing_duration = 0.15;
@@ -340,7 +340,7 @@ TEST(turns_are_told) {
   assert_int_equal(above.range.n_turns, 1);
   CHECK_NEAR(above.value, 172, 0.1);
   CHECK_NEAR(above.reached, both, 1e-4 * both);
-  if (is_sanitized()) return; /* the other search is as long */
+  if (is_short_test()) return; /* the other search is as long */
   CHECK_OK(riis_valve_set_scalar(mitral, "leaflet_inward_angle", 125));
   const solution below = solve(mitral, "leaflet_inward_angle", both, &search);
   printf("turn of the mitral valve at %.2f; angles %.3f and %.3f\n", below.range.turns[0], below.value, above.value);

@@ -422,15 +422,15 @@ TEST(searches_agree) {
   const riis_valve *valves[3] = {references[2].valve, references[3].valve, hairpin_valve};
   for (int of = 0; of < 3; ++of)
     for (int32_t method = RIIS_MEASURE_SAMPLING; method <= RIIS_MEASURE_MINIMIZATION; ++method) {
-      if (is_sanitized() && of != method) continue;
+      if (is_short_test() && of != method) continue;
       const int owned_before = n_owned();
       riis_surface *surface = measured(valves[of], method, method == RIIS_MEASURE_SAMPLING ? 0.2 : 0.01);
-      test_mesh nodes = lattice_around(surface, is_sanitized() ? 0.15 : 0.11, 0.2);
+      test_mesh nodes = lattice_around(surface, is_short_test() ? 0.15 : 0.11, 0.2);
       riis_mesh *mesh = mesh_from(&nodes);
       uint8_t *mask = own(malloc((size_t)nodes.n));
       for (int64_t i = 0; i < nodes.n; ++i) mask[i] = random_bits(&rng) % 4 != 0;
       const double limits[] = {RIIS_AUTO, 0.17};
-      for (int k = 0; k < 4; k += is_sanitized() ? 3 : 1) {
+      for (int k = 0; k < 4; k += is_short_test() ? 3 : 1) {
         const int n_outside = n_owned();
         const double limit = limits[k / 2];
         const uint8_t *which = k % 2 ? mask : NULL;

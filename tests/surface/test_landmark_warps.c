@@ -301,7 +301,7 @@ static riis_valve *warped_to(const patient *at, int kind, riis_surface_options *
 
 TEST(valves_meet_the_landmarks_of_patients) {
   for (int kind = aortic; kind <= mitral; kind += trial_step())
-    for (int n = 8; n <= (is_sanitized() ? 8 : 24); n += is_long_test() ? 4 : 16) {
+    for (int n = 8; n <= (is_short_test() ? 8 : 24); n += is_long_test() ? 4 : 16) {
       double worst = 0;
       int n_warped = 0;
       const int n_patients = is_long_test() ? 12 : 1;
@@ -312,7 +312,7 @@ TEST(valves_meet_the_landmarks_of_patients) {
         riis_surface_options options, fine;
         riis_valve *valve = warped_to(&at, kind, &options);
         riis_surface *surface = NULL;
-        fine = options, fine.tolerance = is_sanitized() ? 0.01 : 0.002;
+        fine = options, fine.tolerance = is_short_test() ? 0.01 : 0.002;
         if (valve && riis_surface_create(valve, &fine, &surface) == RIIS_OK) {
           own(surface);
           ++n_warped;

@@ -493,7 +493,7 @@ TEST(test_noisy_sectors) {
         "standard errors; within 3 errors %.3f\n",
         kinds_of[c->n], n, sqrt(sectors / (n * c->n)), sqrt(expected / (n * c->n)), sqrt(squares / n_values),
         (double)n_covered / n_values);
-    if (is_sanitized()) continue; /* these are too few patients for statistics */
+    if (is_short_test()) continue; /* these are too few patients for statistics */
     CHECK_AT_MOST(0.97 * n_values, n_covered);
     /* The standard errors come from the stated noise or from larger residuals, so they are rather too large. */
     CHECK_NEAR(sqrt(sectors / expected), 0.9, 0.25);
@@ -711,7 +711,7 @@ TEST(test_noisy_mitral) {
         "%.2f; %d with undetermined sizes; within 3 errors %.3f\n",
         points, n, sqrt(squares[0]), sqrt(squares[1]), sqrt(squares[5]), sqrt(squares[6]), sqrt(squares[3]),
         sqrt(residual), n_undetermined, (double)n_covered / (n_sizes * n));
-    if (is_sanitized()) continue; /* these are too few patients for statistics */
+    if (is_short_test()) continue; /* these are too few patients for statistics */
     CHECK_AT_MOST(0.95 * n_sizes * n, n_covered);
     if (points == 16) {
       const double most_times = 1.2 + 3 / sqrt(2.0 * n); /* the measured errors, 20 %, and three times their scatter */
@@ -927,7 +927,7 @@ TEST(test_noisy_saddles) {
         10 * sqrt(squares[3]), sqrt(squares[2]), sqrt(squares[4]), sqrt(squares[5]), sqrt(in_squares[0]),
         sqrt(in_squares[1]), sqrt(in_squares[2]), sqrt(in_squares[3]), sqrt(in_squares[4]), sqrt(in_squares[5]),
         (double)n_covered / (n * n_sizes_of));
-    if (is_sanitized()) continue; /* these are too few patients for statistics */
+    if (is_short_test()) continue; /* these are too few patients for statistics */
     CHECK_AT_MOST(0.96 * n * n_sizes_of, n_covered);
     for (int i = 0; i < n_sizes_of; ++i) CHECK_NEAR(sqrt(in_squares[i]), 0.85, 0.35);
   }

@@ -267,7 +267,7 @@ TEST(the_error_at_any_point_falls_with_the_tolerance) {
 /* At opening 0 the leaflets share their edge as one curve. At any other opening each leaflet has its own. */
 TEST(steps_into_and_out_of_the_closed_state) {
   static const double other[] = {1, 0.5, 0.1, 0.01, 0.001};
-  for (int i = 0; i < 5; i += is_sanitized() ? 4 : 1)
+  for (int i = 0; i < 5; i += is_short_test() ? 4 : 1)
     for (int out_of = 0; out_of < 2; ++out_of) {
       const states now = paper_at(out_of ? other[i] : 0), before = paper_at(out_of ? 0 : other[i]);
       const double seconds = now.closed.opening - before.closed.opening;

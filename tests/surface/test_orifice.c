@@ -216,7 +216,7 @@ TEST(orifices_are_those_of_turned_lines) {
       CHECK_OK(riis_valve_set_scalar(valve, "opening", openings[i]));
       const riis_orifice found = orifice_of(new_surface(valve, &fine), NULL);
       if (by_polygons[kind][i] >= 0) CHECK_NEAR(found.area, by_polygons[kind][i], 1e-3 * found.area + 5e-4);
-      if (i % 2 == 0 || kind == 0 || kind == 4 || (is_sanitized() && i != 1 + 2 * (kind % 2))) continue;
+      if (i % 2 == 0 || kind == 0 || kind == 4 || (is_short_test() && i != 1 + 2 * (kind % 2))) continue;
       const riis_surface *surface = new_surface(valve, NULL);
       const riis_orifice coarse = orifice_of(surface, NULL);
       CHECK_NEAR(coarse.area, area_by_turned_lines(surface, coarse.radius, coarse.axis), 1e-3 * coarse.area);
@@ -228,7 +228,7 @@ TEST(orifices_are_those_of_turned_lines) {
 TEST(unequal_cusps_are_seen_along_z) {
   riis_valve *valve = new_valve("bicuspid");
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 1));
-  for (double sector = 140; sector <= 200; sector += is_sanitized() ? 90 : 30) {
+  for (double sector = 140; sector <= 200; sector += is_short_test() ? 90 : 30) {
     CHECK_OK(riis_valve_set_scalar(valve, "cusp_0.sector", sector));
     CHECK_OK(riis_valve_set_scalar(valve, "cusp_1.sector", 360 - sector));
     const riis_surface *surface = new_surface(valve, NULL);

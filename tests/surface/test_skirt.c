@@ -245,7 +245,7 @@ TEST(skirts_cross_nothing) {
     const int kind = trial % n_skirted;
     const double length = between(0.05, 0.25);
     const uint64_t seed = rng.state;
-    for (int i = 0; i <= 10; i += is_sanitized() ? 5 : 1) {
+    for (int i = 0; i <= 10; i += is_short_test() ? 5 : 1) {
       const int owned_before = n_owned();
       riis_surface_options options = surface_options();
       options.triangulation = i == 5 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
@@ -920,7 +920,7 @@ TEST(skirts_move_continuously_with_a_warp) {
     const double turned[2] = {targets[3] - targets[0], targets[4] - targets[1]};
     const double was[2] = {sources[3] - sources[0], sources[4] - sources[1]};
     n_turned += turned[0] * was[0] + turned[1] * was[1] < 0.7 * hypot(turned[0], turned[1]) * hypot(was[0], was[1]);
-    const int n_steps = is_sanitized() ? 5 : 50, n_parts = 64;
+    const int n_steps = is_short_test() ? 5 : 50, n_parts = 64;
     double begins = 0, unused;
     const double step = largest_step(valve, warp, n, sources, targets, 0, 1, n_steps, &begins);
     const double part =

@@ -230,7 +230,7 @@ TEST(skirts_have_the_velocity_of_their_points) {
     for (int fixed = 0; fixed < 2; ++fixed) {
       double worst[n_motions] = {0};
       for (int motion = 0; motion < n_motions; ++motion) {
-        if (is_sanitized() && motion != (kind + 2 * fixed) % n_motions) continue;
+        if (is_short_test() && motion != (kind + 2 * fixed) % n_motions) continue;
         const int owned_before = n_owned();
         const double seconds = 0.01;
         state_of_skirt then, now;
@@ -440,7 +440,7 @@ static double nearest_share(const strip *at, const double *p) {
 TEST(skirts_move_with_warped_attachments) {
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
-      if (is_sanitized() && (fixed != kind % 2 || kind % 3)) continue;
+      if (is_short_test() && (fixed != kind % 2 || kind % 3)) continue;
       const int owned_before = n_owned();
       const double seconds = 0.01, time = between(0, 1);
       const double of[4] = {between(0.03, 0.08), between(0.03, 0.06), between(0.03, 0.08), between(0.1, 0.2)};

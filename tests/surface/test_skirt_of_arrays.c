@@ -142,7 +142,7 @@ static const double share_of_length[n_kinds] = {0.005, 0.005, 0.02, 0.1};
 
 TEST(a_valve_that_is_given_back_gets_its_own_skirt) {
   const int n_openings = is_long_test() ? 9 : 3;
-  for (int trial = 0; trial < n_kinds * n_openings * 2; trial += is_sanitized() ? 13 : 1) {
+  for (int trial = 0; trial < n_kinds * n_openings * 2; trial += is_short_test() ? 13 : 1) {
     const int owned_before = n_owned(), kind = trial % n_kinds, is_fixed = trial / n_kinds % 2;
     const double opening = (double)(trial / n_kinds / 2) / (n_openings - 1), length = between(0.05, 0.3);
     const int32_t how = is_fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;

@@ -220,7 +220,7 @@ TEST(skirts_of_patients_reach_the_wall) {
     riis_gap gap;
     CHECK_OK(riis_surface_get_gap(new_surface(bare, &options), wall, NULL, &gap, sizeof gap));
     CHECK_OK(riis_valve_set_skirt_to_wall(valve, wall, 25, &options));
-    for (int i = 0; i <= 10; i += is_long_test() ? 1 : is_sanitized() ? 10 : 5)
+    for (int i = 0; i <= 10; i += is_long_test() ? 1 : is_short_test() ? 10 : 5)
       for (int is_fixed = 0; is_fixed < 2; ++is_fixed) {
         if (!is_long_test() && is_fixed != (trial + i) % 2) continue;
         const int owned_in_trial = n_owned();

@@ -71,7 +71,7 @@ TEST(velocities_follow_the_smooth_valve) {
   const int is_long = is_long_test(), n_random = trials_of(4);
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed)
-      for (int fine = 0; fine < (is_sanitized() ? 1 : 2); ++fine) {
+      for (int fine = 0; fine < (is_short_test() ? 1 : 2); ++fine) {
         const int owned_before = n_owned();
         riis_valve *valve = new_valve(kinds[kind]), *before = new_valve(kinds[kind]);
         riis_surface_options options = surface_options();
@@ -86,7 +86,7 @@ TEST(velocities_follow_the_smooth_valve) {
           CHECK_OK(riis_valve_set_scalar(before, "opening", (at - 1) / 1000.));
           CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.001, NULL, NULL));
           smooth_motion *motion = smooth_motion_create(valve, before, 0.001);
-          const compared here = compare(surface, motion, fine ? 97 : i < 2 && !is_sanitized() ? 1 : 8);
+          const compared here = compare(surface, motion, fine ? 97 : i < 2 && !is_short_test() ? 1 : 8);
           smooth_motion_destroy(motion);
           if (here.vertices > 0.01 || here.inside > 0.02)
             fail_msg("%s at %d, triangulation %d, tolerance %g: off by %.3g at a vertex, by %.3g inside", kinds[kind],
@@ -211,7 +211,7 @@ TEST(the_bound_holds_for_any_motion) {
  * close to the true error. docs/theory/velocity.md has the printed shares. */
 TEST(the_bound_is_near) {
   static const double most[n_kinds] = {0.35, 0.06, 0.08, 0.04, 0.06};
-  const int n = is_sanitized() ? 10 : 100;
+  const int n = is_short_test() ? 10 : 100;
   for (int kind = 0; kind < n_kinds; ++kind) {
     riis_valve *valve = new_valve(kinds[kind]), *before = new_valve(kinds[kind]);
     double least = INFINITY, largest = 0;

@@ -949,7 +949,7 @@ static double normal(double deviation) {
  * Nor do exact landmarks. Five times that noise, without smoothing, folds nearly every valve. RIIS_TEST_LONG=1 takes 100 patients
  * of each sort. */
 TEST(warps_of_patients_do_not_fold) {
-  const int n_patients = trials(25, 100), n_openings = is_sanitized() ? 5 : 50;
+  const int n_patients = trials(25, 100), n_openings = is_short_test() ? 5 : 50;
   const struct { double noise, smoothing; } sorts[3] = {{0.03, 0.03}, {0, 0}, {0.15, 0}};
   int n_refused = 0;
   for (int trial = 0; trial < 3 * n_patients; ++trial) {
