@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "common/array_view.hpp"
-#include "common/elementary.hpp"
+#include "common/vectors.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/mark/mesh_marking.hpp"
@@ -15,7 +15,7 @@
 namespace riis::program {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity(), pi = 3.14159265358979323846;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The solver widens its box by this share on each side, and takes this many closed half thicknesses as the distance of nodes
 // outside it.
