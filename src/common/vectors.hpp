@@ -8,8 +8,6 @@
 
 namespace riis {
 
-inline constexpr double pi = 2 * elementary::half_pi;
-
 using Vector3 = std::array<double, 3>;
 
 inline Vector3 operator+(const Vector3 &a, const Vector3 &b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
