@@ -13,6 +13,8 @@
 
 namespace riis {
 
+inline constexpr double pi = 3.14159265358979323846;
+
 struct SineCosine {
   double sine, cosine;
 };
@@ -27,7 +29,7 @@ constexpr double polynomial(const double (&coefficient)[n], double x) {
   return value;
 }
 
-inline constexpr double half_pi = 1.57079632679489661923;
+inline constexpr double half_pi = pi / 2;
 
 // Returns sine and cosine of |x| <= pi/4.
 inline SineCosine of_small(double x) {
@@ -72,7 +74,7 @@ inline SineCosine sine_cosine(double radians) {
   using elementary::half_pi;
   // Three parts of pi/2. A number of quarters below 2^20 times one of the first two parts is exact.
   constexpr double first = 0x1.921fb544p+0, second = 0x1.0b4611a6p-34, third = 0x1.3198a2e037073p-69;
-  const double near = std::abs(radians) <= 1e6 ? radians : std::remainder(radians, 4 * half_pi);
+  const double near = std::abs(radians) <= 1e6 ? radians : std::remainder(radians, 2 * pi);
   const double quarters = std::floor(near / half_pi + 0.5);
   return elementary::turned_by_quarters(
       elementary::of_small(((near - quarters * first) - quarters * second) - quarters * third), quarters);
@@ -104,7 +106,7 @@ inline double arc_tangent(double y, double x) {
   const double near = t + t * (t * t) * elementary::polynomial(in_squares, t * t);
   double angle = is_wide ? half_pi / 2 + near : near;
   if (ay >= ax && ay > 0) angle = half_pi - angle;
-  if (std::signbit(x)) angle = 2 * half_pi - angle;
+  if (std::signbit(x)) angle = pi - angle;
   return std::copysign(angle, y);
 }
 

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <functional>
 
+#include "common/vectors.hpp"
+
 namespace riis::program {
 
 namespace {
@@ -110,9 +112,9 @@ std::array<double, 3> eigenvalues_of(const std::array<double, 6> &m) {
   if (size == 0) return {mean, mean, mean};
   const double determinant =
       x * (y * z - m[5] * m[5]) - m[3] * (m[3] * z - m[5] * m[4]) + m[4] * (m[3] * m[5] - y * m[4]);
-  const double turn = std::acos(std::clamp(determinant / (2 * size * size * size), -1.0, 1.0)) / 3;
-  const double third = 2 * std::acos(-1.0) / 3;
-  const double first = mean + 2 * size * std::cos(turn), last = mean + 2 * size * std::cos(turn + third);
+  const double turn = arc_cosine(std::clamp(determinant / (2 * size * size * size), -1.0, 1.0)) / 3;
+  const double first = mean + 2 * size * sine_cosine(turn).cosine;
+  const double last = mean + 2 * size * sine_cosine(turn + 2 * pi / 3).cosine;
   return {first, 3 * mean - first - last, last};
 }
 

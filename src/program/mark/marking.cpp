@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -53,6 +54,11 @@ void combine(riis_mark_stats &all, const riis_mark_stats &stats) {
 // Tells whether the closed area can be measured: the valve is closed or a surface from a file, and the band lies in its middle.
 bool is_closed(const MovingValve &valve) {
   return valve.opening().value_or(0) == 0 && valve.options().surface_options.offset == 0;
+}
+
+// Returns by how much a measured distance may be too large. Minimisation may end beside the nearest point.
+double error_of_distances(const ValveOptions &options) {
+  return options.surface_options.measure == RIIS_MEASURE_MINIMIZATION ? std::numeric_limits<double>::infinity() : 0;
 }
 
 void report_leak(const MovingValve &valve, FlowReport &flow) {
@@ -248,8 +254,8 @@ void Marking::measure(Piece &piece) {
     node_counts_.add(piece.nodes, list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT), within_limit(i));
     std::vector<std::int64_t> regions;
     if (wants_measures_ && piece.nodes.is_whole() && is_closed(valves_[i]))
-      sums.closed_area = closed_area_in(piece.file.get(), valves_[i].surface(),
-                                        info_of(valves_[i].surface()).half_thickness, options().mark_options.n_threads);
+      sums.closed_area = closed_area_in(piece.file.get(), valves_[i].surface(), options().mark_options.n_threads,
+                                        error_of_distances(valves_[i].options()));
     if (wants_measures_ && has_edges) regions = sums.band.add(piece, valves_[i].result(), options().mark_options);
     if (i == 0 || !regions.empty()) sums.shared.push_back(shared_nodes_of(piece, regions));
   }

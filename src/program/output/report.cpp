@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "common/array_view.hpp"
+#include "common/vectors.hpp"
 #include "program/base/options.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_file.hpp"
@@ -26,7 +27,6 @@ std::string bytes_text(double n) {
 
 bool has_slits(const riis_orifice &orifice) {
   // The perimeter is less than that of a circle with a hundredth of the area.
-  const double pi = std::acos(-1);
   const bool has_no_rim = orifice.perimeter * orifice.perimeter < 4 * pi * 0.01 * orifice.area;
   return has_no_rim && orifice.area > 1e-3 * orifice.outline_area && orifice.effective_area < 0.5 * orifice.area;
 }

@@ -19,7 +19,6 @@
 namespace riis::program {
 namespace {
 
-using flat_parts::half_turn;
 using FlatPart = flat_parts::Part;
 
 // A refusal lists so many flat parts.
@@ -233,10 +232,10 @@ bool is_in_wall(const Triangles &triangles, const Vector3 &point) {
       far[k] = norm(to[k]);
     }
     angle +=
-        2 * std::atan2(dot(to[0], cross(to[1], to[2])), far[0] * far[1] * far[2] + dot(to[0], to[1]) * far[2] +
-                                                            dot(to[1], to[2]) * far[0] + dot(to[2], to[0]) * far[1]);
+        2 * arc_tangent(dot(to[0], cross(to[1], to[2])), far[0] * far[1] * far[2] + dot(to[0], to[1]) * far[2] +
+                                                             dot(to[1], to[2]) * far[0] + dot(to[2], to[0]) * far[1]);
   }
-  return angle > 2 * half_turn;
+  return angle > 2 * pi;
 }
 
 // Returns the first triangle on a ray from inside, or -1.

@@ -267,7 +267,7 @@ class PatientMesher {
     // The edges at a small end are shorter than elsewhere, and grow with the distance from it.
     int n_fields = 1;
     for (const FlatEnd &end : wall_.ends) {
-      const double radius = std::sqrt(end.area / 3.14159265358979323846), edge = end_edge_share * radius;
+      const double radius = std::sqrt(end.area / pi), edge = end_edge_share * radius;
       if (edge >= options_.largest_edge) continue;
       const std::string field_text = "Field[" + std::to_string(++n_fields) + "]";
       std::string squares;

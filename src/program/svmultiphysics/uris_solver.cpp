@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "common/array_view.hpp"
-#include "common/elementary.hpp"
+#include "common/vectors.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/mark/mesh_marking.hpp"
@@ -15,7 +15,7 @@
 namespace riis::program {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity(), pi = 3.14159265358979323846;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The solver widens its box by this share on each side, and takes this many closed half thicknesses as the distance of nodes
 // outside it.
@@ -319,10 +319,19 @@ std::vector<double> exact_distances(std::int64_t n_nodes, const double *xyz, con
 }
 
 double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std::vector<double> &near,
-                  double half_thickness, std::int32_t n_threads, bool at_solver_points) {
+                  double half_thickness, std::int32_t n_threads, bool at_solver_points, double error) {
   const SolverElement &element = *mesh.element;
   const std::vector<ReferencePoint> &points = at_solver_points ? element.gauss : element.fine;
   const std::vector<ShapeFunctions> &functions = at_solver_points ? element.at_gauss : element.at_fine;
+  // Most points of the elements near the band lie outside it: their distance is at least that of a node, less the way to it.
+  const double reach = (1 + 1e-6) * half_thickness + error;  // rounding changes less
+  const auto excludes = [&](std::int64_t node, const Point &point) {
+    const Point off = difference(point, mesh.point(node));
+    const double beyond = view(near)[node] - reach;
+    return beyond > 0 && beyond < infinity && product(off, off) < beyond * beyond;
+  };
+  // A linear element lies between its nodes, so a node that excludes all of them excludes the element.
+  const bool is_linear = element.n_nodes == element.n_corners;
   std::vector<double> xyz, weights;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
     double nearest = infinity, size = 0;
@@ -333,14 +342,18 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
       size = std::max(size, hypotenuse(off[0], off[1], off[2]));
     }
     if (!(nearest <= half_thickness + 2 * size)) continue;
+    const std::int64_t *const begin = mesh.nodes_of(e), *const end = begin + element.n_nodes;
+    if (is_linear && std::any_of(begin, end, [&](std::int64_t node) {
+          return std::all_of(begin, end, [&](std::int64_t other) { return excludes(node, mesh.point(other)); });
+        }))
+      continue;
     for (std::size_t g = 0; g < points.size(); ++g) {
+      Point point{};
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t a = 0; a < element.n_nodes; ++a) point[k] += functions[g].values[a] * mesh.point(begin[a])[k];
+      if (std::any_of(begin, end, [&](std::int64_t node) { return excludes(node, point); })) continue;
       weights.push_back(points[g].weight * determinant_at(mesh, e, functions[g]));
-      for (std::int64_t k = 0; k < 3; ++k) {
-        double x = 0;
-        for (std::size_t a = 0; a < element.n_nodes; ++a)
-          x += functions[g].values[a] * mesh.xyz()[3 * mesh.nodes_of(e)[a] + k];
-        xyz.push_back(x);
-      }
+      xyz.insert(xyz.end(), point.begin(), point.end());
     }
   }
   if (weights.empty()) return 0;
@@ -351,14 +364,15 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
   return half_thickness * integral;
 }
 
-std::optional<double> closed_area_in(const riis_vtk_mesh *file, const riis_surface *surface, double half_thickness,
-                                     std::int32_t n_threads) {
+std::optional<double> closed_area_in(const riis_vtk_mesh *file, const riis_surface *surface, std::int32_t n_threads,
+                                     double error) {
   SolverMesh mesh;
   try {
     mesh = solver_mesh_of(file, "", 1);
   } catch (const Refusal &) {
     return std::nullopt;
   }
+  const double half_thickness = info_of(surface).half_thickness;
   double largest = 0;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e)
     for (std::size_t a = 1; a < mesh.element->n_nodes; ++a) {
@@ -367,7 +381,7 @@ std::optional<double> closed_area_in(const riis_vtk_mesh *file, const riis_surfa
     }
   const std::vector<double> near =
       exact_distances(mesh.n_nodes, mesh.xyz(), surface, half_thickness + 2 * largest, n_threads);
-  return exact_area(mesh, surface, near, half_thickness, n_threads, false);
+  return exact_area(mesh, surface, near, half_thickness, n_threads, false, error);
 }
 
 }  // namespace riis::program

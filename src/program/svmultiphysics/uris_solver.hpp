@@ -119,14 +119,16 @@ SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets,
 // Returns half thickness times the integral of delta: the area of the leaflets as the flow meets it.
 double solver_area(const SolverMesh &mesh, const SolverDistances &distances, double half_thickness);
 // Returns the same area by the library's exact distances at many points in each element. `near` has a distance for each node.
-// Elements with all nodes farther than the half thickness and the element's size do not count.
+// Elements with all nodes farther than the half thickness and the element's size do not count. The distances may be too large by
+// `error`.
 double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std::vector<double> &near,
-                  double half_thickness, std::int32_t n_threads, bool at_solver_points);
+                  double half_thickness, std::int32_t n_threads, bool at_solver_points, double error = 0);
 
 // Returns the area of a closed valve in a mesh (docs/theory/measures.md, "Closed area"), in the mesh's unit squared. Returns
-// nothing if the mesh has no volume elements of one type that exact_area knows.
-std::optional<double> closed_area_in(const riis_vtk_mesh *file, const riis_surface *surface, double half_thickness,
-                                     std::int32_t n_threads);
+// nothing if the mesh has no volume elements of one type that exact_area knows. The surface's distances may be too large by
+// `error`.
+std::optional<double> closed_area_in(const riis_vtk_mesh *file, const riis_surface *surface, std::int32_t n_threads,
+                                     double error);
 
 // Returns the distance of each node to the surface, up to a limit, and infinity beyond it.
 std::vector<double> exact_distances(std::int64_t n_nodes, const double *xyz, const riis_surface *surface, double limit,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pi, points and vectors of R^3 in double precision, and boxes whose sides are parallel to the coordinate axes.
+// Points and vectors of R^3 in double precision, and boxes whose sides are parallel to the coordinate axes.
 #pragma once
 
 #include <algorithm>
@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <limits>
 
-namespace riis {
+#include "common/elementary.hpp"
 
-constexpr double pi = 3.14159265358979323846;
+namespace riis {
 
 struct Vec3 {
   double x, y, z;
