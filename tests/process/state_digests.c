@@ -2,8 +2,8 @@
  * state_digests [THREADS [INSTRUCTIONS]] prints a digest for each of 60 states of valves, one for each of 36 placements, and a
  * last one of them all. A state's digest covers triangles, marks, fields, K, velocities, derivatives, the orifice and the
  * reaction. The valves have all kinds, both triangulations, angles, warps, skirts, bumps and placements. A placement's digest
- * covers the sizes and the rotation that riis_place finds for landmarks. Equal lines of two runs mean equal bits. This program
- * takes sums, products, quotients and roots only, so it does not depend on the C library itself.
+ * covers the sizes and the rotation that riis_place finds for landmarks, and the placed triangles. Equal lines of two runs mean
+ * equal bits. This program takes sums, products, quotients and roots only, so it does not depend on the C library itself.
  *
  * state_digests cosine prints a digest of the C library's own cosine. */
 #include <inttypes.h>
@@ -263,7 +263,7 @@ static void put_into_patient(patient *p, double *flow) {
   for (int k = 0; k < 3; ++k) flow[k] = turn[k][2];
 }
 
-static void add_placement(const char *kind) {
+static void add_placement(const char *kind, int32_t n_threads) {
   static const struct {
     const char *kind;
     int n_cusps;
@@ -308,6 +308,17 @@ static void add_placement(const char *kind) {
     CHECK(riis_valve_get(valve, parameter.name, parameter.n_values, value));
     add_doubles(value, parameter.n_values);
   }
+  riis_surface_options options;
+  CHECK(riis_surface_options_init(&options, sizeof options));
+  options.n_threads = n_threads;
+  options.tolerance = 0.3;
+  memcpy(options.rotation_axis, placement.rotation_axis, sizeof options.rotation_axis);
+  options.rotation_angle = placement.rotation_angle;
+  memcpy(options.translation, placement.translation, sizeof options.translation);
+  riis_surface *surface = NULL;
+  CHECK(riis_surface_create(valve, &options, &surface));
+  add_triangles(surface);
+  riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
 }
 
@@ -333,7 +344,7 @@ int main(int argc, char **argv) {
   }
   for (int i = 0; i < n_placements; ++i) {
     digest = start;
-    add_placement(kinds[i % n_kinds]);
+    add_placement(kinds[i % n_kinds], n_threads);
     printf("%2d placed %-15s %016" PRIx64 "\n", i, kinds[i % n_kinds], digest);
     whole = (whole ^ digest) * UINT64_C(0x100000001b3);
   }
