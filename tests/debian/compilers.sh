@@ -19,25 +19,21 @@ status=0 n_rows=0
 system=$(. /etc/os-release && echo "${ID^} ${VERSION_ID:-}")
 read -r _ libc < <(getconf GNU_LIBC_VERSION)
 
-# configure FOLDER OPTION...: with the compiler $cxx. Reading the files must not need precompiled headers.
+# configure FOLDER PRESET: with the compiler $cxx. Reading the files must not need precompiled headers.
 configure() {
   local level=-O3
   [[ $mode != quick ]] || level=-O1
-  cmake -S "$source" -B "$@" -G Ninja -D CMAKE_BUILD_TYPE=Release -D RIIS_WARNINGS_AS_ERRORS=ON -D RIIS_UNITY_CORE=ON \
+  cmake -S "$source" -B "$1" -G Ninja --preset "$2" -D RIIS_WARNINGS_AS_ERRORS=ON -D RIIS_UNITY_CORE=ON \
     -D CMAKE_CXX_FLAGS_RELEASE="$level -DNDEBUG" -D RIIS_KERNEL_LEVEL="$level" -D CMAKE_CXX_COMPILER="$cxx" \
     -D CMAKE_C_COMPILER="$cc" -D CMAKE_CXX_FLAGS="$flags" -D CMAKE_EXPORT_COMPILE_COMMANDS=ON \
     -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON -D RIIS_WITH_FORTRAN=OFF
-}
-
-configure_core() {
-  configure "$1" -D RIIS_WITH_VTK=OFF -D RIIS_BUILD_PROGRAM=OFF -D RIIS_BUILD_TESTS=OFF -D RIIS_BUILD_BENCH=OFF
 }
 
 # bits FOLDER: builds the core and compares its bits.
 bits() {
   local runs=all
   [[ $mode != quick ]] || runs=''
-  configure_core "$1" &&
+  configure "$1" library &&
     cmake --build "$1" --target riis --parallel "$(nproc)" &&
     "$cc" -std=c11 -O1 -ffp-contract=off -I "$source/include" "$source/tests/process/state_digests.c" -o "$1/state_digests" \
       -L "$1/src/riis" -lriis -lm -Wl,-rpath,"$1/src/riis" &&
@@ -45,7 +41,7 @@ bits() {
 }
 
 # all_files FOLDER: reads all files of the preset default.
-all_files() { configure "$1" --preset default && "$source/tests/debian/read_sources.py" "$1" c++17 c++20 c++23; }
+all_files() { configure "$1" default && "$source/tests/debian/read_sources.py" "$1" c++17 c++20 c++23; }
 
 # tried LOG COMMAND...: runs the command with its output in a log. Returns its status, and prints where the log is if it fails.
 tried() {
@@ -83,7 +79,7 @@ row() {
 # musl FOLDER: reads the core's files with musl's headers, libc++, and Embree's and TBB's headers of this system.
 musl() {
   local name llvm
-  configure_core "$1" || return
+  configure "$1" library || return
   llvm=/usr/lib/llvm-$("$cxx" -dumpversion | sed 's/\..*//')
   rm -rf "$1/headers"
   mkdir "$1/headers"

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
- * count_markings MARKINGS [INSTRUCTIONS [K]]
+ * count_markings MARKINGS [INSTRUCTIONS [WORD...]]
  * Marks one mesh repeatedly on one thread, so that the instructions of a marking can be counted. INSTRUCTIONS is one of
- * RIIS_INSTRUCTIONS_*, by default the baseline. A third argument requests K. Prints the number of marked nodes, and a digest of
- * the nodes and distances. */
+ * RIIS_INSTRUCTIONS_*, by default the baseline. The words K and sides request these fields. With the word moving, the valve opens
+ * before each marking. Another word is the kind of the valve. Prints the number of marked nodes, and a digest of the nodes and
+ * distances. */
 #include <inttypes.h>
 #include <riis/riis.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,16 +34,36 @@ static void check(riis_status status) {
 
 int main(int argc, char **argv) {
   if (argc < 2) {
-    fprintf(stderr, "usage: %s MARKINGS [INSTRUCTIONS [K]]\n", argv[0]);
+    fprintf(stderr, "usage: %s MARKINGS [INSTRUCTIONS [K | sides | moving | KIND]...]\n", argv[0]);
     return 2;
   }
   static double xyz[3 * n_nodes];
   place_nodes(xyz);
-  riis_valve *valve = NULL;
+  riis_resistance resistance;
+  riis_resistance_init(&resistance, sizeof resistance);
+  resistance.R = 1e4;
+  riis_mark_options options;
+  riis_mark_options_init(&options, sizeof options);
+  options.n_threads = 1;
+  options.instructions = argc > 2 ? (int32_t)strtol(argv[2], NULL, 10) : RIIS_INSTRUCTIONS_BASELINE;
+  const char *kind = "coapting";
+  bool is_moving = false;
+  for (int i = 3; i < argc; ++i) {
+    if (strcmp(argv[i], "K") == 0)
+      options.resistance = &resistance;
+    else if (strcmp(argv[i], "sides") == 0)
+      options.fields |= RIIS_FIELD_SIDE;
+    else if (strcmp(argv[i], "moving") == 0)
+      is_moving = true;
+    else
+      kind = argv[i];
+  }
+  riis_valve *valve = NULL, *valve_before = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
   riis_marks *marks = NULL;
-  check(riis_valve_create("coapting", &valve));
+  check(riis_valve_create(kind, &valve));
+  check(riis_valve_create(kind, &valve_before));
   check(riis_valve_set_scalar(valve, "opening", 0.5));
   riis_surface_options of_surface;
   riis_surface_options_init(&of_surface, sizeof of_surface);
@@ -50,15 +72,15 @@ int main(int argc, char **argv) {
   check(riis_surface_create(valve, &of_surface, &surface));
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
   check(riis_marks_create(&marks));
-  riis_mark_options options;
-  riis_mark_options_init(&options, sizeof options);
-  options.n_threads = 1;
-  options.instructions = argc > 2 ? (int32_t)strtol(argv[2], NULL, 10) : RIIS_INSTRUCTIONS_BASELINE;
-  riis_resistance resistance;
-  riis_resistance_init(&resistance, sizeof resistance);
-  resistance.R = 1e4;
-  if (argc > 3) options.resistance = &resistance;
-  for (long i = strtol(argv[1], NULL, 10); i > 0; --i) check(riis_mark_nodes(surface, mesh, &options, marks));
+  const long n_markings = strtol(argv[1], NULL, 10);
+  for (long i = 1; i <= n_markings; ++i) {
+    if (is_moving) {
+      check(riis_valve_set_scalar(valve_before, "opening", 0.5 + 0.01 * (double)(i - 1)));
+      check(riis_valve_set_scalar(valve, "opening", 0.5 + 0.01 * (double)i));
+      check(riis_surface_update_moving(surface, valve, valve_before, 0.01, NULL, NULL));
+    }
+    check(riis_mark_nodes(surface, mesh, &options, marks));
+  }
   riis_mark_list list = {0};
   check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &list, sizeof list));
   uint64_t digest = UINT64_C(0xcbf29ce484222325);
@@ -71,6 +93,7 @@ int main(int argc, char **argv) {
   riis_marks_destroy(&marks);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve_before);
   riis_valve_destroy(&valve);
   return 0;
 }

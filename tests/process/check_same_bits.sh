@@ -1,10 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_same_bits.sh STATE_DIGESTS DIGESTS [all]
-# The bits of 60 states must be those in the file DIGESTS, with every compiler, number of threads and set of instructions, and
-# with the C library's code for other processors. Prints the first states that differ. With the word all, the program runs with
-# each number of threads from 1 to 8 and with each set of instructions, not only with the extremes. After an intended change of
-# bits, the output of STATE_DIGESTS replaces the file.
+# The bits of all states and placements must be those in the file DIGESTS, with every compiler, number of threads and set of
+# instructions, and with the C library's code for other processors. Prints the first states that differ. With the word all, the
+# program runs with each number of threads from 1 to 8 and with each set of instructions, not only with the extremes. After an
+# intended change of bits, the output of STATE_DIGESTS replaces the file.
 set -euo pipefail
 program=$1 expected=$2 runs=${3:-}
 folder=$(mktemp -d)

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
- * state_digests [THREADS [INSTRUCTIONS]] prints a digest for each of 60 states of valves, and a last one of them all. A state's
- * digest covers triangles, marks, fields, K, velocities, derivatives, the orifice and the reaction. The valves have all kinds,
- * both triangulations, angles, warps, skirts, bumps and placements. Equal lines of two runs mean equal bits. This program takes
- * sums, products, quotients and roots only, so it does not depend on the C library itself.
+ * state_digests [THREADS [INSTRUCTIONS]] prints a digest for each of 60 states of valves, one for each of 36 placements, and a
+ * last one of them all. A state's digest covers triangles, marks, fields, K, velocities, derivatives, the orifice and the
+ * reaction. The valves have all kinds, both triangulations, angles, warps, skirts, bumps and placements. A placement's digest
+ * covers the sizes and the rotation that riis_place finds for landmarks, and the placed triangles. Equal lines of two runs mean
+ * equal bits. This program takes sums, products, quotients and roots only, so it does not depend on the C library itself.
  *
  * state_digests cosine prints a digest of the C library's own cosine. */
 #include <inttypes.h>
@@ -195,6 +196,132 @@ static void add_state(int state, int32_t n_threads, int32_t instructions) {
   riis_valve_destroy(&now);
 }
 
+/* Landmarks of a patient, first in the valve's frame in centimetres. */
+enum { most_landmarks = 24, n_placements = 4 * n_kinds };
+typedef struct patient {
+  int n;
+  double xyz[3 * most_landmarks];
+  int32_t role[most_landmarks], leaflet_id[2 * most_landmarks];
+} patient;
+
+static void add_landmark(patient *p, int32_t role, double x, double y, double z, int32_t leaflet, int32_t other) {
+  p->xyz[3 * p->n] = x, p->xyz[3 * p->n + 1] = y, p->xyz[3 * p->n + 2] = z;
+  p->role[p->n] = role;
+  p->leaflet_id[2 * p->n] = leaflet, p->leaflet_id[2 * p->n + 1] = other;
+  ++p->n;
+}
+
+/* Adds the nadirs of cusps, and the commissures between them. Cosine and sine are those of half a cusp's sector. */
+static void add_cusps(patient *p, int n_cusps, double cosine, double sine) {
+  double x = 1, y = 0;
+  for (int i = 0; i < 2 * n_cusps; ++i) {
+    const int cusp = i / 2;
+    if (i % 2 == 0)
+      add_landmark(p, RIIS_LANDMARK_NADIR, 1.2 * x, 1.2 * y, 0, cusp, -1);
+    else
+      add_landmark(p, RIIS_LANDMARK_COMMISSURE, 1.2 * x, 1.2 * y, 1.6, cusp, (cusp + 1) % n_cusps);
+    const double turned = cosine * x - sine * y;
+    y = sine * x + cosine * y, x = turned;
+  }
+}
+
+/* Adds twelve points of an annulus, some of them with roles of their own. */
+static void add_annulus(patient *p, const char *kind) {
+  const int is_tricuspid = strcmp(kind, "tricuspid") == 0, is_rigid = strcmp(kind, "bileaflet") == 0;
+  const double half_root = 0.8660254037844386, wide = is_rigid ? 1.2 : 1.9, deep = is_rigid ? 1.2 : 1.5;
+  double x = 1, y = 0;
+  for (int i = 0; i < 12; ++i) {
+    int32_t role = RIIS_LANDMARK_ANNULUS, leaflet = -1, other = -1;
+    if (is_tricuspid && i % 4 == 0) role = RIIS_LANDMARK_COMMISSURE, leaflet = 2 - i / 4, other = (leaflet + 2) % 3;
+    if (!is_tricuspid && !is_rigid && i == 3) role = RIIS_LANDMARK_ANTERIOR_HORN;
+    if (!is_tricuspid && !is_rigid && i == 9) role = RIIS_LANDMARK_POSTERIOR_HORN;
+    add_landmark(p, role, wide * x, deep * y, is_rigid ? 0 : 0.2 * (y * y - x * x), leaflet, other);
+    const double turned = half_root * x - 0.5 * y;
+    y = 0.5 * x + half_root * y, x = turned;
+  }
+  if (is_rigid) add_landmark(p, RIIS_LANDMARK_HINGE, 0.15, 1.1, 0, -1, -1);
+  if (is_rigid) add_landmark(p, RIIS_LANDMARK_HINGE, 0.15, -1.1, 0, -1, -1);
+}
+
+/* Turns and moves the landmarks, and scatters each by a millimetre. The flow is the turned z axis. */
+static void put_into_patient(patient *p, double *flow) {
+  double q[4], norm = 0;
+  for (int i = 0; i < 4; ++i) q[i] = between(-1, 1), norm += q[i] * q[i];
+  const double s = 2 / norm, w = q[0], x = q[1], y = q[2], z = q[3];
+  const double turn[3][3] = {{1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)},
+                             {s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)},
+                             {s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)}};
+  const double shift[3] = {between(-20, 20), between(-20, 20), between(-20, 20)};
+  for (int i = 0; i < p->n; ++i) {
+    double at[3];
+    for (int k = 0; k < 3; ++k) {
+      at[k] = shift[k] + between(-0.1, 0.1);
+      for (int j = 0; j < 3; ++j) at[k] += turn[k][j] * p->xyz[3 * i + j];
+    }
+    memcpy(p->xyz + 3 * i, at, sizeof at);
+  }
+  for (int k = 0; k < 3; ++k) flow[k] = turn[k][2];
+}
+
+static void add_placement(const char *kind, int32_t n_threads) {
+  static const struct {
+    const char *kind;
+    int n_cusps;
+    double cosine, sine;
+  } cusps[] = {{"aortic", 3, 0.5, 0.8660254037844386},
+               {"trileaflet", 3, 0.5, 0.8660254037844386},
+               {"coapting", 3, 0.5, 0.8660254037844386},
+               {"bicuspid", 2, 0, 1},
+               {"quadricuspid", 4, 0.7071067811865476, 0.7071067811865476}};
+  patient p = {0};
+  for (size_t i = 0; i < sizeof cusps / sizeof *cusps; ++i)
+    if (strcmp(kind, cusps[i].kind) == 0) add_cusps(&p, cusps[i].n_cusps, cusps[i].cosine, cusps[i].sine);
+  if (p.n == 0) add_annulus(&p, kind);
+  riis_landmarks landmarks;
+  CHECK(riis_landmarks_init(&landmarks, sizeof landmarks));
+  put_into_patient(&p, landmarks.flow);
+  landmarks.n_landmarks = p.n;
+  landmarks.x = p.xyz, landmarks.y = p.xyz + 1, landmarks.z = p.xyz + 2;
+  landmarks.stride = 3;
+  landmarks.role = p.role;
+  landmarks.leaflet_id = p.leaflet_id;
+  landmarks.scale = 1;
+  double place[3 * most_landmarks];
+  riis_placement_arrays arrays;
+  CHECK(riis_placement_arrays_init(&arrays, sizeof arrays));
+  arrays.place = place;
+  riis_valve *valve = NULL;
+  riis_placement placement;
+  CHECK(riis_valve_create(kind, &valve));
+  CHECK(riis_place(valve, &landmarks, "", &arrays, &placement, sizeof placement));
+  add_doubles(place, 3 * p.n);
+  add_doubles(placement.rotation_axis, 3);
+  add_doubles(&placement.rotation_angle, 1);
+  add_doubles(placement.translation, 3);
+  add_doubles(&placement.rms, 1);
+  int64_t n_parameters = 0;
+  CHECK(riis_valve_get_n_parameters(valve, &n_parameters));
+  for (int64_t i = 0; i < n_parameters; ++i) {
+    riis_parameter parameter;
+    double value[3] = {0, 0, 0};
+    CHECK(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
+    CHECK(riis_valve_get(valve, parameter.name, parameter.n_values, value));
+    add_doubles(value, parameter.n_values);
+  }
+  riis_surface_options options;
+  CHECK(riis_surface_options_init(&options, sizeof options));
+  options.n_threads = n_threads;
+  options.tolerance = 0.3;
+  memcpy(options.rotation_axis, placement.rotation_axis, sizeof options.rotation_axis);
+  options.rotation_angle = placement.rotation_angle;
+  memcpy(options.translation, placement.translation, sizeof options.translation);
+  riis_surface *surface = NULL;
+  CHECK(riis_surface_create(valve, &options, &surface));
+  add_triangles(surface);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+}
+
 int main(int argc, char **argv) {
   const uint64_t start = UINT64_C(0xcbf29ce484222325);
   if (argc > 1 && strcmp(argv[1], "cosine") == 0) {
@@ -213,6 +340,12 @@ int main(int argc, char **argv) {
     digest = start;
     add_state(state, n_threads, instructions);
     printf("%2d %-15s %016" PRIx64 "\n", state, kinds[state % n_kinds], digest);
+    whole = (whole ^ digest) * UINT64_C(0x100000001b3);
+  }
+  for (int i = 0; i < n_placements; ++i) {
+    digest = start;
+    add_placement(kinds[i % n_kinds], n_threads);
+    printf("%2d placed %-15s %016" PRIx64 "\n", i, kinds[i % n_kinds], digest);
     whole = (whole ^ digest) * UINT64_C(0x100000001b3);
   }
   printf("all                %016" PRIx64 "\n", whole);

@@ -91,7 +91,7 @@ for name in m pthread dl; do ln -sfn libSystem.tbd "$folder/lib/lib$name.tbd"; d
 
 # CMake's batches of files and a low optimisation take the least time.
 PATH=$folder/bin:$PATH cmake -S "$source" -B "$folder/build" -G Ninja \
-  -D FOLDER="$folder" -D CMAKE_TOOLCHAIN_FILE="$source/tests/darwin/toolchain.cmake" \
+  -D FOLDER="$folder" -D CMAKE_TOOLCHAIN_FILE="$source/tests/debian/darwin_toolchain.cmake" \
   -D CMAKE_BUILD_TYPE=Debug -D CMAKE_INSTALL_PREFIX="$folder/installed" -D RIIS_WARNINGS_AS_ERRORS=ON \
   -D RIIS_UNITY_BUILD=ON -D RIIS_UNITY_CORE=ON -D CMAKE_UNITY_BUILD_BATCH_SIZE=20 -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
   -D RIIS_KERNEL_LEVEL=-O0 -D RIIS_TESTS_LINK_WITH_GOLD=OFF \
