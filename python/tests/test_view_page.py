@@ -2,15 +2,20 @@
 """The server of riis view without a browser: who may see the page, and what it refuses. ./run view --check uses a browser."""
 
 import asyncio
+import base64
+import html
 import importlib.util
+import io
 import json
 import os
 import re
 import shlex
 import shutil
 import signal
+import socket
 import subprocess
 import sys
+import zipfile
 from random import Random
 
 import numpy
@@ -518,13 +523,24 @@ def test_missing_graphics_name_their_packages(monkeypatch):
         scene.check_of_graphics()
 
 
-def test_a_widget_for_notebooks():
+def test_a_widget_for_notebooks(monkeypatch):
+    """A widget opens no socket, takes over no signal, and leaves asyncio as it is."""
     surface = riis.Surface(riis.Valve("mitral"))
-    if importlib.util.find_spec("trame_pyvista") is None:
+    if not all(importlib.util.find_spec(name) for name in ("trame_vtk", "ipywidgets")):
         with pytest.raises(ImportError, match=r"pip install 'pyvista\[jupyter\]'"):
             riis.plot(surface, interactive=True)
-    else:
-        assert "vtk" in riis.plot(surface, interactive=True).value
+        return
+    opened, run = [], asyncio.run
+    for name in ("socket", "socketpair", "create_connection", "getaddrinfo"):
+        monkeypatch.setattr(socket, name, lambda *words, name=name, **_: opened.append((name, words)))
+    value = riis.plot(surface, interactive=True).value
+    assert not opened and asyncio.run is run and signal.set_wakeup_fd(-1) == -1
+    page = html.unescape(re.search('<iframe srcdoc="([^"]*)"', value)[1])
+    packed = base64.b64decode(re.search('base64Str = "([^"]*)"', page)[1])
+    scene = json.loads(zipfile.ZipFile(io.BytesIO(packed)).read("index.json"))
+    arrays = [numpy.frombuffer(base64.b64decode(each["content"]), each["type"][:-5].lower()) for each in scene["hashes"].values()]
+    vertices = numpy.array(surface.vertices).ravel()
+    assert any(len(array) == len(vertices) and numpy.allclose(array, vertices, atol=1e-6) for array in arrays)
 
 
 def test_pictures_of_a_scene():
