@@ -31,7 +31,7 @@ import msgpack  # noqa: E402
 from wslink import chunking  # noqa: E402
 
 from riis.__main__ import main  # noqa: E402
-from riis.view import guard, reading, scene  # noqa: E402
+from riis.view import guard, heartbeat, reading, scene  # noqa: E402
 from riis.view.model import Model  # noqa: E402
 from riis.view.page import Page  # noqa: E402
 from test_view_patient import ROOT, synthetic_patient  # noqa: E402
@@ -511,6 +511,40 @@ def test_a_patient_on_the_page(tmp_path, capsys):
 
     asyncio.run(use())
     assert "Traceback" not in capsys.readouterr().err
+
+
+def test_a_heartbeat_pauses_without_a_browser(tmp_path, monkeypatch):
+    """A slow browser, which has not shown a picture yet, does not pause a heartbeat. The end of the last browser does."""
+    try:
+        scene.check_of_graphics()
+    except RuntimeError as missing:
+        pytest.skip(str(missing))
+    monkeypatch.setattr(heartbeat, "ALONE", 0.05)
+    box().save(tmp_path / "box.vtu")
+
+    async def use():
+        page = Page(None, folder=str(tmp_path))
+        page._begin_task(page._read(str(tmp_path / "box.vtu")))
+        while page._tasks:
+            await asyncio.wait(page._tasks)
+        page._on_sockets(1)
+        page._on_sockets(2)
+        page._on_play()
+        playing = page._playing
+        page._on_sockets(1)
+        await asyncio.sleep(0.3)
+        assert page.state.playing and not playing.done()
+        page._on_sockets(0)
+        await asyncio.wait_for(playing, 60)
+        assert not page.state.playing and page._playing is None
+        page._on_sockets(1)
+        page._on_play()
+        await asyncio.sleep(0.3)
+        assert page.state.playing
+        page._pause()
+        page.scene.close()
+
+    asyncio.run(use())
 
 
 def test_missing_graphics_name_their_packages(monkeypatch):
