@@ -230,7 +230,7 @@ def draw(rows, fields, folder):
         label = f"contraction, slit {words[1]} of channel" if is_jet else f"width, {words[1]} rim, ε = b/{words[2]}"
         ratios.plot(h + [0], values + [row["extrapolated"] / row["reference"]], "o-" if is_jet else "s--",
                     color=f"C{color}", markersize=4, linewidth=1, label=label)  # fmt: skip
-    ratios.set(xlabel="h / b (0: extrapolated)", ylabel="over the reference", title="contraction, and effective width of the slit")
+    ratios.set(xlabel="h / b (0: extrapolated)", ylabel="over the reference", title="contraction, and effective width of slits")
     ratios.axhspan(0.95, 1.05, color="0.92", zorder=0)
     ratios.grid(True, linewidth=0.3)
     ratios.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), frameon=False)
