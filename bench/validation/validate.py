@@ -195,42 +195,46 @@ def draw(rows, fields, folder):
 
     import report_text
 
-    matplotlib.rcParams.update({"font.size": 8, "axes.prop_cycle": matplotlib.cycler(color=report_text.COLOURS)})
-    plot, axes = pyplot.subplots(1, 2, figsize=(8.5, 3.6), layout="constrained")
+    matplotlib.rcParams.update({"font.size": 10, "axes.titlesize": 11})
+    matplotlib.rcParams["axes.prop_cycle"] = matplotlib.cycler(color=report_text.COLOURS)
+    plot, axes = pyplot.subplots(1, 2, figsize=(8.5, 4.4), layout="constrained")
     for color, (kind, rim) in enumerate((k, r) for k in ("hole", "disc") for r in ("round", "cut")):
         some = [r for r in rows if r["id"].startswith(f"stokes_{kind}_{rim}_")]
         eps = [1 / int(r["id"].split("_")[-1]) for r in some]
         label = f"{kind}, {rim} rim"
         radii = [1] + [r["extrapolated"] for r in some][::-1]
-        axes[0].plot([0] + eps[::-1], radii, "o-", color=f"C{color}", markersize=3, label=label)
+        axes[0].plot([0] + eps[::-1], radii, "o-", color=f"C{color}", markersize=4, label=label)
         for r, e, style in zip(some, eps, ("s", "^", "v")):
             h = [1 / float(g["n"].split()[-1]) for g in r["grids"]]
             sign = 1 if kind == "hole" else -1
             c = [sign * (1 - g["value"]) / e for g in r["grids"]]
-            axes[1].plot(h + [0], c + [r["c"]], style + "-", color=f"C{color}", markersize=3, linewidth=0.8,
-                         label=f"{label}, ε = a/{round(1 / e)}" if kind == "hole" else None)  # fmt: skip
+            axes[1].plot(h + [0], c + [r["c"]], style + "-", color=f"C{color}", markersize=4, linewidth=0.8)
+            if color == 0:
+                axes[1].plot([], [], style, color="0.4", markersize=4, label=f"ε = a/{round(1 / e)}")
     axes[0].set(xlabel="ε / a", ylabel="a_eff / a", title="effective radius in Stokes flow")
-    axes[1].set(xlabel="h / ε (0: extrapolated)", ylabel="c = |a − a_eff| / ε", title="c; green and purple are the disc")
-    axes[0].legend(fontsize=6)
-    axes[1].legend(fontsize=5)
+    axes[1].set(xlabel="h / ε (0: extrapolated)", ylabel="c = |a − a_eff| / ε", title="c; colours as on the left")
     for axis in axes:
         axis.grid(True, linewidth=0.3)
+        axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2 if axis is axes[0] else 3, frameon=False)
     plot.savefig(os.path.join(folder, "validation-stokes.png"), dpi=110, metadata={"Software": None})
     pyplot.close(plot)
 
-    plot, axes = pyplot.subplots(1, 3, figsize=(10, 3.4), layout="constrained", width_ratios=(1, 1, 1))
+    plot = pyplot.figure(figsize=(8.5, 6.6), layout="constrained")
+    upper, lower = plot.subfigures(2, 1, height_ratios=(1, 0.92))
+    ratios, jets = upper.subplots(), lower.subplots(1, 2, sharey=True)
     for color, row in enumerate(r for r in rows if r["id"].startswith(("jet_", "slit_"))):
         h = [1 / float(g["n"].split()[-1]) for g in row["grids"]]
         values = [g["value"] / row["reference"] for g in row["grids"]]
         words = row["id"].split("_")
-        label = f"slit {words[1]} of channel" if words[0] == "jet" else f"b_eff, {words[1]} rim, ε = b/{words[2]}"
-        axes[0].plot(h + [0], values + [row["extrapolated"] / row["reference"]], "o-" if words[0] == "jet" else "s--",
-                     color=f"C{color}", markersize=3, linewidth=0.8, label=label)  # fmt: skip
-    axes[0].set(xlabel="h / b (0: extrapolated)", ylabel="over the reference", title="contraction, effective width")
-    axes[0].axhspan(0.95, 1.05, color="0.92", zorder=0)
-    axes[0].grid(True, linewidth=0.3)
-    axes[0].legend(fontsize=5)
-    for axis, rim in zip(axes[1:], ("round", "cut")):
+        is_jet = words[0] == "jet"
+        label = f"contraction, slit {words[1]} of channel" if is_jet else f"width, {words[1]} rim, ε = b/{words[2]}"
+        ratios.plot(h + [0], values + [row["extrapolated"] / row["reference"]], "o-" if is_jet else "s--",
+                    color=f"C{color}", markersize=4, linewidth=1, label=label)  # fmt: skip
+    ratios.set(xlabel="h / b (0: extrapolated)", ylabel="over the reference", title="contraction, and effective width of slits")
+    ratios.axhspan(0.95, 1.05, color="0.92", zorder=0)
+    ratios.grid(True, linewidth=0.3)
+    ratios.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), frameon=False)
+    for axis, rim in zip(jets, ("round", "cut")):
         field = fields[rim]
         b = 0.008
         x, y = np.array(field["x"]) / b, np.array(field["y"]) / b
@@ -244,9 +248,10 @@ def draw(rows, fields, folder):
         else:
             outline = (np.array([eps, eps, -eps, -eps]), np.array([4, 1, 1, 4]))
         axis.fill(*outline, facecolor="0.6", edgecolor="k", linewidth=0.6)
-        axis.set(xlim=(-1.5, 3), ylim=(0, 2.5), xlabel="x / b", ylabel="y / b", title=f"{rim} rim: speed, m/s, and streamlines")
+        axis.set(xlim=(-1.5, 3), ylim=(0, 2.5), xlabel="x / b", title=f"{rim} rim, with streamlines")
         axis.set_aspect("equal")
-    plot.colorbar(image, ax=axes[1:], shrink=0.8)
+    jets[0].set_ylabel("y / b")
+    lower.colorbar(image, ax=jets, shrink=0.8, label="speed, m/s")
     plot.savefig(os.path.join(folder, "validation-jets.png"), dpi=110, metadata={"Software": None})
     pyplot.close(plot)
     return True

@@ -104,8 +104,9 @@ def draw(drops, path):
     import matplotlib.pyplot as plt
 
     kinds = [kind for kind in KINDS if any(drop.kind == kind for drop in drops)]
-    figure, axes = plt.subplots(1, len(kinds), figsize=(4 * len(kinds) + 1, 4), sharey=True, squeeze=False,
-                                constrained_layout=True)
+    plt.rcParams.update({"font.size": 10, "axes.titlesize": 11})
+    figure, axes = plt.subplots(1, len(kinds), figsize=(2.6 * len(kinds) + 0.7, 4.2), sharey=True, squeeze=False,
+                                layout="constrained")
     cells = max(drop.cells for drop in drops)
     for one, kind in zip(axes[0], kinds):
         mine = sorted((drop for drop in drops if (drop.kind, drop.flow_ml_s, drop.cells) == (kind, 250, cells)),
@@ -115,8 +116,8 @@ def draw(drops, path):
                 line = [drop for drop in mine if (drop.offset, drop.eps_mm) == (offset, eps)]
                 if line:
                     one.plot([drop.opening for drop in line], [drop.drop_mmHg for drop in line], style, color=colour,
-                             label=f"o = {offset:g}, ε = {eps:g} mm = {eps / line[0].h_mm:g} h")  # fmt: skip
-        for name, style, text in (("bernoulli", ":", "ρQ²/2A²"), ("gorlin", "-.", "Gorlin")):
+                             label=f"offset {offset:g}, ε = {eps:g} mm = {eps / line[0].h_mm:g} h")  # fmt: skip
+        for name, style, text in (("bernoulli", ":", "Bernoulli, ρQ²/2A²"), ("gorlin", "-.", "Gorlin")):
             formula = {drop.opening: getattr(drop, name) for drop in mine}
             one.plot(list(formula), list(formula.values()), style, color="k", label=text)
         one.set_title(f"{kind}, 250 ml/s")
@@ -124,8 +125,9 @@ def draw(drops, path):
         one.set_xlabel("opening")
         one.grid(alpha=0.3, which="both")
     axes[0, 0].set_ylabel("drop from rest to the jet, mmHg")
-    axes[0, -1].legend(fontsize=8)
-    figure.savefig(path, dpi=90)
+    figure.get_layout_engine().set(rect=(0, 0.2, 1, 0.8))
+    figure.legend(*axes[0, -1].get_legend_handles_labels(), loc="lower center", ncols=2, frameon=False)
+    figure.savefig(path, dpi=110)
     plt.close(figure)
 
 

@@ -3,9 +3,13 @@
 
 from __future__ import annotations
 
+import html
+import io
+import json
 import math
 import os
 import weakref
+import zipfile
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -203,7 +207,7 @@ def plot(
     mesh, marks  the mesh and the marks of a marking, both or neither. The mesh must still have the nodes of the marking
     screenshot   a .png file to write; no window opens in this case
     plotter      a pyvista.Plotter to draw into. If None, a new one is used, and shown unless there is a screenshot
-    interactive  whether to return PyVista's widget for a notebook, in which the mouse turns the scene. It has no scale bar
+    interactive  whether to return a widget for a notebook, in which the mouse turns the scene. It has no scale bar
     unit         of the mesh, such as "mm": it follows the number at the scale bar. None stands for "mesh units"
 
     Returns the plotter, or the widget. riis.view.scene.widget also shows a mesh around the valve.
@@ -230,18 +234,36 @@ def plot(
 
 
 def widget_of(plotter: Any) -> Any:
-    """Returns a plotter's scene as PyVista's widget for notebooks. The notebook keeps it, and no server is started."""
-    import warnings
+    """Returns a plotter's scene as a widget for notebooks, which keeps the whole scene.
 
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            made = plotter.show(jupyter_backend="html", return_viewer=True)
-        except ImportError:
-            made = None
-    if not hasattr(made, "value"):  # PyVista falls back to a picture
-        raise ImportError("a widget needs more of PyVista: pip install 'pyvista[jupyter]'")
-    return made
+    trame describes the scene, and its page shows it. PyVista's own exporter does the same, but first it starts a server, which
+    takes over the signals of the process, makes all of asyncio nestable, and downloads files in the background.
+    """
+    try:
+        from ipywidgets import HTML
+        from trame_vtk.modules.vtk.protocols.local_rendering import vtkWebLocalRendering
+        from trame_vtk.tools.vtksz2html import write_html
+        from vtkmodules.vtkWebCore import vtkWebApplication
+    except ImportError as missing:
+        raise ImportError("a widget needs more of PyVista: pip install 'pyvista[jupyter]'") from missing
+
+    class Exporter(vtkWebLocalRendering):
+        app = vtkWebApplication()  # otherwise the server's
+
+    for renderer in plotter.renderers:
+        if not renderer.camera.is_set:
+            renderer.camera_position = renderer.get_default_cam_pos()
+            renderer.ResetCamera()
+    axes = [renderer.axes_widget for renderer in plotter.renderers if getattr(renderer, "axes_widget", None) is not None]
+    number = Exporter.app.GetObjectIdMap().GetGlobalId(plotter.render_window)
+    scene = Exporter().get_standalone_state(number, widgets=axes)
+    packed, page = io.BytesIO(), io.StringIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as file:
+        file.writestr("index.json", json.dumps(scene))
+    write_html(packed.getvalue(), page)
+    width, height = plotter.window_size
+    style = f"width: {width}px; height: {height}px; border: 1px solid rgb(221, 221, 221);"
+    return HTML(f'<iframe srcdoc="{html.escape(page.getvalue())}" style="{style}"></iframe>')
 
 
 def _frame_of(item: Any, number: int, mesh: Mesh | None) -> tuple[Surface, Marks | None, str]:

@@ -4,7 +4,8 @@
     python check_view.py FOLDER [PROGRAM]
 
 FOLDER gets the pictures and the files that the page writes. PROGRAM is the program riis, which runs the copied command. Each step
-ends with checks, and the first check that fails ends the run. Times are measured and printed, but not checked.
+ends with checks, and the first check that fails ends the run. Times are measured and printed, but not checked. Every step waits
+for what it needs, so a machine that does other work only makes the run longer.
 """
 
 import hashlib
@@ -25,7 +26,9 @@ import urllib.request
 import numpy
 import pyvista
 from selenium import webdriver
-from selenium.common.exceptions import JavascriptException
+from selenium.common.exceptions import (
+    ElementClickInterceptedException, ElementNotInteractableException, JavascriptException, StaleElementReferenceException,
+)  # fmt: skip
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
@@ -34,6 +37,7 @@ from selenium.webdriver.common.keys import Keys
 from tube import mesh as mesh_of_tube
 
 N_MOVES = 50
+LIMIT = 600  # seconds that a step may take
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ROOT_CENTRE = (-14.3, -172.6, -1083.4)  # of the annulus in examples/patient/make_patient.py
 
@@ -55,18 +59,19 @@ class Server:
                 [sys.executable, "-W", "ignore", "-m", "riis", "view", *map(str, words), "--no-browser", "--folder", str(folder)],
                 stdout=log, stderr=subprocess.STDOUT, env={name: text for name, text in os.environ.items() if name != "DISPLAY"},
             )  # fmt: skip
-        for _ in range(600):
+        end = time.monotonic() + LIMIT
+        while True:
             found = re.search(r"(http://127\.0\.0\.1:(\d+)/)#([0-9a-f]{64})", self.log.read_text(encoding="utf-8"))
             if found:
                 break
-            assert self.process.poll() is None, self.log.read_text(encoding="utf-8")
+            assert self.process.poll() is None and time.monotonic() < end, self.log.read_text(encoding="utf-8")
             time.sleep(0.1)
         self.address, self.root, self.port, self.key = found[0], found[1], int(found[2]), found[3]
 
     def end(self):
         """Ends the process as Ctrl C does. It must end by itself, without an error."""
         self.process.send_signal(signal.SIGINT)
-        assert self.process.wait(30) == 0, self.log.read_text(encoding="utf-8")
+        assert self.process.wait(LIMIT) == 0, self.log.read_text(encoding="utf-8")
 
 
 class Browser:
@@ -78,7 +83,8 @@ class Browser:
             options.add_argument(word)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
-        self.driver.set_script_timeout(120)
+        self.driver.command_executor.client_config.timeout = LIMIT  # otherwise Selenium waits two minutes for an answer
+        self.driver.set_page_load_timeout(LIMIT)
         self.folder = folder
 
     def open(self, address):
@@ -88,38 +94,35 @@ class Browser:
     def get(self, name):
         return self.driver.execute_script("return window.trame.state.get(arguments[0])", name)
 
-    def wait(self, condition, what, seconds=90):
-        end = time.monotonic() + seconds
+    def wait(self, condition, what):
+        end = time.monotonic() + LIMIT
         while time.monotonic() < end:
             try:
                 if condition():
                     return
-            except JavascriptException:  # the page is not there yet
+            except (JavascriptException, StaleElementReferenceException):  # the page is not there yet, or draws itself again
                 pass
             time.sleep(0.1)
         self.shot("failed")
-        raise AssertionError(f"waited {seconds} s in vain: {what}")
+        raise AssertionError(f"waited {LIMIT} s in vain: {what}")
 
     def rest(self):
         """Waits until the server has answered, the lights belong to the last change, and no new picture has come for a while."""
-        end, still, last, has_answered = time.monotonic() + 240, 0, -1, False
-        while still < 6:
-            time.sleep(0.25)
-            try:
-                if not has_answered:  # then it has also taken all earlier changes
-                    self.driver.execute_async_script(
-                        "const done = arguments[0]; window.trame.trigger('riis_seen', [0]).then(() => done(), () => done());"
-                    )
-                    has_answered = True
-                rests = self.get("fresh") and self.get("at_rest") and self.get("progress") is None
-                number = self.get("picture_number") if rests else -1
-            except JavascriptException:  # the page is not there yet
-                number = -1
+        ask = "window.riis_seen = false; window.trame.trigger('riis_seen', [0]).finally(() => { window.riis_seen = true; });"
+        self.wait(lambda: self.driver.execute_script(ask + "return true"), "the page is there")
+        self.wait(lambda: self.driver.execute_script("return window.riis_seen"), "the server has taken all changes")
+        still, last = 0, -1
+
+        def rests():
+            nonlocal still, last
+            time.sleep(0.15)
+            is_at_rest = self.get("fresh") and self.get("at_rest") and self.get("progress") is None
+            number = self.get("picture_number") if is_at_rest else -1
             still = still + 1 if number == last != -1 else 0
             last = number
-            if time.monotonic() > end:
-                self.shot("failed")
-                raise AssertionError("waited in vain for the page to come to rest")
+            return still >= 6
+
+        self.wait(rests, "the page comes to rest")
 
     def shot(self, name):
         self.driver.save_screenshot(str(self.folder / f"{name}.png"))
@@ -127,26 +130,51 @@ class Browser:
     def find(self, selector):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
+    def settle(self):
+        """Waits for the end of all transitions, such as those of dialogs and of parts that unfold."""
+        script = """return document.getAnimations().every(each =>
+          each.playState !== "running" || each.effect.getComputedTiming().iterations === Infinity)"""
+        self.wait(lambda: self.driver.execute_script(script), "the end of all transitions")
+
+    def click(self, find):
+        """Clicks an element, once it is in sight and nothing lies over it. Returns the element."""
+        clicked = []
+
+        def click():
+            element = find()
+            self.driver.execute_script("arguments[0].scrollIntoView({ block: 'center' })", element)
+            self.settle()
+            try:
+                element.click()
+            except (ElementClickInterceptedException, ElementNotInteractableException):
+                return False
+            clicked.append(element)
+            return True
+
+        self.wait(click, "an element that can be clicked")
+        return clicked[0]
+
     def press(self, selector):
-        element = self.find(selector)
-        self.driver.execute_script("arguments[0].scrollIntoView({ block: 'center' })", element)
-        time.sleep(0.4)
-        element.click()
+        self.click(lambda: self.find(selector))
 
     def unfold(self, title):
         """Opens a folded part of the page, and leaves it open."""
-        for element in self.driver.find_elements(By.CSS_SELECTOR, ".v-expansion-panel-title"):
+        titles = self.driver.find_elements(By.CSS_SELECTOR, ".v-expansion-panel-title")
+        for element in titles:
             if title in element.text and element.get_attribute("aria-expanded") != "true":
-                element.click()
-                time.sleep(0.6)
+                self.click(lambda element=element: element)
+                self.wait(lambda element=element: element.get_attribute("aria-expanded") == "true", f"{title} is open")
+                self.settle()
 
     def write(self, selector, text):
-        element = self.find(selector)
-        self.driver.execute_script("arguments[0].scrollIntoView({ block: 'center' })", element)
-        time.sleep(0.4)
-        element.click()
+        element = self.click(lambda: self.find(selector))
         element.send_keys(Keys.CONTROL, "a")
         element.send_keys(str(text) + Keys.ENTER)
+
+    def close_text(self):
+        self.press("#text-close")
+        self.wait(lambda: not self.get("text_shown"), "the text is closed")
+        self.settle()
 
     def drag_slider(self, name, pixels):
         thumb = self.find(f"[data-parameter='{name}'] .v-slider-thumb")
@@ -242,7 +270,7 @@ def place_by_clicks(browser):
 def play(browser):
     browser.press("#play")
     browser.wait(lambda: browser.get("playing") and len(browser.get("curves")) == 3, "it plays, with curves")
-    times, end = [], time.monotonic() + 60
+    times, end = [], time.monotonic() + LIMIT
     while len(set(times)) < 8 and time.monotonic() < end:
         times.append(browser.get("time"))
         time.sleep(0.05)
@@ -271,15 +299,14 @@ def write_and_reopen(browser, folder, program):
     for name in ("case", "command", "python", "openfoam"):
         browser.press(f"#text-{name}")
         browser.wait(lambda: browser.get("text_shown"), f"the text of {name}")
-        time.sleep(0.5)
+        browser.settle()
         browser.shot(f"8-text-{name}")
         browser.press("#text-write")
         browser.wait(lambda: "wrote" in browser.get("message"), f"the file of {name}")
-        browser.press("#text-close")
-        time.sleep(0.5)
+        browser.close_text()
     for name, ending in (("view", ".view.json"), ("mesh", ".vtu"), ("picture", ".png"), ("movie", ".mp4")):
         browser.press(f"#write-{name}")
-        browser.wait(lambda e=ending: f"valve{e}" in browser.get("message"), f"the file of {name}", 300)
+        browser.wait(lambda e=ending: f"valve{e}" in browser.get("message"), f"the file of {name}")
         assert (folder / f"valve{ending}").stat().st_size > 500
     browser.rest()
     browser.shot("8-written")
@@ -338,12 +365,11 @@ def several_valves(browser, folder, program):
     browser.wait(lambda: "two.view.json" in browser.get("message"), "the view of two valves")
     browser.press("#text-command")
     browser.wait(lambda: browser.get("text_shown"), "the command of two valves")
-    time.sleep(0.5)
+    browser.settle()
     browser.shot("9-two-valves-command")
     browser.press("#text-write")
     browser.wait(lambda: "two.sh" in browser.get("message"), "the file of the command")
-    browser.press("#text-close")
-    time.sleep(0.5)
+    browser.close_text()
     if program:
         path = {"PATH": f"{pathlib.Path(program).resolve().parent}:{os.environ['PATH']}"}
         subprocess.run(["bash", "-e", folder / "two.sh"], check=True, stdout=subprocess.DEVNULL, env=os.environ | path)
@@ -490,7 +516,7 @@ def patient(folder, program):
         browser.press("#text-command")
         browser.wait(lambda: browser.get("text_shown"), "the command")
         command = browser.get("text")
-        browser.press("#text-close")
+        browser.close_text()
         if program:
             path = os.pathsep.join([str(pathlib.Path(program).resolve().parent), os.environ["PATH"]])
             subprocess.run(["sh", "-c", command], check=True, stdout=subprocess.DEVNULL, env=os.environ | {"PATH": path})
@@ -498,9 +524,9 @@ def patient(folder, program):
             say("the command copied from the patient's page gives the same bits, with its warp and skirt")
         browser.write("#picture-width", "3840")
         browser.write("#picture-height", "2160")
-        time.sleep(1.0)
+        browser.rest()
         browser.press("#write-picture")
-        browser.wait(lambda: "valve.png" in browser.get("message"), "the picture", 300)
+        browser.wait(lambda: "valve.png" in browser.get("message"), "the picture")
         assert pyvista.read(folder / "valve.png").dimensions[:2] == (3840, 2160)
         say("landmarks place the valve in its wall, and a picture has 3840 x 2160 pixels")
     finally:
@@ -511,7 +537,7 @@ def patient(folder, program):
 def status_of(server, path, **headers):
     request = urllib.request.Request(server.root + path, headers={name.replace("_", "-"): text for name, text in headers.items()})
     try:
-        with urllib.request.urlopen(request, timeout=20) as answer:
+        with urllib.request.urlopen(request, timeout=LIMIT) as answer:
             return answer.status, answer.read()
     except urllib.error.HTTPError as error:
         return error.code, error.read()
@@ -567,27 +593,27 @@ def closed_while_it_plays(server, folder):
 
 def measure(browser):
     script = """
-      const [n, done] = arguments, image = document.getElementById("riis-picture"), times = [], marks = [];
+      const n = arguments[0], image = document.getElementById("riis-picture");
+      window.riis_times = [];
       function next() {
-        if (times.length === n) return done([times, marks]);
+        if (window.riis_times.length === n) return;
         const before = Number(image.dataset.number), start = performance.now();
         const loaded = () => {
           if (Number(image.dataset.number) <= before) return;
           image.removeEventListener("load", loaded);
-          times.push(performance.now() - start);
-          marks.push(window.trame.state.get("milliseconds"));
+          window.riis_times.push([performance.now() - start, window.trame.state.get("milliseconds")]);
           setTimeout(next, 20);
         };
         image.addEventListener("load", loaded);
-        window.trame.state.set("slider_0", 0.2 + 0.6 * ((times.length * 7) % n) / n);
+        window.trame.state.set("slider_0", 0.2 + 0.6 * ((window.riis_times.length * 7) % n) / n);
       }
       next();
     """
-    browser.driver.set_script_timeout(300)
-    times, marks = [], []
-    while len(times) < N_MOVES:  # a few at a time, because Selenium waits two minutes at most for an answer
-        some = browser.driver.execute_async_script(script, min(10, N_MOVES - len(times)))
-        times, marks = times + some[0], marks + some[1]
+    browser.driver.execute_script(script, N_MOVES)
+    n_done = "return window.riis_times.length"
+    for n in range(5, N_MOVES + 1, 5):
+        browser.wait(lambda n=n: browser.driver.execute_script(n_done) >= n, f"the picture of move {n}")
+    times, marks = zip(*browser.driver.execute_script("return window.riis_times"))
     print(
         f"median of {N_MOVES} moves, {browser.get('mesh_text')}: new marks {statistics.median(marks):.1f} ms, from the move to "
         f"the picture in the browser {statistics.median(times):.0f} ms"

@@ -2,15 +2,20 @@
 """The server of riis view without a browser: who may see the page, and what it refuses. ./run view --check uses a browser."""
 
 import asyncio
+import base64
+import html
 import importlib.util
+import io
 import json
 import os
 import re
 import shlex
 import shutil
 import signal
+import socket
 import subprocess
 import sys
+import zipfile
 from random import Random
 
 import numpy
@@ -26,7 +31,7 @@ import msgpack  # noqa: E402
 from wslink import chunking  # noqa: E402
 
 from riis.__main__ import main  # noqa: E402
-from riis.view import guard, reading, scene  # noqa: E402
+from riis.view import guard, heartbeat, reading, scene  # noqa: E402
 from riis.view.model import Model  # noqa: E402
 from riis.view.page import Page  # noqa: E402
 from test_view_patient import ROOT, synthetic_patient  # noqa: E402
@@ -508,6 +513,40 @@ def test_a_patient_on_the_page(tmp_path, capsys):
     assert "Traceback" not in capsys.readouterr().err
 
 
+def test_a_heartbeat_pauses_without_a_browser(tmp_path, monkeypatch):
+    """A slow browser, which has not shown a picture yet, does not pause a heartbeat. The end of the last browser does."""
+    try:
+        scene.check_of_graphics()
+    except RuntimeError as missing:
+        pytest.skip(str(missing))
+    monkeypatch.setattr(heartbeat, "ALONE", 0.05)
+    box().save(tmp_path / "box.vtu")
+
+    async def use():
+        page = Page(None, folder=str(tmp_path))
+        page._begin_task(page._read(str(tmp_path / "box.vtu")))
+        while page._tasks:
+            await asyncio.wait(page._tasks)
+        page._on_sockets(1)
+        page._on_sockets(2)
+        page._on_play()
+        playing = page._playing
+        page._on_sockets(1)
+        await asyncio.sleep(0.3)
+        assert page.state.playing and not playing.done()
+        page._on_sockets(0)
+        await asyncio.wait_for(playing, 60)
+        assert not page.state.playing and page._playing is None
+        page._on_sockets(1)
+        page._on_play()
+        await asyncio.sleep(0.3)
+        assert page.state.playing
+        page._pause()
+        page.scene.close()
+
+    asyncio.run(use())
+
+
 def test_missing_graphics_name_their_packages(monkeypatch):
     monkeypatch.delenv("VTK_DEFAULT_OPENGL_WINDOW", raising=False)
     monkeypatch.setattr(scene, "_egl_works", lambda: False)
@@ -518,13 +557,24 @@ def test_missing_graphics_name_their_packages(monkeypatch):
         scene.check_of_graphics()
 
 
-def test_a_widget_for_notebooks():
+def test_a_widget_for_notebooks(monkeypatch):
+    """A widget opens no socket, takes over no signal, and leaves asyncio as it is."""
     surface = riis.Surface(riis.Valve("mitral"))
-    if importlib.util.find_spec("trame_pyvista") is None:
+    if not all(importlib.util.find_spec(name) for name in ("trame_vtk", "ipywidgets")):
         with pytest.raises(ImportError, match=r"pip install 'pyvista\[jupyter\]'"):
             riis.plot(surface, interactive=True)
-    else:
-        assert "vtk" in riis.plot(surface, interactive=True).value
+        return
+    opened, run = [], asyncio.run
+    for name in ("socket", "socketpair", "create_connection", "getaddrinfo"):
+        monkeypatch.setattr(socket, name, lambda *words, name=name, **_: opened.append((name, words)))
+    value = riis.plot(surface, interactive=True).value
+    assert not opened and asyncio.run is run and signal.set_wakeup_fd(-1) == -1
+    page = html.unescape(re.search('<iframe srcdoc="([^"]*)"', value)[1])
+    packed = base64.b64decode(re.search('base64Str = "([^"]*)"', page)[1])
+    scene = json.loads(zipfile.ZipFile(io.BytesIO(packed)).read("index.json"))
+    arrays = [numpy.frombuffer(base64.b64decode(each["content"]), each["type"][:-5].lower()) for each in scene["hashes"].values()]
+    vertices = numpy.array(surface.vertices).ravel()
+    assert any(len(array) == len(vertices) and numpy.allclose(array, vertices, atol=1e-6) for array in arrays)
 
 
 def test_pictures_of_a_scene():

@@ -24,6 +24,7 @@ class Part:
     _moved: asyncio.Event
     _seen: asyncio.Event
     _seen_at: float
+    _alone_since: float | None
     _held: bool
     _drag: tuple[Any, float] | None
     _drag_stack: ExitStack

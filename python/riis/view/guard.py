@@ -29,6 +29,7 @@ import sys
 import tempfile
 import threading
 import webbrowser
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -84,10 +85,13 @@ def has_desktop() -> bool:
 
 
 class Guard:
-    """The server of a page while it runs. Its folder, with the key, exists as long as the guard."""
+    """The server of a page while it runs. Its folder, with the key, exists as long as the guard. It calls on_sockets with the
+    number of open WebSockets, that is of browsers, whenever one opens or closes."""
 
-    def __init__(self, server: Any):
+    def __init__(self, server: Any, on_sockets: Callable[[int], None]):
         self.server = server
+        self.on_sockets = on_sockets
+        self._n_open = 0
         self.key = secrets.token_hex(32)
         self.folder: Path | None = None
 
@@ -156,6 +160,12 @@ class Guard:
                 return web.Response(status=403, text="riis view: the key is missing or wrong\n")
             if request.path == "/" or (request.path == "/index.html" and not is_key(request.query.get("secret"), self.key)):
                 response = web.Response(text=_FIRST_PAGE, content_type="text/html")
+            elif request.path == "/ws":
+                self._count(1)
+                try:
+                    response = await handler(request)  # until the socket closes
+                finally:
+                    self._count(-1)
             else:
                 response = await handler(request)
             if not response.prepared:
@@ -164,6 +174,10 @@ class Guard:
             return response
 
         wslink_server.app.middlewares.insert(0, rules)
+
+    def _count(self, change: int) -> None:
+        self._n_open += change
+        self.on_sockets(self._n_open)
 
     def _tell(self, browser: bool) -> None:
         address = f"http://127.0.0.1:{self.server.port}/#{self.key}"

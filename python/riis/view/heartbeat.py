@@ -14,7 +14,7 @@ from riis.view import reading, rows
 from riis.view._part import Part
 from riis.view.model import CYCLES
 
-UNSEEN = 4.0  # seconds after which a heartbeat pauses if no browser shows its picture
+ALONE = 4.0  # seconds without a browser after which a heartbeat pauses
 
 
 class Heartbeat(Part):
@@ -95,12 +95,11 @@ class Heartbeat(Part):
     async def _play(self) -> None:
         with self.state as state:
             state.playing = True
-        self._seen_at = time.monotonic()
         last = time.monotonic()
         while True:
             await asyncio.sleep(0.02)
             now = time.monotonic()
-            if now - self._seen_at > UNSEEN:  # the browser is gone
+            if self._alone_since is not None and now - self._alone_since > ALONE:
                 break
             if self._moved.is_set() or not self._seen.is_set():
                 continue  # the last picture is still on its way

@@ -96,6 +96,7 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
         self._unsettled, self._stale = False, True
         self._seen = asyncio.Event()
         self._seen_at, self._number = time.monotonic(), 0
+        self._alone_since: float | None = None  # the time at which the last browser left
         self._drag: tuple[Any, float] | None = None
         self._drag_stack = ExitStack()
         self._held = False
@@ -585,7 +586,7 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
             self._seen.set()
             return
         self._number += 1
-        self._seen_at = time.monotonic()  # a slow picture is no sign that the browser is gone
+        self._seen_at = time.monotonic()
         self._seen.clear()
         with self.state as state:
             state.picture, state.picture_number = picture, self._number
@@ -604,9 +605,12 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
 
     # the server
 
+    def _on_sockets(self, n_open: int) -> None:
+        self._alone_since = None if n_open else time.monotonic()
+
     def serve(self, *, port: int = 0, browser: bool = True) -> None:
         """Serves the page on 127.0.0.1 until Ctrl C. A port of 0 means a free port."""
-        with guard.Guard(self.server) as gate:
+        with guard.Guard(self.server, self._on_sockets) as gate:
             gate.start(port, browser)
 
 

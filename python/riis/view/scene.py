@@ -628,7 +628,7 @@ class Scene:
 
 
 def widget(model: Any, grid: Any = None) -> Any:
-    """Shows a Model in a notebook, by PyVista's widget: the mesh cut open, the leaflets, the marked cells, the lights' places.
+    """Returns a widget that shows a Model in a notebook: the mesh cut open, the leaflets, the marked cells, the lights' places.
 
     model  a riis.view.model.Model
     grid   its mesh as pyvista.UnstructuredGrid; without it the leaflets are alone
