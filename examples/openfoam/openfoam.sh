@@ -127,6 +127,22 @@ openfoam_library_and_headers() {
   return "$status"
 }
 
+# openfoam_cut_off CASE: starts Allrun, and ends it some steps after the first written time.
+openfoam_cut_off() {
+  local first
+  setsid "$1/Allrun" >"$1.cut.log" 2>&1 &
+  first=$!
+  until grep -q '^Time = 0\.03$' "$1/log.pimpleFoam" 2>/dev/null; do
+    kill -0 "$first" 2>/dev/null || {
+      cat "$1.cut.log" >&2
+      return 1
+    }
+    sleep 0.1
+  done
+  kill -- "-$first"
+  wait "$first" || say "the beat was cut off"
+}
+
 # Follows docs/patient_openfoam.md with the patient of docs/patient.md. The case is cut off once, and goes on.
 openfoam_patient() {
   local folder=$PWD/$build/openfoam/patient status=0
@@ -140,7 +156,7 @@ openfoam_patient() {
   step "from landmarks to a case" "$build/bin/riis" patient "$folder/root.stl" "$folder/landmarks.mrk.json" \
     --output "$folder/case" --solver openfoam
   export RIIS_OPENFOAM=$folder.plugin
-  timeout 40 "$folder/case/openfoam/Allrun" >/dev/null 2>&1 || say "the beat was cut off"
+  openfoam_cut_off "$folder/case/openfoam"
   step "a beat" "$folder/case/openfoam/Allrun" || status=$?
   grep -c 'continues at time' "$folder/case/openfoam/log.pimpleFoam"
   python3 "$folder/case/openfoam/report.py" "$folder/case/openfoam" || status=$?

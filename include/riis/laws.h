@@ -70,7 +70,7 @@ enum {
 
 /* A valve opens when the pressure difference exceeds a value, and closes when the flow falls below another value. For an
  * aortic valve in SI units: opening_duration 0.04, closing_duration 0.04, open_above 0, close_below 0 (the flow reverses),
- * filter_time 0.002, dwell_time 0.02. */
+ * filter_time 0.002, dwell_time 0.04 (a motion ends before the next begins). */
 typedef struct riis_opening_switch {
   int64_t struct_size;    /* set by the init function */
   double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused */

@@ -57,7 +57,11 @@ static void take_common_warnings(void) {
     char *const end = strchr(line, '\n'), *const next = end ? end + 1 : line + strlen(line);
     const size_t length = (size_t)(next - line);
     const char *const leaks = strstr(line, " leaks: "), *const cross = strstr(line, " go through each other");
-    const char *const outside = strstr(line, " stands through the wall");
+    const char *const stands = strstr(line, " stands through the wall"), *const outside =
+                                                                             stands
+                                                                                 ? stands
+                                                                                 : strstr(line,
+                                                                                          " reaches through the wall");
     const int is_leak = (strncmp(line, "riis: the surface", 17) == 0 && leaks && leaks < next) ||
                         strncmp(line, "riis: the valve is open", 23) == 0;
     const int is_outside = outside && outside < next;

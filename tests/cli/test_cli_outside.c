@@ -191,6 +191,40 @@ TEST(test_skirts_and_housings_do_not_count) {
   }
 }
 
+/* A valve stands wrongly if its closed leaflets are outside. Open leaflets may reach into the wall: these reach higher. */
+TEST(test_the_closed_valve_decides) {
+  const double lower[3] = {-3, -3, -3}, upper[3] = {3, 3, 1.4};
+  assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 31, lower, upper, 0), 1);
+  static const char *const stands = "riis: the surface stands through the wall: ",
+                           *const reaches = "riis: the surface reaches through the wall where it is open: ";
+  const struct {
+    const char *place, *opening, *text; /* the text begins the line, and "" is none */
+  } cases[] = {{"0,0,-0.6", "1", ""},
+               {"0,0,0", "0", ""},
+               {"0,0,0", "1", reaches},
+               {"0,0,0.2", "0", stands},
+               {"0,0,0.2", "1", stands}};
+  for (int i = 0; i < 5; ++i) {
+    const char *const text = cases[i].text;
+    char *json = MARK_BOX("--valve", "coapting", "--opening", cases[i].opening, "--translate", cases[i].place);
+    assert_int_equal(program_exit_code, 0);
+    assert_int_equal(json_number(strstr(json, "\"outside\""), "share") > 0.02, *text != 0);
+    assert_int_equal(strncmp(program_outside, text, strlen(text)), 0);
+    assert_int_equal(*program_outside != 0, *text != 0);
+    assert_int_equal(strstr(program_outside, ": move it, turn it") != NULL, text == stands);
+    assert_int_equal(strstr(program_outside, "The closed valve stands inside the mesh") != NULL, text == reaches);
+    free(json);
+  }
+  /* A valve that never closes in a series is judged alike. */
+  scratch_write_text("cycle.csv", "0,0.9\n0.5,1\n1,0.9\n");
+  for (int is_high = 0; is_high < 2; ++is_high) {
+    free(MARK_BOX("--valve", "coapting", "--cycle", scratch_path("cycle.csv"), "--times", "0,0.25,0.5", "--translate",
+                  is_high ? "0,0,0.2" : "0,0,0"));
+    assert_non_null(strstr(program_outside, is_high ? "stands through the wall at opening 1: "
+                                                    : "reaches through the wall where it is open at opening 1: "));
+  }
+}
+
 TEST(test_a_series_tells_of_the_open_valve) {
   /* The closed leaflets end below z = 1.2, and the open ones reach higher. */
   const double lower[3] = {-3, -3, -3}, upper[3] = {3, 3, 1};

@@ -16,6 +16,7 @@ import tempfile
 import unittest
 
 WRITER = ""
+TEXTS = pathlib.Path(__file__).resolve().parents[2] / "src/program/patient"
 RHO, MMHG = 1060.0, 133.322
 # The tools of the system that Allrun calls.
 TOOLS = "awk bash cat dirname env find grep mkdir readlink rm sed seq sh sort tail touch".split()
@@ -112,6 +113,9 @@ class OpenfoamCase(unittest.TestCase):
         law = valve["opening"]
         self.assertEqual((law["law"], law["flowPatch"], law["forward"]), (["switch"], ["inlet"], ["in"]))
         self.assertGreater(numbers(law["openAbove"])[0], 0)
+        # A motion ends before the next may begin.
+        self.assertGreaterEqual(numbers(law["dwellSeconds"])[0],
+                                max(numbers(law[name])[0] for name in ("openingSeconds", "closingSeconds")))
         self.assertEqual(numbers(law["upstream"]["centre"]), [0.01, -0.02, 0.985])
         patches = self.dictionary(case, "0/p")["boundaryField"]
         table = numbers(patches["inlet"]["p0"])
@@ -129,6 +133,7 @@ class OpenfoamCase(unittest.TestCase):
         for name in ("0/U", "constant/transportProperties", "constant/turbulenceProperties", "system/fvSchemes",
                      "system/decomposeParDict"):
             self.dictionary(case, name)
+        self.assertEqual((case / "beat_table.py").read_bytes(), (TEXTS / "beat_table.py").read_bytes())
         self.assertEqual((case / "mesh.msh").read_bytes(), (self.folder / "mesh.msh").read_bytes())
         self.assertTrue(os.access(case / "Allrun", os.X_OK))
         for path in case.rglob("*"):
@@ -251,6 +256,7 @@ class OpenfoamCase(unittest.TestCase):
         self.assertIn("type wall;", (case / "constant/polyMesh/boundary").read_text(encoding="utf-8").split("wall\n")[1])
         # The stand-in's beat: 100 ml/s for 0.2 s, then 10 ml/s back for 0.1 s, and at 90 mmHg for 0.5 s a leak of
         # 1.01 times the forecast of 1.5 ml/s.
+        self.assertIn("the valve opens from 0.100 to 0.101 s\nthe valve closes from 0.400 to 0.401 s\n", done.stdout)
         for text in ("forward volume .* 20 ml +met", "backward volume .* 1.757 ml +met: below 12 %, 8.8",
                      "largest flow .* 100 ml/s", "mean gradient.* 5 mmHg", "leak at 90 mmHg",
                      "leak over the forecast.* 1.01 +met", "closed band .* 0.5 m/s +met",

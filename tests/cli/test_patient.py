@@ -306,6 +306,9 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.assertRegex(done.stdout, r"leaks? at 11 openings: the mesh is made once more, with edges of 0.855 half thicknesses")
         self.assertEqual((report["n_leaking_edges"], report["open"]), (0, "open"))
         self.assertAlmostEqual(report["band_edge"], 0.9 * first["band_edge"])
+        # Pressures are read at the same places in both meshes, within an edge.
+        for name in "upstream", "downstream":
+            self.assertLess(math.dist(report[name], first[name]), report["band_edge"] * report["half_thickness"], name)
         self.assertEqual(done.stdout.count("--band-edge 0.855"), 2, done.stdout)  # of riis size-field, and in the last lines
         self.assertEqual((case / "mine.txt").read_text(encoding="utf-8"), "kept")
         if sick:
@@ -360,6 +363,18 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         centre = {b["name"]: b["centre"] for b in report["boundaries"]}
         atrium = [1e-3 * x for x in ventricle.placed((0, 0, 16))]
         self.assertLess(math.dist(centre["inlet"], atrium), math.dist(centre["outlet"], atrium))
+        # The places of pressures are on the axis of the valve, and do not depend on the mesh.
+        for name, sign in ("upstream", -1), ("downstream", 1):
+            away = [x - c for x, c in zip(report[name], report["centre"])]
+            along = sum(x * f for x, f in zip(away, report["flow"]))
+            self.assertGreater(sign * along, report["ball_radius"], name)
+            self.assertLess(math.hypot(*(x - along * f for x, f in zip(away, report["flow"]))), 2e-5, name)
+        if os.environ.get("RIIS_TEST_LONG") == "1":
+            finer, _ = self.made("--half-thickness", "2 mm", "--largest-edge", "6 mm", "--band-edge", "0.76", "--replace",
+                                 wall="lv.stl")
+            self.assertGreater(finer["n_nodes"], 1.3 * report["n_nodes"])
+            for name in "upstream", "downstream":
+                self.assertLess(math.dist(report[name], finer[name]), 2e-5, name)
 
     def test_wrong_end(self):
         """An end on the wrong side of the valve."""

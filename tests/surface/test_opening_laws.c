@@ -357,6 +357,62 @@ TEST(a_filter_and_a_dwell_keep_noise_out) {
   assert_true(turns >= 5 && turns <= 10);
 }
 
+/* Advances a valve by random pressures and flows, and counts the turns that happen in the middle of a motion. */
+static int n_turns_in_motion(double opening, double closing, double dwell, int *n_turns) {
+  riis_opening_switch law = some_switch();
+  law.opening_duration = opening;
+  law.closing_duration = closing;
+  law.dwell_time = dwell;
+  riis_opening_switch_state now = closed_switch();
+  int in_motion = 0;
+  while (now.time < 20) {
+    const int32_t phase = now.phase;
+    CHECK_OK(riis_opening_switch_advance(&law, &now, now.time + random_between(&rng, 0.0005, 0.004),
+                                         random_between(&rng, -1, 1), random_between(&rng, -1, 1), &now));
+    if (phase == now.phase) continue;
+    ++*n_turns;
+    in_motion += now.progress > 1e-12 && now.progress < 1 - 1e-12;
+  }
+  return in_motion;
+}
+
+TEST(a_dwell_as_long_as_a_motion_lets_it_end) {
+  for (int trial = 0; trial < 20; ++trial) {
+    const double opening = random_between(&rng, 0.01, 0.1), closing = random_between(&rng, 0.01, 0.1);
+    int n_turns = 0;
+    assert_int_equal(n_turns_in_motion(opening, closing, fmax(opening, closing), &n_turns), 0);
+    assert_true(n_turns > 50);
+    assert_true(n_turns_in_motion(opening, closing, 0.5 * fmin(opening, closing), &n_turns) > 50);
+  }
+}
+
+/* In: the pressure difference and the flow of a mitral valve in a flow solver. While the leaflets close, they push blood back,
+ * and the pressure before them exceeds the pressure behind them from 5 to 30 ms after the turn. */
+TEST(closing_leaflets_do_not_open_the_valve_again) {
+  for (int i = 0; i < 2; ++i) {
+    riis_opening_switch law = some_switch();
+    law.opening_duration = law.closing_duration = 0.04;
+    law.open_above = 50;
+    law.filter_time = 0.002;
+    law.dwell_time = i == 0 ? 0.02 : 0.04;
+    riis_opening_switch_state now = closed_switch();
+    now.phase = RIIS_PHASE_OPENING;
+    now.progress = now.opening = 1;
+    double lowest = 1;
+    int turns_back = 0;
+    for (int step = 1; step <= 50; ++step) {
+      const double time = 0.002 * step, since = time - now.turn_time; /* NaN before the turn */
+      const double pressure = since > 0.005 && since < 0.03 ? 1900 : -1000;
+      const int32_t phase = now.phase;
+      CHECK_OK(riis_opening_switch_advance(&law, &now, time, pressure, -1e-4, &now));
+      turns_back += phase == RIIS_PHASE_CLOSING && now.phase == RIIS_PHASE_OPENING;
+      lowest = fmin(lowest, now.opening);
+    }
+    assert_int_equal(turns_back > 0, i == 0);
+    assert_true(i == 0 ? lowest > 0.3 : now.opening == 0);
+  }
+}
+
 /* Advances a law to a time. The law's pressures and flows are functions of time. */
 typedef void driven_step(void *state, double time);
 

@@ -202,7 +202,11 @@ void Marking::move_to_least_openings() { move_to_first(times_, valves_, std::les
 
 // The leaflets may reach beyond the wall where the valve is closed, and also where it is open.
 void Marking::take_states_for_outside() {
-  for (std::size_t i = 0; i < valves_.size(); ++i) sums_[i].outside.emplace_back(valves_[i]);
+  for (std::size_t i = 0; i < valves_.size(); ++i) {
+    sums_[i].outside.emplace_back(valves_[i]);
+    if (valves_[i].opening().value_or(0) > 0)
+      sums_[i].outside_closed.emplace(valves_[i].options(), valves_[i].closed_surface(), 0);
+  }
   if (!all_.is_series()) return;
   move_to_first(times_, valves_, std::greater<>());
   for (std::size_t i = 0; i < valves_.size(); ++i)
@@ -251,6 +255,7 @@ void Marking::measure(Piece &piece) {
     combine(sums.marks, valves_[i].stats());
     sums.leaks.add(piece, valves_[i].result());
     for (LeafletsOutside &state : sums.outside) state.add(piece);
+    if (sums.outside_closed) sums.outside_closed->add(piece);
     node_counts_.add(piece.nodes, list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT), within_limit(i));
     std::vector<std::int64_t> regions;
     if (wants_measures_ && piece.nodes.is_whole() && is_closed(valves_[i]))
@@ -400,15 +405,18 @@ void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
 // Reports the state of which most is outside, and warns if the valve is in the mesh at all.
 void Marking::report_outside(std::size_t i, const MeshCounts &counts) {
   std::optional<OutsideReport> &report = report_.valves[i].outside;
+  std::optional<OutsideReport> closed;
+  if (sums_[i].outside_closed) closed = sums_[i].outside_closed->report();
   for (const LeafletsOutside &state : sums_[i].outside) {
     const OutsideReport found = state.report();
+    if (found.opening == 0.0) closed = found;
     if (!report || found.share > report->share) report = found;
   }
   if (counts.n_volume_cells == 0) report.reset();
   if (!report) return;
   if (report->opening == report_.valves[i].opening) report->opening.reset();
   if (n_marked_[marked_at(most_steps_[i], i)] > 0)
-    warn_of_outside(*report, report_.valves[i].surface.half_thickness, all_.surface_of(i));
+    warn_of_outside(*report, closed, report_.valves[i].surface.half_thickness, all_.surface_of(i));
 }
 
 namespace {

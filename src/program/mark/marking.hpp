@@ -56,8 +56,9 @@ class Marking {
     riis_mark_stats marks = no_stats();
     BandMeasures band{};
     std::optional<double> closed_area{};
-    std::vector<std::vector<SharedNode>> shared{};  // by piece, with the open regions of this valve
-    std::vector<LeafletsOutside> outside{};         // at the least opening, and in a series at the largest
+    std::vector<std::vector<SharedNode>> shared{};    // by piece, with the open regions of this valve
+    std::vector<LeafletsOutside> outside{};           // at the least opening, and in a series at the largest
+    std::optional<LeafletsOutside> outside_closed{};  // of a valve that is always open
   };
 
   const MarkOptions &options() const { return all_.options; }

@@ -19,10 +19,13 @@ std::string percent(double share) { return printed(share < 0.1 ? "%.2g %%" : "%.
 }  // namespace
 
 LeafletsOutside::LeafletsOutside(const MovingValve &valve)
-    : options_(valve.options()),
-      info_(info_of(valve.surface())),
-      opening_(valve.opening()),
-      samples_(area_samples(valve.surface())),
+    : LeafletsOutside(valve.options(), valve.surface(), valve.opening()) {}
+
+LeafletsOutside::LeafletsOutside(const MarkOptions &options, const riis_surface *surface, std::optional<double> opening)
+    : options_(options),
+      info_(info_of(surface)),
+      opening_(opening),
+      samples_(area_samples(surface)),
       is_outside_(samples_.area.size(), 1) {}
 
 void LeafletsOutside::add(const Piece &piece) {
@@ -64,13 +67,17 @@ std::string outside_text(const OutsideReport &report) {
   return percent(report.share) + " of the leaflets' area (" + text + ")";
 }
 
-void warn_of_outside(const OutsideReport &report, double half_thickness, const std::string &name) {
+void warn_of_outside(const OutsideReport &report, const std::optional<OutsideReport> &closed, double half_thickness,
+                     const std::string &name) {
   if (report.share <= most_outside) return;
   const std::string at = report.opening ? printed(" at opening %g", *report.opening) : "";
-  warn({{Cause::outside,
-         name + " stands through the wall" + at + ": " + outside_text(report) + " is farther than the half thickness " +
-             shown(half_thickness) + " outside the mesh",
-         ": move it, turn it or make it smaller"}});
+  const std::string what = ": " + outside_text(report) + " is farther than the half thickness " +
+                           shown(half_thickness) + " outside the mesh";
+  if (closed && closed->share <= most_outside)
+    print_line(name + " reaches through the wall where it is open" + at + what +
+               ", which has no nodes there. The closed valve stands inside the mesh");
+  else
+    warn({{Cause::outside, name + " stands through the wall" + at + what, ": move it, turn it or make it smaller"}});
 }
 
 }  // namespace riis::program

@@ -19,6 +19,8 @@ class LeafletsOutside {
  public:
   // Takes the surface where the valve is now.
   explicit LeafletsOutside(const MovingValve &valve);
+  // Takes another surface of a valve with these options.
+  LeafletsOutside(const MarkOptions &options, const riis_surface *surface, std::optional<double> opening);
   void add(const Piece &piece);
   // Returns the shares of all ranks' pieces.
   OutsideReport report() const;
@@ -31,8 +33,10 @@ class LeafletsOutside {
   std::vector<std::uint8_t> is_outside_;  // of all pieces so far
 };
 
-// Warns if more than a small share is outside. `name` is the surface's name in the warning.
-void warn_of_outside(const OutsideReport &report, double half_thickness, const std::string &name);
+// Warns if more than a small share is outside. Open leaflets may lie against the wall and reach into it at the right place, so
+// `closed` decides whether the valve stands wrongly. It is empty for a surface from a file. `name` is the surface's name.
+void warn_of_outside(const OutsideReport &report, const std::optional<OutsideReport> &closed, double half_thickness,
+                     const std::string &name);
 // Returns a text such as "26 % of the leaflets' area (right 61 %)".
 std::string outside_text(const OutsideReport &report);
 

@@ -33,8 +33,8 @@ std::string filled(std::string text, const std::map<std::string, std::string> &n
 // Returns a duration for a message, such as "12 minutes".
 std::string duration_text(double seconds);
 
-// The texts of the files in the folders fenicsx, openfoam and svmultiphysics, by names such as "openfoam/Allrun". CMake writes
-// them into the program, so the program needs no path to them.
+// The texts of beat_table.py and of the files in the folders fenicsx, openfoam and svmultiphysics, by names such as
+// "openfoam/Allrun". CMake writes them into the program, so the program needs no path to them.
 const std::map<std::string, std::string> &case_texts();
 
 }  // namespace riis::program

@@ -59,8 +59,7 @@ Json numbers_of(const SolverCase &solver, const Ends &ends, int n_steps) {
             {"open_above", opening_pressure},
             {"close_below", solver.is_mitral ? closing_flow_of_mitral : 0.0},
             {"filter_time", 0.002},
-            // The leaflets push blood back while they close, and must not open for the pressure that this makes.
-            {"dwell_time", motion_seconds}}},
+            {"dwell_time", dwell_seconds}}},
           {"period", beat_period},
           {"time_step", dolfinx_step},
           {"steps", n_steps}};
@@ -75,8 +74,11 @@ void write_fenicsx_case(const SolverCase &solver) {
     if (solver.skirt > 0 || name != std::string("wall.stl")) copy_into(solver, name, name);
   const int n_steps = static_cast<int>(beat_period / dolfinx_step + 0.5);
   write_into(solver, "case.json", numbers_of(solver, ends, n_steps).dump(1) + "\n");
-  write_into(solver, "run.py", case_texts().at("fenicsx/run.py"));
-  make_runnable(solver, "run.py");
+  write_into(solver, "beat_table.py", case_texts().at("beat_table.py"));
+  for (const char *name : {"run.py", "report.py"}) {
+    write_into(solver, name, case_texts().at(std::string("fenicsx/") + name));
+    make_runnable(solver, name);
+  }
   print_line("a beat has " + std::to_string(n_steps) + " steps of " + shortest(dolfinx_step) +
              " s; dolfinx needs about " +
              duration_text(dolfinx_seconds * static_cast<double>(solver.n_cells) * n_steps) + " on one processor");

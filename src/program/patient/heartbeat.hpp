@@ -9,6 +9,9 @@ namespace riis::program {
 inline constexpr double mmHg = 133.322;         // Pa
 inline constexpr double beat_period = 0.8;      // s
 inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and in which it closes
+// The dwell time of the law. The leaflets push blood back while they close, and must not open for the pressure that this makes.
+// So a motion ends before the next may begin, as svMultiPhysics does it by itself.
+inline constexpr double dwell_seconds = motion_seconds;
 inline constexpr double opening_pressure = 50;  // Pa; above it, rounding cannot open a valve between equal pressures
 inline constexpr double closing_flow_of_mitral =
     1e-4;  // m3/s; below it a mitral valve closes, so that less blood returns

@@ -31,7 +31,8 @@ constexpr std::pair<const char *, const char *> foam_files[] = {
     {"system/fvSchemes", "openfoam/fvSchemes"},
     {"system/fvSolution", "openfoam/fvSolution"},
     {"Allrun", "openfoam/Allrun"},
-    {"report.py", "openfoam/report.py"}};
+    {"report.py", "openfoam/report.py"},
+    {"beat_table.py", "beat_table.py"}};
 
 std::string point_of(const std::array<double, 3> &point) { return "(" + numbers_text(point.data(), 3, " ") + ")"; }
 
@@ -138,9 +139,10 @@ void write_openfoam_case(const SolverCase &the) {
       {"HALF_THICKNESS", shortest(the.half_thickness)},
       {"KINEMATIC_VISCOSITY", printed("%.6g", the.viscosity / the.density)},
       {"MMHG", printed("%.6g", mmHg / the.density)},
-      {"CLOSE_BELOW", the.is_mitral ? "1e-4" : "0"},
+      {"CLOSE_BELOW", shortest(the.is_mitral ? closing_flow_of_mitral : 0)},
       {"PERIOD", shortest(beat_period)},
       {"MOTION_SECONDS", shortest(motion_seconds)},
+      {"DWELL_SECONDS", shortest(dwell_seconds)},
       {"OPEN_ABOVE", shortest(opening_pressure)},
       {"UPSTREAM", point_of(the.upstream)},
       {"DOWNSTREAM", point_of(the.downstream)},

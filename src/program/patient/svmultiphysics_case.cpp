@@ -158,6 +158,7 @@ void write_svmultiphysics_case(const SolverCase &solver) {
                      {"DENSITY", printed("%.6g", solver.density * factor_from_si(a_density, Unit::centimetre))},
                      {"VISCOSITY", printed("%.6g", solver.viscosity * factor_from_si(a_viscosity, Unit::centimetre))},
                      {"CONDITIONS", conditions_of(solver, ends)}}));
+  write_into(solver, "beat_table.py", case_texts().at("beat_table.py"));
   for (const char *name : {"Allrun", "report.py"}) {
     write_into(solver, name, case_texts().at(std::string("svmultiphysics/") + name));
     make_runnable(solver, name);

@@ -2,7 +2,8 @@
 #include "program/patient/valve_sides.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <tuple>
 
 #include "common/array_view.hpp"
 #include "common/vectors.hpp"
@@ -19,6 +20,38 @@ namespace {
 constexpr std::int32_t n_sides_openings = 11;
 // Radii of the balls in millimetres: the largest that there is room for is taken.
 constexpr double ball_radii[] = {4, 3, 2, 1.5, 1};
+// The places that are tried for a ball, in millimetres: on the valve's axis and on lines beside it, at steps along the axis.
+constexpr int most_along = 150, ring_step = 3, n_rings = 5, n_of_ring = 8;
+
+// Returns places on both sides of the centre, the nearest first. They depend on the placement only, so pressures in two meshes of
+// a patient are read at the same places.
+std::vector<double> places_by_distance(const Vector3 &centre, const Vector3 &flow, double millimetre) {
+  struct Candidate {
+    int along, ring, number;
+    int squared() const { return along * along + ring * ring; }
+  };
+  std::vector<Candidate> places;
+  for (int along = -most_along; along <= most_along; ++along)
+    for (int ring = 0; ring <= n_rings; ++ring)
+      for (int number = 0; number < (ring == 0 ? 1 : n_of_ring); ++number)
+        places.push_back({along, ring_step * ring, number});
+  std::stable_sort(places.begin(), places.end(), [](const Candidate &a, const Candidate &b) {
+    return std::tuple(a.squared(), a.ring) < std::tuple(b.squared(), b.ring);
+  });
+  std::size_t least = 0;  // the axis of coordinates that is least along the flow
+  for (std::size_t k = 1; k < 3; ++k)
+    if (std::abs(flow[k]) < std::abs(flow[least])) least = k;
+  Vector3 across{};
+  across[least] = 1;
+  across = unit_vector(across - dot(across, flow) * flow);
+  std::vector<double> xyz;
+  for (const Candidate &place : places) {
+    const Vector3 away = turned(across, flow, 360.0 / n_of_ring * place.number);
+    const Vector3 point = centre + millimetre * (static_cast<double>(place.along) * flow + place.ring * away);
+    xyz.insert(xyz.end(), point.begin(), point.end());
+  }
+  return xyz;
+}
 
 }  // namespace
 
@@ -36,8 +69,12 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
     return Vector3{view(xyz)[3 * node], view(xyz)[3 * node + 1], view(xyz)[3 * node + 2]};
   };
 
+  const std::vector<double> places = places_by_distance(centre, flow, millimetre);
+  const auto place = [&](std::size_t i) {
+    return Vector3{view(places)[3 * i], view(places)[3 * i + 1], view(places)[3 * i + 2]};
+  };
   const Valve valve = make_valve(marking);
-  std::vector<double> away = distances_to(wall_of(marking), xyz);
+  std::vector<double> room = distances_to(wall_of(marking), places);
   std::vector<std::int64_t> region(static_cast<std::size_t>(nodes.n()));
   const double half_thickness = marking.surface_options.half_thickness;
   const auto along_flow = [&](const Vector3 &point) { return dot(point - centre, flow); };
@@ -51,8 +88,8 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
       first = std::min(first, here);
       last = std::max(last, here);
     }
-    const std::vector<double> from_valve = distances_to(surface, xyz);
-    for (std::size_t i = 0; i < away.size(); ++i) away[i] = std::min(away[i], from_valve[i] - half_thickness);
+    const std::vector<double> from_valve = distances_to(surface, places);
+    for (std::size_t i = 0; i < room.size(); ++i) room[i] = std::min(room[i], view(from_valve)[i] - half_thickness);
     if (opening > 0) continue;
     const riis_mark_options how = how_to_mark_again(marking);
     const Marks marks = marks_of(surface, nodes.mesh(), how);
@@ -60,27 +97,34 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
     check(riis_label_open_regions(nodes.mesh(), marks, &how, nodes.n(), region.data(), nullptr));
   }
 
-  // Of the nodes with room for a ball, the nearest to the annulus on each side is the middle of a ball. Balls beyond the valve's
-  // extent are not in its jet. A short vessel has room only beside the leaflets.
+  const auto nearest_node = [&](const Vector3 &point) {
+    const auto squared = [&](std::int64_t i) { return dot(at(i) - point, at(i) - point); };
+    std::int64_t nearest = 0;
+    for (std::int64_t i = 1; i < nodes.n(); ++i)
+      if (squared(i) < squared(nearest)) nearest = i;
+    return nearest;
+  };
+  // Of the places with room for a ball, the first on each side is the middle of a ball. Balls beyond the valve's extent are not
+  // in its jet. A short vessel has room only beside the leaflets.
   ValveSides sides;
-  std::int64_t before = -1, after = -1;
-  const auto nearest = [&](double sign, double radius, double beyond) {
-    double least = std::numeric_limits<double>::infinity();
-    std::int64_t found = -1;
-    for (std::int64_t i = 0; i < nodes.n(); ++i) {
-      const double far = norm(at(i) - centre);
-      if (view(away)[i] < radius || view(region)[i] < 0 || sign * along_flow(at(i)) <= beyond || far >= least) continue;
-      least = far;
-      found = i;
+  std::int64_t before = -1, after = -1;  // the nodes at the middles
+  const auto find = [&](double sign, double radius, double beyond, std::array<double, 3> &middle) {
+    for (std::size_t i = 0; i < room.size(); ++i) {
+      if (view(room)[i] < radius || sign * along_flow(place(i)) <= beyond) continue;
+      // The wall is closed, so a place is in the blood if a node is nearer than the wall.
+      const std::int64_t node = nearest_node(place(i));
+      if (norm(at(node) - place(i)) >= radius || view(region)[node] < 0) continue;
+      middle = place(i);
+      return node;
     }
-    return found;
+    return std::int64_t{-1};
   };
   for (const double radius : ball_radii) {
     sides.ball_radius = radius * millimetre;
-    before = nearest(-1, sides.ball_radius, sides.ball_radius - first);
-    after = nearest(1, sides.ball_radius, sides.ball_radius + last);
-    if (before < 0) before = nearest(-1, sides.ball_radius, 0);
-    if (after < 0) after = nearest(1, sides.ball_radius, 0);
+    before = find(-1, sides.ball_radius, sides.ball_radius - first, sides.upstream);
+    after = find(1, sides.ball_radius, sides.ball_radius + last, sides.downstream);
+    if (before < 0) before = find(-1, sides.ball_radius, 0, sides.upstream);
+    if (after < 0) after = find(1, sides.ball_radius, 0, sides.downstream);
     if (before >= 0 && after >= 0) break;
   }
   if (before < 0 || after < 0)
@@ -95,15 +139,13 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
       made[k] = *number_in(printed(millimetre < 0.01 ? "%.5f" : millimetre < 1 ? "%.3f" : "%.2f", point[k]));
     return made;
   };
-  sides.upstream = rounded(at(before));
-  sides.downstream = rounded(at(after));
+  sides.upstream = rounded(sides.upstream);
+  sides.downstream = rounded(sides.downstream);
   sides.are_apart = view(region)[before] != view(region)[after];
   if (!sides.are_apart) return sides;
   for (const Boundary &end : boundaries) {
     if (end.name == "wall") continue;
-    std::int64_t at_end = 0;
-    for (std::int64_t i = 0; i < nodes.n(); ++i)
-      if (norm(at(i) - end.centre) < norm(at(at_end) - end.centre)) at_end = i;
+    const std::int64_t at_end = nearest_node(end.centre);
     if (view(region)[at_end] == view(region)[before]) sides.before.push_back(end.name);
     if (view(region)[at_end] == view(region)[after]) sides.after.push_back(end.name);
   }

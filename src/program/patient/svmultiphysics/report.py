@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""report.py RESULTS: prints when the valve opens and closes, the volumes, the leak and the balance of a run of solver.xml.
+"""report.py RESULTS: prints a table of the last beat of a run of solver.xml, and what it should be.
 
-RESULTS is a folder such as 1-procs. A continued run writes some steps again, and the later ones count.
+RESULTS is a folder such as 1-procs. A continued run writes some steps again, and the later ones count. It ends with 1 if a value
+is not as it should be, unless the run is not complete.
 """
 import base64
 import pathlib
@@ -12,9 +13,10 @@ import sys
 import xml.etree.ElementTree as xml
 import zlib
 
+from beat_table import beat_table
+
 HERE = pathlib.Path(__file__).resolve().parent
-DYN_OF_MMHG = 1333.22
-REST = 0.05  # the leak is steady so long after the valve has closed [s]
+PASCALS, CUBIC_METRES = 0.1, 1e-6  # in a dyn/cm2, and in a cm3
 
 
 def table_of(path):
@@ -68,7 +70,8 @@ def frames_of(path):
 def motions_of(results, valve, is_closed):
     """Returns [(the word, the last step at rest, the step of the last frame), ...] in time.
 
-    Each step of a motion shows the next frame, so a file with a frame in the middle tells when the motion began.
+    Each step of a motion shows the next frame, so a file with a frame in the middle tells when the motion began. A motion that no
+    file shows counts as if it ended at the next file.
     """
     face = valve.find("Add_URIS_face")
     opening, closing = (frames_of(HERE / face.find(name).text.strip())
@@ -81,60 +84,61 @@ def motions_of(results, valve, is_closed):
         shown = away.index(min(away))
         if shown == 0 or found and step <= found[-1][2]:
             continue
-        exact = step - shown if shown < len(frames) - 1 else None
-        found.append(("opens" if is_closed else "closes", exact, step + len(frames) - 1 - shown))
+        found.append(("opens" if is_closed else "closes", step - shown, step + len(frames) - 1 - shown))
         is_closed = not is_closed
     return found
 
 
-def main():
-    if len(sys.argv) != 2 or not (pathlib.Path(sys.argv[1]) / "B_NS_Velocity_flux.txt").exists():
-        sys.exit(f"report.py takes the folder of results, such as 1-procs, but got '{' '.join(sys.argv[1:])}'")
-    results, case = pathlib.Path(sys.argv[1]), (HERE / "solver.xml").read_text("utf-8")
+def openings_of(motions, steps, is_closed):
+    """Returns the share of frames from closed to open that each step shows, as {step: share}."""
+    shares, rest = {}, 0.0 if is_closed else 1.0
+    for step in steps:
+        before = [motion for motion in motions if motion[1] < step]
+        if not before:
+            shares[step] = rest
+            continue
+        word, start, end = before[-1]
+        share = min((step - start) / (end - start), 1.0)
+        shares[step] = share if word == "opens" else 1.0 - share
+    return shares
+
+
+def steps_of(results, case):
     tree = xml.fromstring(case)
     dt, valve = float(tree.find(".//Time_step_size").text), tree.find("Add_URIS_mesh")
     flows, pressures = (table_of(results / f"B_NS_{name}.txt") for name in ("Velocity_flux", "Pressure_average"))
     if not flows or "inlet" not in flows[max(flows)]:
         sys.exit(f"report.py: {results}/B_NS_Velocity_flux.txt has no face inlet")
-    # Blood enters at the inlet, so the inlet's flow is negative while the valve is open.
-    flow = {step: -row["inlet"] for step, row in flows.items()}
-    forward, back = (dt * sum(max(sign * value, 0) for value in flow.values()) for sign in (1, -1))
-    largest = max(flow, key=flow.get)
-    motions = motions_of(results, valve, valve.find("Valve_starts_as_closed").text.strip() == "true")
-    for word, before, after in motions:
-        print(f"the valve {word} {f'from {dt * before:.3f}' if before is not None else 'until at most'} to {dt * after:.3f} s")
-    if not motions:
-        print("the valve does not move")
-    print(f"flow through the inlet: {forward:.1f} ml forward, {back:.1f} ml back"
-          + (f" ({100 * back / forward:.1f} %)" if forward > 0 else "")
-          + f", at most {flow[largest]:.0f} ml/s at {dt * largest:.3f} s")
-    most = max(abs(value) for value in flow.values())
-    if most > 0:
-        print(f"inflow less outflow, over the largest flow: {max(abs(sum(row.values())) for row in flows.values()) / most:.1e}")
-    # The leak needs a valve that has long been closed, and the largest pressures that close it.
-    closed_at = 0 if not motions else motions[-1][2] if motions[-1][0] == "closes" else max(flow)
-    ends = {step: (row["inlet"] - sum(p for name, p in row.items() if name.startswith("outlet"))
-                   / sum(name.startswith("outlet") for name in row)) / DYN_OF_MMHG for step, row in pressures.items()}
-    still = [step for step in flow if step * dt > closed_at * dt + REST and ends.get(step, 0) < 0]
-    still = [step for step in still if ends[step] < 0.8 * min(ends[s] for s in still)]
-    if still:
-        found = -sum(flow[step] for step in still) / len(still)
-        text = f"leak at {-min(ends[step] for step in still):.0f} mmHg between the ends: {found:.2f} ml/s"
-        area = re.search(r"area of the leaflets in the mesh, ([\d.]+)", case)
-        if area:
-            eps, resistance = (float(valve.find(name).text) for name in ("Closed_thickness", "Resistance"))
-            ideal = DYN_OF_MMHG * -sum(ends[step] for step in still) / len(still) * eps * float(area[1]) / resistance
-            text += f", {found / ideal:.3f} of the ideal leak"
-        print(text)
+    is_closed = valve.find("Valve_starts_as_closed").text.strip() == "true"
+    openings = openings_of(motions_of(results, valve, is_closed), sorted(flows), is_closed)
     speeds = {int(path.stem.split("_")[-1]): float(attribute(path, "Velocity", "RangeMax") or "nan") / 100
               for path in results.glob("result_[0-9]*.vtu")}
-    for words, is_wanted in (("while the valve moves", True), ("while it is at rest", False)):
-        chosen = [speed for step, speed in speeds.items() if is_wanted == any(
-            before is not None and before < step <= after for _, before, after in motions)]
-        if chosen:
-            print(f"fastest node {words}: {max(chosen):.2f} m/s, in the {len(chosen)} files of it")
+    area = re.search(r"area of the leaflets in the mesh, ([\d.]+)", case)
+    eps, resistance = (float(valve.find(name).text) for name in ("Closed_thickness", "Resistance"))
+    steps = []
+    for step in sorted(set(flows) & set(pressures)):
+        outlets = [p for name, p in pressures[step].items() if name.startswith("outlet")]
+        difference = PASCALS * (pressures[step]["inlet"] - sum(outlets) / len(outlets))
+        # Blood enters at the inlet, so the inlet's flow is negative while the valve is open.
+        steps.append({"time": dt * step, "opening": openings[step], "flow": -CUBIC_METRES * flows[step]["inlet"],
+                      "difference": difference, "balance": CUBIC_METRES * sum(flows[step].values()),
+                      "fastest": speeds.get(step),
+                      "leak": area and -difference / PASCALS * eps * float(area[1]) / resistance * CUBIC_METRES})
+    return steps
+
+
+def main():
+    if len(sys.argv) != 2 or not (pathlib.Path(sys.argv[1]) / "B_NS_Velocity_flux.txt").exists():
+        sys.exit(f"report.py takes the folder of results, such as 1-procs, but got '{' '.join(sys.argv[1:])}'")
+    results = pathlib.Path(sys.argv[1])
+    steps = steps_of(results, (HERE / "solver.xml").read_text("utf-8"))
+    period = float((HERE / "ventricle.dat").read_text("ascii").split()[-2])  # the time of its last pressure
+    text, is_fine = beat_table(steps, period, where="node")
+    print(text)
+    print("pressures are means over the ends, and speeds are those of the written files")
     print(f"{results} has the pressures and flows of each step. ParaView opens {results}/result_*.vtu")
+    return 0 if is_fine else 1
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The table of a beat, with the same words and bounds for the cases of all solvers. report.py of a case reads the solver's files
+and prints this table.
+
+All numbers are in SI units. A step of the solver is a dictionary:
+  time, flow     at the end of the step; the flow is positive in the valve's direction
+  opening        of the valve, from 0 to 1
+  difference     the pressure before the valve less the pressure behind it
+  balance        the flow in less the flow out
+  fastest, band  the fastest speed of all, and the fastest in the band of the valve, where the solver's files have them
+  leak           of an ideal valve at this difference of pressures, if it is known
+"""
+PASCALS_OF_MMHG = 133.322387415
+REST = 0.05  # the leak is steady so long after the valve has closed [s]
+# Bounds of a beat.
+MOST_BACK = 0.12          # of the forward volume
+MOST_OFF_FORECAST = 0.03  # of the leak
+MOST_AT_BAND = 2          # m/s
+MOST_WHILE_MOVING = 8     # m/s
+FAST, MOST_FAST_MS = 3, 10  # m/s, and for how long a cell may have it while the valve moves
+MOST_BALANCE = 1e-5       # of the largest flow
+
+
+def motions_of(steps):
+    """Returns [[word, start, end], ...]: when the valve opens and closes."""
+    found = []
+    for last, step in zip(steps, steps[1:]):
+        if step["opening"] == last["opening"]:
+            continue
+        word = "opens" if step["opening"] > last["opening"] else "closes"
+        if not found or found[-1][0] != word or found[-1][2] != last["time"]:
+            found.append([word, last["time"], last["time"]])
+        found[-1][2] = step["time"]
+    return found
+
+
+def is_moving(step, motions):
+    return any(start < step["time"] <= end for _, start, end in motions)
+
+
+class Lines:
+    """The rows of the table. `is_fine` tells whether all bounds hold."""
+
+    def __init__(self, is_judged):
+        self.rows, self.is_judged, self.is_fine = [], is_judged, True
+
+    def add(self, text, value, unit="", bound=None, shown=None, note=""):
+        """Adds a row. A bound is whether it holds, and its words."""
+        if bound is not None and self.is_judged:
+            self.is_fine = self.is_fine and bound[0]
+            note = f"{'met' if bound[0] else 'MISSED'}: {bound[1]}"
+        self.rows.append(f"  {text:<46} {shown or f'{value:.4g}':>9} {unit:<7} {note}".rstrip())
+
+    def add_speed(self, text, steps, name, most):
+        """Adds the fastest speed of the steps that have one, and returns them. A bound judges it if all of them have one."""
+        known = [step for step in steps if step.get(name) is not None]
+        if known:
+            speed, is_whole = max(step[name] for step in known), len(known) == len(steps)
+            self.add(text + ("" if is_whole else f", in {len(known)} files"), speed, "m/s",
+                     (speed <= most, f"at most {most}") if most and is_whole else None)
+        return known
+
+
+def add_leak(lines, beat, motions, drop):
+    ends = [end for _, _, end in motions]
+    still = [step for step in beat if step["opening"] == 0 and step["difference"] < 0 and not is_moving(step, motions)
+             and step["time"] > max((end for end in ends if end <= step["time"]), default=0.0) + REST]
+    most = min((step["difference"] for step in still), default=0)
+    held = [step for step in still if step["difference"] < 0.8 * most]
+    if not held or held[0].get("leak") is None:
+        return
+    found = -sum(step["flow"] for step in held)
+    share = found * (drop or 1) / sum(step["leak"] for step in held)
+    lines.add(f"leak at {-most / PASCALS_OF_MMHG:.0f} mmHg", 1e6 * found / len(held), "ml/s")
+    if drop is None:
+        lines.add("leak over the ideal leak", share)
+        return
+    lines.add("leak over the forecast for this mesh", share, "", (abs(share - 1) < MOST_OFF_FORECAST, "1 to 3 %"))
+    lines.add("drop of the closed valve over (R / eps) u", drop)
+
+
+def beat_table(steps, period, drop=None, where="cell"):
+    """Returns the text of the last beat, and whether it is as it should be.
+
+    drop is the forecast of the drop of the closed valve over (R / eps) u in this mesh, if the solver has one. where names the
+    places with a speed.
+    """
+    if len(steps) < 2:
+        return "the run has not made two steps yet", True
+    end = steps[-1]["time"]
+    dt = min(b["time"] - a["time"] for a, b in zip(steps, steps[1:]))
+    beat = [step for step in steps if step["time"] > end - period - dt / 2]
+    motions = motions_of(steps)
+    is_complete = len(beat) * dt > 0.99 * period
+    said = []
+    if not is_complete:
+        said.append(f"the tables have {len(beat) * dt:.3g} s of a beat of {period:g} s: what follows is preliminary")
+    shown = [motion for motion in motions if motion[2] > beat[0]["time"]]
+    said += [f"the valve {word} from {start:.3f} to {last:.3f} s" for word, start, last in shown] or ["the valve does not move"]
+    lines = Lines(is_complete)
+    forward, back = (dt * sum(max(sign * step["flow"], 0) for step in beat) for sign in (1, -1))
+    lines.add("forward volume", 1e6 * forward, "ml", (forward > 0, "above 0"))
+    share = back / forward if forward > 0 else float("inf")
+    lines.add("backward volume", 1e6 * back, "ml", (share < MOST_BACK, f"below {100 * MOST_BACK:.0f} %, {100 * share:.1f} %"))
+    peak = max(beat, key=lambda step: step["flow"])
+    lines.add("largest flow", 1e6 * peak["flow"], "ml/s", note=f"at {peak['time']:.3f} s")
+    fast = [step for step in beat if step["flow"] > 0.5 * peak["flow"] and step["opening"] > 0]
+    if fast:
+        lines.add("mean gradient, where the flow exceeds half of it",
+                  sum(step["difference"] for step in fast) / len(fast) / PASCALS_OF_MMHG, "mmHg")
+    opened = [step["difference"] for step in beat if step["opening"] > 0]
+    if opened:
+        lines.add("largest gradient while the valve is open", max(opened) / PASCALS_OF_MMHG, "mmHg")
+    add_leak(lines, beat, motions, drop)
+    moving = [step for step in beat if is_moving(step, motions)]
+    closed = [step for step in beat if step["opening"] == 0 and not is_moving(step, motions)]
+    if not lines.add_speed(f"fastest {where} at the closed band", closed, "band", MOST_AT_BAND):
+        resting = [step for step in beat if not is_moving(step, motions)]
+        lines.add_speed(f"fastest {where} while it is at rest", resting, "fastest", None)
+    known = lines.add_speed(f"fastest {where} while the valve moves", moving, "fastest", MOST_WHILE_MOVING)
+    if known and len(known) == len(moving):
+        above = 1e3 * dt * sum(step["fastest"] > FAST for step in moving)
+        lines.add(f"time with a {where} above {FAST} m/s meanwhile", above, "ms",
+                  (above <= MOST_FAST_MS + 0.1, f"at most {MOST_FAST_MS}"))
+    largest = max(abs(step["flow"]) for step in beat)
+    if largest > 0:
+        balance = max(abs(step["balance"]) for step in beat) / largest
+        lines.add("inflow less outflow, over the largest flow", balance, "", (balance <= MOST_BALANCE, "at most 1e-5"),
+                  f"{balance:.1e}")
+    return "\n".join([*said, f"the beat that ends at {end:g} s", *lines.rows]), lines.is_fine or not is_complete
