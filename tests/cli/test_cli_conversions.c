@@ -24,6 +24,15 @@ TEST(test_texts) {
     RUN_REFUSED(1, wanted, "mark", name);
   }
   RUN_REFUSED(1, "; a .pvd is a list of files: give one of its meshes\n", "mark", "heart.pvd");
+  scratch_write_text(
+      "list.pvd",
+      "<VTKFile type=\"Collection\"><Collection>\n<DataSet timestep=\"0\" part=\"0\" file=\"a b000000.pvtu\"/>\n"
+      "<DataSet timestep=\"1\" file=\"a b000001.pvtu\"/></Collection></VTKFile>");
+  char first[512];
+  snprintf(first, sizeof first, ": give one of its meshes, such as '%s'\n", scratch_path("a b000000.pvtu"));
+  RUN_REFUSED(1, first, "mark", scratch_path("list.pvd"));
+  RUN_REFUSED(1, "; dolfinx writes what riis reads by io.XDMFFile or io.VTKFile in place of io.VTXWriter\n", "mark",
+              "heart.bp");
   const char *endings[] = {"cgns", "case", "encas", "vtkhdf", "pvti", "pvts", "tec", "vtmb", "vtpc", "vtpd"};
   for (int i = 0; i < 10; ++i) {
     char name[32];

@@ -32,7 +32,7 @@ typedef struct {
   double n_in_box, solver_area, n_before, volume_before, n_behind, volume_behind, leaflet_speed, node_speed;
 } row;
 
-/* Gives the signed distances of all nodes, and the absolute distances to the scaffold. */
+/* Gives the signed distances of all nodes. */
 static int distances_of(const mesh *of, const uris_state *state, int is_closing, double *distance) {
   int n_in_box = 0;
   for (int i = 0; i < of->n_nodes; ++i) {
@@ -46,20 +46,17 @@ static int distances_of(const mesh *of, const uris_state *state, int is_closing,
   return n_in_box;
 }
 
-static double area_of(const mesh *of, const double *distance, const double *to_scaffold, double eps) {
+static double area_of(const mesh *of, const double *distance, double eps) {
   const rule points = gauss_of(of->type);
   double integral = 0;
   for (int g = 0; g < points.n; ++g) {
     double value[most_of_cell], slope[3 * most_of_cell];
     shim_shape_functions(of->type->vtk, points.point[g], value, slope);
     for (int cell = 0; cell < of->n_cells; ++cell) {
-      double d = 0, s = 0;
-      for (int a = 0; a < of->type->n_nodes; ++a) {
-        const int node = of->node[of->type->n_nodes * cell + a];
-        d += value[a] * fabs(distance[node]);
-        if (to_scaffold) s += value[a] * to_scaffold[node];
-      }
-      integral += points.weight[g] * of->cell_volume * (delta(d, eps) + (to_scaffold ? delta(s, eps) : 0));
+      double d = 0;
+      for (int a = 0; a < of->type->n_nodes; ++a)
+        d += value[a] * fabs(distance[of->node[of->type->n_nodes * cell + a]]);
+      integral += points.weight[g] * of->cell_volume * delta(d, eps);
     }
   }
   return eps * integral;
@@ -122,7 +119,7 @@ static void add_speeds(const mesh *of, const uris_state *state, int is_closing, 
 }
 
 static row row_of(const mesh *of, int is_closing, int frame) {
-  static double distance[most_nodes], to_scaffold[most_nodes];
+  static double distance[most_nodes];
   const double eps = exported.thickness;
   row found;
   memset(&found, 0, sizeof found);
@@ -130,15 +127,7 @@ static row row_of(const mesh *of, int is_closing, int frame) {
   found.n_in_box = distances_of(of, &state, is_closing, distance);
   if (frame > 0) add_speeds(of, &state, is_closing, frame, distance, &found);
   uris_state_free(&state);
-  if (exported.has_scaffold) {
-    uris_state scaffold = uris_scaffold_of(&exported);
-    for (int i = 0; i < of->n_nodes; ++i) {
-      to_scaffold[i] = 1e6 * eps;
-      if (uris_is_in_box(&scaffold, of->xyz + 3 * i)) uris_nearest(&scaffold, of->xyz + 3 * i, &to_scaffold[i]);
-    }
-    uris_state_free(&scaffold);
-  }
-  found.solver_area = area_of(of, distance, exported.has_scaffold ? to_scaffold : NULL, eps);
+  found.solver_area = area_of(of, distance, eps);
   for (int i = 0; i < of->n_nodes; ++i) {
     const double d = distance[i];
     const int is_before = d <= -eps && (!is_closing || d >= -5 * eps), is_behind = d >= eps && d <= 5 * eps;

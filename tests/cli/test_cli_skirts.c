@@ -200,6 +200,8 @@ TEST(measures_leave_the_skirt_out) {
 }
 
 TEST(refusals) {
+  RUN_REFUSED(2, "--skirt: 12 m: skirt_length is 1200; it must be 0, or from ", "surface", "--valve", "trileaflet",
+              "--unit", "m", "--skirt", "12", "--output", scratch_path("long.vtp"));
   RUN_REFUSED(2, "--skirt: skirt_length is 100; it must be 0, or from ", "surface", "--surface", plain, "--skirt",
               "100", "--output", scratch_path("out.vtp"));
   static char bileaflet[256];

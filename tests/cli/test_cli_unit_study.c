@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The unit advice in meshes whose unit is known: pipes, roots and chambers with all kinds of valves, in metres, centimetres and
- * millimetres. Without --unit, the advice names the true unit, alone or among others. A mesh in centimetres gets no advice, and
- * a mesh whose unit is named gets none. If two units remain, the next run says how many nodes each unit marks. */
+ * The unit advice in meshes whose unit is known: pipes, roots, chambers, basins and flat chambers with all kinds of valves, in
+ * metres, centimetres and millimetres. Without --unit, the advice names the true unit, alone or among others. A vessel in
+ * centimetres gets no advice, and a mesh whose unit is named gets none. A coarse basin in centimetres can have the numbers of a
+ * vessel in millimetres, so its advice may name both. If two units remain, the next run says how many nodes each unit marks. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,12 +14,13 @@
 #include "test_support.h"
 
 enum { n_units = 3, n_kinds = 5, most_nodes = 20000, most_layers = 2000 };
+static const double longest_edge = 1; /* of a basin: ten half thicknesses */
 static const char *const units[n_units] = {"m", "cm", "mm"};
 static const char *const words[n_units] = {"in metres", "in centimetres", "in millimetres"};
 static const double factors[n_units] = {0.01, 1, 10}; /* from centimetres to each unit */
 static const char *const kinds[n_kinds] = {"aortic", "coapting", "trileaflet", "mitral", "bileaflet"};
 
-typedef enum shape { pipe_shape, root_shape, chamber_shape } shape;
+typedef enum shape { pipe_shape, root_shape, chamber_shape, basin_shape, flat_shape, n_shapes } shape;
 
 /* A vessel along z around a valve at the origin. Lengths are in centimetres. */
 typedef struct vessel {
@@ -26,7 +28,10 @@ typedef struct vessel {
   double radius, length, half_length; /* half_length is that of a chamber */
   double edge, growth; /* an edge at the valve, and how much longer an edge is at a length farther away */
   double centre;       /* of the length, on the axis */
+  double side[3];      /* of a basin or a flat chamber, around the valve */
 } vessel;
+
+static int is_basin(const vessel *v) { return v->shape >= basin_shape; }
 
 static random_source rng;
 static double axis[3], angle, shift[3]; /* of the valve and its vessel, with shift in the mesh's unit */
@@ -42,17 +47,36 @@ static double radius_at(const vessel *v, double z) {
   return v->radius * sqrt(fmax(1 - t * t, 0.01));
 }
 
-/* Returns the lengths along the axis at which there are nodes. They are closer near the valve. */
-static int make_layers(const vessel *v, double z[most_layers]) {
-  const double end = v->centre + v->length / 2;
+/* Returns the places between two ends at which there are nodes. They are closer near the valve. */
+static int make_layers(const vessel *v, double from, double to, double z[most_layers]) {
   int n = 0;
-  double at = v->centre - v->length / 2;
-  while (at < end && n < most_layers - 1) {
+  double at = from;
+  while (at < to && n < most_layers - 1) {
     z[n++] = at;
     at += v->edge * (1 + v->growth * fmax(fabs(at) - 1.5, 0) / v->edge);
   }
-  z[n++] = end;
+  z[n++] = to;
   return n;
+}
+
+/* The nodes along the three directions of the grid. Across a vessel they are from -1 to 1. */
+typedef struct grid {
+  int n[3];
+  double at[3][most_layers];
+} grid;
+
+static void make_grid(const vessel *v, grid *made) {
+  if (is_basin(v)) {
+    for (int k = 0; k < 3; ++k) {
+      const double middle = k == 2 ? v->centre : 0;
+      made->n[k] = make_layers(v, middle - v->side[k] / 2, middle + v->side[k] / 2, made->at[k]);
+    }
+    return;
+  }
+  made->n[0] = made->n[1] = (int)ceil(2 * v->radius / v->edge) + 1;
+  for (int k = 0; k < 2; ++k)
+    for (int i = 0; i < made->n[k]; ++i) made->at[k][i] = 2.0 * i / (made->n[k] - 1) - 1;
+  made->n[2] = make_layers(v, v->centre - v->length / 2, v->centre + v->length / 2, made->at[2]);
 }
 
 static void place(double p[3], double factor) {
@@ -62,28 +86,29 @@ static void place(double p[3], double factor) {
   for (int k = 0; k < 3; ++k) p[k] = factor * (c * p[k] + s * across[k] + (1 - c) * along * axis[k]) + shift[k];
 }
 
-/* Writes hexahedra in n x n squares for each layer. A square is mapped to a disc. */
+/* Writes hexahedra. Across a vessel, a square is mapped to a disc. */
 static void write_vessel(const vessel *v, double factor) {
-  static double z[most_layers];
-  const int n_layers = make_layers(v, z), n = (int)ceil(2 * v->radius / v->edge) + 1;
+  static grid g;
+  make_grid(v, &g);
   FILE *file = fopen(mesh_path, "w");
   assert_non_null(file);
   fprintf(file, "# vtk DataFile Version 3.0\nvessel\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS %d double\n",
-          n * n * n_layers);
-  for (int k = 0; k < n_layers; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        const double a = 2.0 * i / (n - 1) - 1, b = 2.0 * j / (n - 1) - 1, r = radius_at(v, z[k]);
-        double p[3] = {r * a * sqrt(1 - b * b / 2), r * b * sqrt(1 - a * a / 2), z[k]};
+          g.n[0] * g.n[1] * g.n[2]);
+  for (int k = 0; k < g.n[2]; ++k)
+    for (int j = 0; j < g.n[1]; ++j)
+      for (int i = 0; i < g.n[0]; ++i) {
+        const double a = g.at[0][i], b = g.at[1][j], z = g.at[2][k], r = is_basin(v) ? 1 : radius_at(v, z);
+        double p[3] = {r * a * (is_basin(v) ? 1 : sqrt(1 - b * b / 2)), r * b * (is_basin(v) ? 1 : sqrt(1 - a * a / 2)),
+                       z};
         place(p, factor);
         fprintf(file, "%.9g %.9g %.9g\n", p[0], p[1], p[2]);
       }
-  const int n_cells = (n - 1) * (n - 1) * (n_layers - 1);
+  const int n_cells = (g.n[0] - 1) * (g.n[1] - 1) * (g.n[2] - 1);
   fprintf(file, "CELLS %d %d\n", n_cells, 9 * n_cells);
-  for (int k = 0; k + 1 < n_layers; ++k)
-    for (int j = 0; j + 1 < n; ++j)
-      for (int i = 0; i + 1 < n; ++i) {
-        const int first = (k * n + j) * n + i, above = first + n * n;
+  for (int k = 0; k + 1 < g.n[2]; ++k)
+    for (int j = 0; j + 1 < g.n[1]; ++j)
+      for (int i = 0; i + 1 < g.n[0]; ++i) {
+        const int n = g.n[0], first = (k * g.n[1] + j) * n + i, above = first + n * g.n[1];
         fprintf(file, "8 %d %d %d %d %d %d %d %d\n", first, first + 1, first + n + 1, first + n, above, above + 1,
                 above + n + 1, above + n);
       }
@@ -92,8 +117,29 @@ static void write_vessel(const vessel *v, double factor) {
   assert_int_equal(fclose(file), 0);
 }
 
+/* Draws a basin of 8 to 60 cm, or a flat chamber of 6 to 40 cm and a height of 2 to 5 cm, until its grid is small enough and
+ * has no edge longer than longest_edge. */
+static vessel random_basin(shape of) {
+  static grid g;
+  while (1) {
+    vessel v = {.shape = of, .growth = below(3) == 0 ? 0 : between(0.05, 0.5)};
+    const double least = of == basin_shape ? 8 : 6, most = of == basin_shape ? 60 : 40;
+    for (int k = 0; k < 3; ++k) v.side[k] = exp(between(log(least), log(most)));
+    if (of == flat_shape) v.side[2] = between(2, 5);
+    v.centre = between(-0.2, 0.2) * v.side[2];
+    v.edge = exp(between(log(0.1), log(longest_edge)));
+    make_grid(&v, &g);
+    double longest = 0;
+    for (int k = 0; k < 3; ++k)
+      for (int i = 1; i < g.n[k]; ++i) longest = fmax(longest, g.at[k][i] - g.at[k][i - 1]);
+    if (longest <= longest_edge && (double)g.n[0] * g.n[1] * g.n[2] <= 3 * most_nodes) return v;
+  }
+}
+
 static vessel random_vessel(void) {
-  vessel v = {.shape = (shape)below(3), .radius = between(1, 2), .growth = below(2) == 0 ? 0 : between(0.05, 0.3)};
+  const shape of = (shape)below(n_shapes);
+  if (of >= basin_shape) return random_basin(of);
+  vessel v = {.shape = of, .radius = between(1, 2), .growth = below(2) == 0 ? 0 : between(0.05, 0.3)};
   v.length = below(2) == 0 ? between(3, 60) : exp(between(log(3), log(60)));
   if (v.shape == root_shape) v.length = between(5, 12);
   v.centre = below(2) == 0 ? 0 : between(-0.3, 0.3) * v.length;
@@ -103,9 +149,13 @@ static vessel random_vessel(void) {
     v.length = 1.8 * v.half_length;
     v.centre = -0.75 * v.half_length;
   }
-  static double z[most_layers];
+  static grid g;
   v.edge = between(0.08, 0.3);
-  while (make_layers(&v, z) * pow(ceil(2 * v.radius / v.edge) + 1, 2) > most_nodes) v.edge *= 1.1;
+  make_grid(&v, &g);
+  while (g.n[0] * g.n[1] * g.n[2] > most_nodes) {
+    v.edge *= 1.1;
+    make_grid(&v, &g);
+  }
   return v;
 }
 
@@ -163,8 +213,8 @@ static void check_counts(const char *kind, int true_unit, const int is_advised[n
 }
 
 TEST(test_known_units) {
-  const int n = is_long_test() ? 300 : 20;
-  int n_alone = 0, n_both = 0;
+  const int n = is_long_test() ? 2000 : 20;
+  int n_alone = 0, n_both = 0, n_basins_both = 0;
   rng = random_start("known units");
   for (int trial = 0; trial < n; ++trial) {
     const int unit = trial % n_units;
@@ -172,15 +222,19 @@ TEST(test_known_units) {
     const vessel v = random_vessel();
     random_place(factors[unit]);
     write_vessel(&v, factors[unit]);
-    char what[160];
-    snprintf(what, sizeof what, "%s in %s, shape %d, radius %g, length %g, edge %g, growth %g", kind, units[unit],
-             (int)v.shape, v.radius, v.length, v.edge, v.growth);
+    char what[240];
+    snprintf(what, sizeof what, "%s in %s, shape %d, radius %g, length %g, sides %g %g %g, edge %g, growth %g", kind,
+             units[unit], (int)v.shape, v.radius, v.length, v.side[0], v.side[1], v.side[2], v.edge, v.growth);
     run_on_mesh(kind, NULL);
     char advice[1024];
     snprintf(advice, sizeof advice, "%s", line_with("looks as if it were in "));
     int is_advised[n_units], n_advised = 0;
     for (int k = 0; k < n_units; ++k) n_advised += is_advised[k] = advises(advice, units[k]);
-    if (unit == 1) {
+    if (unit == 1 && is_basin(&v) && n_advised > 0) {
+      if (!is_advised[unit]) fail_msg("%s: %s", what, program_err);
+      ++n_basins_both;
+      check_counts(kind, unit, is_advised);
+    } else if (unit == 1) {
       if (n_advised > 0) fail_msg("%s: advice for a right unit: %s", what, program_err);
     } else {
       if (!is_advised[unit]) fail_msg("%s: %s", what, program_err);
@@ -194,7 +248,8 @@ TEST(test_known_units) {
       fail_msg("%s: advice for the named unit: %s", what, program_err);
     if (n_advised < 2 && strstr(program_err, "the unit is not sure")) fail_msg("%s: %s", what, program_err);
   }
-  print_message("%d meshes: %d advised one unit, %d several\n", n, n_alone, n_both);
+  print_message("%d meshes: %d advised one unit, %d several, %d basins in cm several\n", n, n_alone, n_both,
+                n_basins_both);
 }
 
 static int set_up(void **state) {

@@ -198,8 +198,8 @@ TEST(test_coarse_or_other_unit) {
   assert_int_equal(
       shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 40, (double[3]){-9, -9, -9}, (double[3]){9, 9, 9}, 0), 1);
   run_program("mark", scratch_path("large.vtu"), NULL);
-  expect_warning(program_exit_code, "the mesh looks as if it were in millimetres, the surface in centimetres");
-  expect_warning(program_exit_code, ": write --unit mm\n");
+  expect_warning(program_exit_code, "the mesh looks as if it were in millimetres or centimetres, the surface in ");
+  expect_warning(program_exit_code, ": write --unit mm or --unit cm\n");
   expect_one_advice();
   RUN_FINE("mark", scratch_path("large.vtu"), "--unit", "mm");
   run_program("mark", scratch_path("large.vtu"), "--unit", "cm", NULL);

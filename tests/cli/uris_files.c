@@ -130,10 +130,8 @@ uris_valve uris_read(const char *block) {
     assert_int_equal(face->n_close, valve.face[0].n_close);
     at = face_end;
   }
-  if (value_of(block, end, "Scaffold_file_path", path, sizeof path)) {
-    valve.has_scaffold = 1;
-    read_triangles(path, &valve.face[valve.n_faces]);
-  }
+  /* The solver would add the scaffold's K to that of the faces. */
+  assert_false(value_of(block, end, "Scaffold_file_path", path, sizeof path));
   valve.thickness = uris_number(block, "Thickness");
   valve.closed_thickness = uris_number(block, "Closed_thickness");
   valve.resistance = uris_number(block, "Resistance");
@@ -210,15 +208,6 @@ uris_state uris_state_of(const uris_valve *valve, int n_faces, int is_closing, i
     add_to_box(&state, xyz, face->n_nodes);
     add_triangles(&state, face, xyz);
   }
-  widen(&state);
-  return state;
-}
-
-uris_state uris_scaffold_of(const uris_valve *valve) {
-  uris_state state = empty_state();
-  const uris_face *face = &valve->face[valve->n_faces];
-  add_to_box(&state, face->xyz, face->n_nodes);
-  add_triangles(&state, face, face->xyz);
   widen(&state);
   return state;
 }

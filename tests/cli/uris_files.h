@@ -21,8 +21,8 @@ typedef struct {
 /* The description of a valve in the solver's input. */
 typedef struct {
   char name[64];
-  int n_faces, n_leaflets, has_scaffold; /* faces: the leaflets, then the face that enlarges the box */
-  uris_face face[uris_most_faces];       /* the scaffold comes after the faces; it has no motion */
+  int n_faces, n_leaflets; /* faces: the leaflets, then the face that enlarges the box */
+  uris_face face[uris_most_faces];
   double thickness, closed_thickness, resistance, normal[3];
 } uris_valve;
 
@@ -45,8 +45,6 @@ typedef struct {
 
 /* Frame k of the closing, or of the opening, with the first n_faces faces. The caller frees it. */
 uris_state uris_state_of(const uris_valve *valve, int n_faces, int is_closing, int k);
-/* Returns the state of the scaffold, which is at rest. */
-uris_state uris_scaffold_of(const uris_valve *valve);
 void uris_state_free(uris_state *state);
 
 /* Returns the triangle whose middle is nearest to a point (the first of equally near ones), and the distance. */

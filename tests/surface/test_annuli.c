@@ -196,9 +196,17 @@ TEST(contradictions_are_refused) {
           (--m.n, mark(&m, &s, RIIS_LANDMARK_ANTERIOR_HORN, 270, 0), mark(&m, &s, RIIS_LANDMARK_TRIGONE, 50, 0)));
   REFUSED("AP_diameter of the fitted valve is |but the horns are |apart, seen along the annulus' normal|worst residual",
           (mark(&m, &s, RIIS_LANDMARK_POSTERIOR_HORN, 270, 0), m.xyz[17][1] += 9));
-  /* One landmark is far from the annulus. */
-  REFUSED("the axis of the fitted valve is at |degrees to the annulus' normal; it must be at most 20|worst residual",
-          m.xyz[16][2] += 25);
+  /* One horn is far above the annulus, or one above and the other below. The largest residual is then beside the horn. */
+  REFUSED(
+      "the axis of the fitted valve is at |degrees to the annulus' normal; it must be at most 20; the horns' heights "
+      "make it lean: landmark 16 (anterior_horn) is |above and landmark |the annulus' sides|look for a horn",
+      m.xyz[16][2] += 25);
+  REFUSED(
+      "the horns' heights make it lean: landmark 16 (anterior_horn) is |above and landmark 17 (posterior_horn) is "
+      "|below",
+      (m.xyz[16][2] += 18, mark(&m, &s, RIIS_LANDMARK_POSTERIOR_HORN, 270, 0), m.xyz[17][2] -= 18));
+  /* The points between the horns are far from the annulus. */
+  REFUSED("must be at most |the worst residual is ", (m.xyz[1][2] += 20, m.xyz[2][2] += 20, m.xyz[3][2] += 20));
 #undef REFUSED
 }
 

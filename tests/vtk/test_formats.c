@@ -258,6 +258,49 @@ TEST(test_xdmf_of_series) {
   expect_same("checkpoint.vtu", "tet.vtu", SHIM_BITS, 1);
 }
 
+/* dolfinx's cells of order 3, which have VTK's order of nodes. A mixed list of XDMF has no number for them. */
+TEST(test_xdmf_of_order_3) {
+  static const struct {
+    const char *name;
+    int n_nodes, vtk_type;
+  } cells[] = {{"Triangle_10", 10, 69}, {"Quadrilateral_16", 16, 70}, {"Tetrahedron_20", 20, 71}};
+  for (size_t i = 0; i < sizeof cells / sizeof cells[0]; ++i) {
+    char text[4096], ids[128] = "", points[1024] = "";
+    for (int node = 0; node < cells[i].n_nodes; ++node) {
+      snprintf(ids + strlen(ids), sizeof ids - strlen(ids), "%d ", (7 * node + 3) % cells[i].n_nodes);
+      snprintf(points + strlen(points), sizeof points - strlen(points), "%d %d %g\n", node, node * node, node / 7.0);
+    }
+    snprintf(text, sizeof text,
+             "<Xdmf><Domain><Grid><Topology TopologyType=\"%s\" NodesPerElement=\"%d\"><DataItem Dimensions=\"1 %d\" "
+             "NumberType=\"Int\" Format=\"XML\">%s</DataItem></Topology><Geometry GeometryType=\"XYZ\"><DataItem "
+             "Dimensions=\"%d 3\" Format=\"XML\">%s</DataItem></Geometry></Grid></Domain></Xdmf>",
+             cells[i].name, cells[i].n_nodes, cells[i].n_nodes, ids, cells[i].n_nodes, points);
+    scratch_write_text("three.xdmf", text);
+    riis_vtk_mesh *mesh = NULL;
+    int64_t offsets[2], node_ids[20];
+    uint8_t type = 0;
+    CHECK_OK(riis_vtk_mesh_read(scratch_path("three.xdmf"), &mesh));
+    CHECK_OK(riis_vtk_mesh_copy_cells(mesh, 1, offsets, &type, cells[i].n_nodes, node_ids));
+    riis_vtk_mesh_destroy(&mesh);
+    assert_int_equal(type, cells[i].vtk_type);
+    assert_int_equal(offsets[1], cells[i].n_nodes);
+    for (int node = 0; node < cells[i].n_nodes; ++node)
+      assert_int_equal(node_ids[node], (7 * node + 3) % cells[i].n_nodes);
+    rewrite("three.xdmf", "three.vtu", "");
+    rewrite("three.vtu", "again.xdmf", "");
+    rewrite("again.xdmf", "again.vtu", "");
+    expect_same("again.vtu", "three.vtu", SHIM_BITS, 1);
+  }
+  scratch_write_text(
+      "three.xdmf",
+      "<Xdmf><Domain><Grid><Topology TopologyType=\"Mixed\"><DataItem Dimensions=\"3\" NumberType=\"Int\" "
+      "Format=\"XML\">0 0 0</DataItem></Topology><Geometry GeometryType=\"XYZ\"><DataItem "
+      "Dimensions=\"1 3\" Format=\"XML\">0 0 0</DataItem></Geometry></Grid></Domain></Xdmf>");
+  riis_vtk_mesh *mesh = NULL;
+  expect_refused(riis_vtk_mesh_read(scratch_path("three.xdmf"), &mesh), RIIS_FILE_ERROR,
+                 "cell 0 is of XDMF's type 0, which is not read");
+}
+
 #ifdef RIIS_MESHIO_PYTHON
 static void run_python(const char *script) {
   char command[1024];

@@ -135,8 +135,11 @@ TEST(test_broken) {
   scratch_write_text("par/processor0/constant/polyMesh/points", contents[0]);
   expect_refused(riis_vtk_mesh_read(scratch_path("none"), &mesh), RIIS_FILE_ERROR,
                  "none: is a directory, but not a case of OpenFOAM: it lacks constant/polyMesh");
+  run("mkdir mesh.bp && touch mesh.bp/md.idx");
+  expect_refused(riis_vtk_mesh_read(scratch_path("mesh.bp"), &mesh), RIIS_FILE_ERROR,
+                 "mesh.bp: is a folder of ADIOS2, which is not read");
   expect_refused(riis_vtk_mesh_read(scratch_path("par"), &mesh), RIIS_FILE_ERROR,
-                 "has no file pointProcAddressing; reconstructParMesh joins the parts");
+                 "has no file pointProcAddressing; reconstructParMesh -constant joins the parts");
   run("mkdir -p collated/processors4");
   expect_refused(riis_vtk_mesh_read(scratch_path("collated"), &mesh), RIIS_FILE_ERROR, "reconstructParMesh -constant");
   expect_refused(riis_vtk_mesh_read(scratch_path("missing.foam"), &mesh), RIIS_FILE_ERROR, "lacks constant/polyMesh");
@@ -249,6 +252,41 @@ TEST(test_block_mesh) {
   expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, NULL, &xyz));
   for (int64_t i = 0; i < n; ++i) assert_true(xyz[3 * i + 2] == 9);
   riis_vtk_mesh_destroy(&mesh);
+}
+
+/* The commands of refusals give the same mesh: for parts without their places in the whole mesh, for collated parts, and for a
+ * mesh of Fluent, which the program refuses. */
+TEST(test_advised_commands) {
+  write_case("whole", "ascii", "off");
+  run("cd whole && %s", RIIS_BLOCKMESH);
+  rewrite("whole", "whole.vtu");
+  run("cp -r whole lone && cd lone && decomposePar && rm -r constant processor*/constant/polyMesh/*ProcAddressing");
+  run("cp -r whole packs && cd packs && decomposePar -fileHandler collated && rm -r constant");
+  const char *const parts[] = {"lone", "packs"};
+  for (int i = 0; i < 2; ++i) {
+    riis_vtk_mesh *mesh = NULL;
+    expect_refused(riis_vtk_mesh_read(scratch_path(parts[i]), &mesh), RIIS_FILE_ERROR,
+                   "; reconstructParMesh -constant joins ");
+    run("cd %s && reconstructParMesh -constant", parts[i]);
+    rewrite(parts[i], "joined.vtu");
+    expect_same("whole.vtu", "joined.vtu", SHIM_SETS, 200);
+  }
+  run("cp -r whole fluent && cd fluent && foamMeshToFluent && cp fluentInterface/fluent.msh heart.cas && rm -r "
+      "constant && "
+      "fluentMeshToFoam heart.cas");
+  /* Fluent's file has ten digits, and an order of its own. */
+  int64_t n_nodes[2], n_cells[2];
+  double sum[2] = {0, 0};
+  for (int i = 0; i < 2; ++i) {
+    riis_vtk_mesh *mesh = NULL;
+    const double *xyz = NULL;
+    expect_fine(riis_vtk_mesh_read(scratch_path(i ? "fluent" : "whole"), &mesh));
+    expect_fine(riis_vtk_mesh_get_nodes(mesh, &n_nodes[i], &n_cells[i], &xyz));
+    for (int64_t k = 0; k < 3 * n_nodes[i]; ++k) sum[i] += xyz[k] * xyz[k];
+    riis_vtk_mesh_destroy(&mesh);
+  }
+  assert_true(n_nodes[0] == n_nodes[1] && n_cells[0] == n_cells[1] && n_nodes[0] > 300);
+  assert_true(fabs(sum[0] - sum[1]) < 1e-6 * sum[0]);
 }
 
 /* Returns the numbers of a field's internal values, n of them. */

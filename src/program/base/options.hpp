@@ -166,9 +166,9 @@ struct TimeSpan {
   double start, stop;
 };
 
-// How riis export gives the ring of a bileaflet valve to the solver: as a face beside the leaflets, as the solver's scaffold,
-// whose K is added to that of the leaflets, or not at all.
-enum UrisRing : std::int32_t { ring_face, ring_scaffold, no_ring };
+// How riis export gives the ring of a bileaflet valve to the solver: as a face beside the leaflets, or not at all. The solver's
+// scaffold is left out, because its K is added to that of the leaflets (docs/export.md).
+enum UrisRing : std::int32_t { ring_face, no_ring };
 
 // The options of riis export.
 struct ExportOptions : ValveOptions {

@@ -70,19 +70,24 @@ namespace {
 // width, because the valve is no wider than the vessel. The mesh's shortest side is at most the largest width, because the vessel
 // is not much wider than the valve. Both are numbers of valves, and they span a decade, so two units seldom fit.
 constexpr double least_width = 0.4, largest_width = 4;
-// The limit for a unit that the user named. The valve may stand in a wide basin.
-constexpr double largest_named_width = 40;
 // Edges longer than this share of the valve's largest side do not show the valve.
 constexpr double longest_edge = 0.3;
 // Edges of a mesh that was made for the default half thickness are seldom longer than this number of half thicknesses.
 constexpr double usual_edge = 3;
+// Edges near the valve are seldom shorter than this number of half thicknesses.
+constexpr double shortest_edge = 0.3;
+// A mesh whose edges are longer than this number of half thicknesses, or this share of the valve's largest side, was made for
+// another valve.
+constexpr double most_edge = 10, most_edge_of_valve = 0.4;
 // The least half thickness, as a share of the mesh's edge length. A thinner band falls between two layers of nodes and contains
 // few nodes.
 constexpr double smallest_half_thickness = 0.3;
-// A vessel that is too narrow or too wide by more than these ratios is impossible.
-constexpr double most_too_narrow = 1.5, most_too_wide = 3;
+// A vessel that is too narrow or too wide by more than these ratios is impossible. The valve may stand in a wide basin.
+constexpr double most_too_narrow = 1.5, most_too_wide = 10;
 // A unit is possible if it is at most this much odder than the likeliest one. Oddities are logarithms of ratios.
 constexpr double most_odd = 1;
+// The present unit of a wide basin is right if each other unit is odder by at least this much.
+constexpr double surely_odder = 0.3;
 
 // Returns the logarithm of a ratio above 1, and 0 otherwise.
 double excess(double ratio) { return ratio > 1 ? std::log(ratio) : 0; }
@@ -96,11 +101,13 @@ double wideness_at(double factor, const Sizes &s) {
 }
 
 // Returns how odd the sizes are if the mesh's lengths are multiplied by the factor. The default half thickness has the valve's
-// unit, so it says how long the mesh's edges may be.
-double oddity_at(double factor, const Sizes &s) {
+// unit, so it says how long and how short the mesh's edges may be.
+double oddity_at(double factor, const Sizes &s, double edge) {
   double oddity = narrowness_at(factor, s) + wideness_at(factor, s) +
-                  excess(factor * s.median_edge / (longest_edge * s.surface.largest_side()));
-  if (s.has_usual_half) oddity += excess(factor * s.median_edge / (usual_edge * s.half_thickness));
+                  excess(factor * edge / (longest_edge * s.surface.largest_side()));
+  if (s.has_usual_half && edge > 0)
+    oddity += excess(factor * edge / (usual_edge * s.half_thickness)) +
+              excess(shortest_edge * s.half_thickness / (factor * edge));
   return oddity;
 }
 
@@ -130,21 +137,31 @@ bool is_too_small(double half_thickness, const Sizes &s) {
 
 UnitJudgement judge_units(const Sizes &s, const std::vector<double> &factors) {
   UnitJudgement judgement{is_as_wide(s, 1), {1}};
-  if (s.is_unit_known)
-    judgement.is_right |=
-        narrowness_at(1, s) == 0 && wideness_at(1, s) <= std::log(largest_named_width / largest_width);
   std::vector<double> &possible = judgement.factors;
   possible.insert(possible.end(), factors.begin(), factors.end());
-  const auto is_odder = [&](double a, double b) { return oddity_at(a, s) < oddity_at(b, s); };
   std::sort(possible.begin(), possible.end());
   possible.erase(std::unique(possible.begin(), possible.end()), possible.end());
-  std::stable_sort(possible.begin(), possible.end(), is_odder);
-  const double least = oddity_at(possible.front(), s);
   const auto is_impossible = [&](double factor) {
-    return narrowness_at(factor, s) > std::log(most_too_narrow) || wideness_at(factor, s) > std::log(most_too_wide) ||
-           oddity_at(factor, s) > least + most_odd;
+    return narrowness_at(factor, s) > std::log(most_too_narrow) || wideness_at(factor, s) > std::log(most_too_wide);
   };
   possible.erase(std::remove_if(possible.begin(), possible.end(), is_impossible), possible.end());
+  if (narrowness_at(1, s) == 0 && judgement.is_possible(1)) {
+    // A basin may have long edges everywhere but near the valve.
+    const double edge = s.near_edge > 0 ? std::min(s.near_edge, s.median_edge) : s.median_edge;
+    judgement.is_right |= s.is_unit_known || std::all_of(possible.begin(), possible.end(), [&](double factor) {
+                            return factor == 1 || oddity_at(factor, s, edge) >= oddity_at(1, s, edge) + surely_odder;
+                          });
+  }
+  const auto oddity = [&](double factor) { return oddity_at(factor, s, s.median_edge); };
+  std::stable_sort(possible.begin(), possible.end(), [&](double a, double b) { return oddity(a) < oddity(b); });
+  const double least = possible.empty() ? 0 : oddity(possible.front());
+  const double longest =
+      s.has_usual_half ? most_edge * s.half_thickness : most_edge_of_valve * s.surface.largest_side();
+  const auto is_unlikely = [&](double factor) {
+    return is_about(factor, s.unnamed_factor) ? factor * s.median_edge > longest * (1 + 1e-6)
+                                              : oddity(factor) > least + most_odd;
+  };
+  possible.erase(std::remove_if(possible.begin(), possible.end(), is_unlikely), possible.end());
   return judgement;
 }
 

@@ -89,6 +89,8 @@ struct Sizes {
   double half_thickness;
   bool is_unit_known = false;   // the user named the unit
   bool has_usual_half = false;  // the half thickness is the default of a parametric valve
+  double near_edge = 0;         // about the length of edges near the surface; 0 if unknown
+  double unnamed_factor = 1;    // the factor that stands for a run without a unit
 };
 
 // Both limits of the half thickness are shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of the
@@ -112,7 +114,8 @@ struct UnitJudgement {
   bool is_possible(double factor) const { return std::find(factors.begin(), factors.end(), factor) != factors.end(); }
 };
 
-// Judges the present unit, and each of `factors`. The factor 1 need not be among them.
+// Judges the present unit, and each of `factors`. The factor 1 need not be among them. A coarse basin in centimetres and a vessel
+// in millimetres can have the same numbers, so the unit of a run without a unit stays possible beside a likelier one.
 UnitJudgement judge_units(const Sizes &sizes, const std::vector<double> &factors);
 // Returns whether the mesh is about as wide as the surface if the mesh's lengths are multiplied by the factor.
 bool is_as_wide(const Sizes &sizes, double factor);

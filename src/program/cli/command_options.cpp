@@ -19,7 +19,7 @@ constexpr std::int32_t most_states = 100001;
 const std::vector<std::string> warp_names = {"none", "exact", "smoothed"};
 
 // The position of each name is the value of UrisRing that it stands for.
-const std::vector<std::string> ring_names = {"face", "scaffold", "none"};
+const std::vector<std::string> ring_names = {"face", "none"};
 
 // Refuses numbers that are not above 0. RIIS_AUTO is a negative number, and a user's number must not be mistaken for it.
 double parse_positive(const std::string &text, const std::string &subject) {
@@ -446,6 +446,7 @@ void declare_crossings(Command command, MarkOptions &options) {
 
 void declare_leaks(Command command, MarkOptions &options) {
   declare_mesh(command, options);
+  command.flag("--cells", "Take the centres of the cells as the nodes, as riis mark --cells does", options.at_cells);
   command
       .values("--between", "X,Y,Z X,Y,Z", "Say whether unmarked nodes join these two points, and where",
               [&options](const std::vector<std::string> &ends) {
@@ -592,7 +593,7 @@ void declare_export(Command command, ExportOptions &options) {
       .text("--starts", "closed|open",
             "State at the solver's first step (default closed, or that of --cycle at time 0)", options.starts)
       ->check(CLI::IsMember(std::vector<std::string>{"closed", "open"}));
-  command.choice("--ring", "Ring of a bileaflet valve: face (default), scaffold, whose K is added, or none", ring_names,
+  command.choice("--ring", "Ring of a bileaflet valve: a face beside the leaflets (default), or none", ring_names,
                  options.ring);
   command.parsed("--density", "RHO", "Density of the fluid in kg/m3, for MESH (default that of blood, 1060)",
                  options.given_density, positive_amount_of(a_density));

@@ -406,7 +406,7 @@ triangles. With a --largest-edge of 0.15 half thicknesses its sum of K is within
 in some frame are left out, and a line on stderr says so. The files are in cm and R is in g/(cm s): lengths of --unit m or mm
 are converted. Without --unit, lengths and R are taken as they are. The valve's name in the solver is that of the folder, or
 --name. The solver starts with the closed valve, or with that of --cycle at time 0, unless --starts says otherwise. The ring of a
-bileaflet valve is a face. With --ring scaffold the solver adds its K to that of the leaflets.
+bileaflet valve is a face beside the leaflets, so that no point has the K of both. --ring none leaves the ring out.
 
 riis export FOLDER MESH also computes what the solver will do in MESH, by the solver's own rules: its box, its distances, their
 interpolation to Gauss points, and the bands in which it takes pressures. The comment of the block has the expected drop of the

@@ -371,6 +371,19 @@ std::string first_bytes_of(const std::string &path, std::size_t n) {
   return bytes;
 }
 
+// Returns the first mesh of a .pvd, with the words that lead to it, or "" if the list cannot be read.
+std::string first_file_of_list(const std::string &path) {
+  constexpr std::size_t most_bytes = 65536;
+  const std::string text = first_bytes_of(path, most_bytes), begin = " file=\"";
+  const std::size_t at = text.find(begin, text.find("<DataSet"));
+  if (at == std::string::npos) return "";
+  const std::size_t first = at + begin.size(), end = text.find('"', first);
+  const std::string name = end == std::string::npos ? "" : text.substr(first, end - first);
+  if (name.empty() || name.find('&') != std::string::npos || std::any_of(name.begin(), name.end(), is_control))
+    return "";
+  return ", such as " + path_in_shell((fs::path(path).parent_path() / name).string());
+}
+
 // A .msh may be of another version of gmsh, or of Ansys Fluent. A damaged one cannot be converted. SimVascular calls the
 // description of a mesh .msh, which is XML.
 std::string hint_for_msh(const std::string &path, const std::string &refusal) {
@@ -396,7 +409,9 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
     if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, ending == ".med" ? "xdmf" : "vtu");
     if (meshes_of_paraview.count(ending) != 0) return by_paraview(path);
     if (has_text(refusal, "holds multiblock")) return by_paraview(path);
-    if (ending == ".pvd") return "; a .pvd is a list of files: give one of its meshes";
+    if (ending == ".pvd") return "; a .pvd is a list of files: give one of its meshes" + first_file_of_list(path);
+    if (ending == ".bp" || has_text(refusal, "of ADIOS2"))
+      return "; dolfinx writes what riis reads by io.XDMFFile or io.VTKFile in place of io.VTXWriter";
     if (cad_files.count(ending) != 0) return meshed_by_gmsh(path, 3, "vtk");
     if (ending == ".feb") return "; FEBio Studio converts it: File > Export FE Model..., " + with_ending(path, "vtk");
     if (ending == ".re2" || ending == ".rea")

@@ -168,6 +168,12 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   if (!options.skirt) return;
   if (options.wall.empty()) {
     check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
+    // The library knows the length in the valve's own unit only.
+    Surface trial;
+    if (riis_surface_create(valve, &options.surface_options, trial.out()) != RIIS_OK &&
+        std::string(riis_last_error()).rfind("skirt_length is ", 0) == 0)
+      refuse_usage(subject + ": " + shortest(*options.skirt) +
+                   (options.unit ? std::string(" ") + name_of(*options.unit) : "") + ": " + riis_last_error());
     return;
   }
   const SurfaceFile file = read_wall(options.wall);

@@ -123,7 +123,13 @@ std::vector<double> factors_of_units(const Situation &s) {
   return found.empty() ? unit_factors() : found;
 }
 
-UnitJudgement judgement_of(const Situation &s) { return judge_units(s, factors_of_units(s)); }
+// Judges the units. If n nodes are marked, an edge near the surface has about the length of a cube's, of which n fill the band.
+UnitJudgement judgement_of(const Situation &s, bool is_unit_known) {
+  Sizes sizes = s;
+  sizes.is_unit_known = is_unit_known;
+  if (s.n_marked > 0) sizes.near_edge = std::cbrt(2 * s.half_thickness * s.area / static_cast<double>(s.n_marked));
+  return judge_units(sizes, factors_of_units(s));
+}
 
 std::string text_of_units(const Situation &s, const std::vector<Cure> &cures) {
   std::vector<std::string> meshes;
@@ -165,7 +171,7 @@ std::string sides_text(const Box &box) {
 // Returns a warning if the sizes suggest other units than the present ones. It names each possible unit, and the options to
 // write, such as "the mesh looks as if it were in metres, ...: write --unit m".
 std::optional<Warning> warning_of_units(const Situation &s) {
-  const UnitJudgement units = judgement_of(s);
+  const UnitJudgement units = judgement_of(s, s.is_unit_known);
   const bool is_same = units.factors == std::vector<double>{1};
   if (units.is_right || units.factors.empty() || is_same || (s.is_unit_known && units.is_possible(1)))
     return std::nullopt;
@@ -216,6 +222,8 @@ Situation::Situation(const MarkOptions &marking, const riis_surface_info &info, 
       area(info.area) {
   is_unit_known = (options.unit && !options.takes_placed_unit) || options.has_scale;
   has_usual_half = is_parametric(options) && !options.has_half_thickness;
+  const double usual = options.placed_unit ? factor_between(Unit::centimetre, *options.placed_unit) : 1;
+  unnamed_factor = options.surface_options.scale / usual;
 }
 
 std::optional<Warning> warning_of(const Situation &s) {
@@ -237,9 +245,10 @@ std::optional<Warning> warning_of_thickness(const MarkOptions &options, const ri
 
 std::vector<PossibleUnit> units_left_open(const Situation &s) {
   const double present = s.options.surface_options.scale;
-  const double usual = s.options.placed_unit ? factor_between(Unit::centimetre, *s.options.placed_unit) : 1;
-  if (!s.is_unit_known || !has_size_of_valve(s) || is_as_wide(s, present / usual) || warning_of_units(s)) return {};
-  std::vector<double> factors = judgement_of(s).factors;
+  if (!s.is_unit_known || !has_size_of_valve(s) || is_as_wide(s, s.unnamed_factor) || warning_of_units(s)) return {};
+  const UnitJudgement unnamed = judgement_of(s, false);
+  if (s.unnamed_factor == 1 && unnamed.is_right) return {};
+  std::vector<double> factors = unnamed.factors;
   factors.erase(std::remove(factors.begin(), factors.end(), 1), factors.end());
   if (factors.empty()) return {};
   factors.insert(factors.begin(), 1);

@@ -293,7 +293,6 @@ void write_frames(UrisLeaflets &leaflets, const std::vector<double> &openings, c
   std::vector<const UrisLeaflet *> moving;
   std::vector<TextFile> files;
   for (const UrisLeaflet &leaflet : leaflets.leaflets()) {
-    if (leaflet.is_scaffold) continue;
     moving.push_back(&leaflet);
     files.emplace_back(folder.new_file(leaflet.name + ending));
     files.back().add(std::to_string(openings.size()) + ' ' + std::to_string(leaflet.nodes.size()) + '\n');
@@ -312,15 +311,11 @@ void announce(const ExportOptions &options, const UrisMotion &motion, const Uris
               const std::vector<double> &first) {
   constexpr double least_announced = 1e7;
   double of_frame = 0;
-  std::size_t n_moving = 0;
-  for (const UrisLeaflet &leaflet : leaflets.leaflets()) {
-    if (leaflet.is_scaffold) continue;
+  for (const UrisLeaflet &leaflet : leaflets.leaflets())
     of_frame += static_cast<double>(text_of_points(first, leaflet).size());
-    ++n_moving;
-  }
   const double n_bytes = of_frame * static_cast<double>(motion.opening.size() + motion.closing.size());
   if (options.quiet || n_bytes < least_announced) return;
-  print_line("writing " + counted(static_cast<std::int64_t>(2 * n_moving), "file") + " with " +
+  print_line("writing " + counted(2 * view(leaflets.leaflets()).size(), "file") + " with " +
              counted(leaflets.n_triangles(), "triangle") + " of leaflets in " +
              counted(static_cast<std::int64_t>(motion.opening.size() + motion.closing.size()), "frame") + ", " +
              bytes_text(n_bytes) + " in all, to " + options.folder);
@@ -408,18 +403,10 @@ std::string mesh_block(const ExportOptions &options, const std::string &named_fo
   if (!options.cycle.empty() && options.starts.empty())
     text += std::string("\n     at time 0 of the cycle the valve is ") + (motion.starts_closed ? "closed" : "open") +
             ", or nearer to that state";
-  for (const UrisLeaflet &leaflet : leaflets.leaflets())
-    if (leaflet.is_scaffold)
-      text += "\n     the scaffold's K is added to that of the leaflets where their bands overlap";
   for (const std::string &line : forecast.lines) text += "\n     " + line;
   text += " -->\n";
   text += "<Add_URIS_mesh name=\"" + block_name(options) + "\">\n";
-  std::string scaffold;
   for (const UrisLeaflet &leaflet : leaflets.leaflets()) {
-    if (leaflet.is_scaffold) {
-      scaffold = "  " + element("Scaffold_file_path", folder + leaflet.name + ".vtu");
-      continue;
-    }
     text += "  <Add_URIS_face name=\"" + leaflet.name + "\">\n";
     text += "    " + element("Face_file_path", folder + leaflet.name + ".vtu");
     text += "    " + element("Open_motion_file_path", folder + leaflet.name + "_open.dat");
@@ -434,7 +421,7 @@ std::string mesh_block(const ExportOptions &options, const std::string &named_fo
   text += "  " + element("Invert_normal", "false");
   text += "  " + element("Include_URIS_velocity", "true");
   text += "  " + element("Positive_flow_normal_file_path", folder + "normal.dat");
-  return text + scaffold + "</Add_URIS_mesh>\n";
+  return text + "</Add_URIS_mesh>\n";
 }
 
 }  // namespace

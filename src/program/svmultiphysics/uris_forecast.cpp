@@ -121,8 +121,7 @@ class Forecaster {
         refuse_motion("open", std::string("no node is ") + side + " the closed leaflets at a distance" + from_to +
                                   ", where the solver takes the pressure");
     std::int64_t n_triangles = 0;
-    for (const UrisLeaflet &leaflet : leaflets_.leaflets())
-      if (!leaflet.is_scaffold) n_triangles += view(leaflet.triangles).size();
+    for (const UrisLeaflet &leaflet : leaflets_.leaflets()) n_triangles += view(leaflet.triangles).size();
     say("each marking of the closed valve measures " +
         shown(static_cast<double>(distances.n_in_box) * static_cast<double>(n_triangles)) + " distances, from " +
         counted(distances.n_in_box, "node") + " of its box to every triangle");

@@ -51,7 +51,7 @@ UrisLeaflets::UrisLeaflets(const ExportOptions &options, const UrisMotion &motio
   find_forward(motion.opening[0]);
   if (ring_ == ring_face) turn_ring(motion.opening[0]);
   part(options);
-  add_boxes(motion);
+  add_box(motion);
 }
 
 std::vector<double> UrisLeaflets::vertices_at(double opening) {
@@ -60,7 +60,7 @@ std::vector<double> UrisLeaflets::vertices_at(double opening) {
   std::vector<double> all(triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
   net_.append_middles(all);
   for (double &x : all) x = std::nearbyint(x / grid_) * grid_;
-  for (const UrisBox &box : boxes_) box.append_nodes(all);
+  if (box_) box_->append_nodes(all);
   return all;
 }
 
@@ -131,8 +131,7 @@ void UrisLeaflets::part(const ExportOptions &options) {
   std::map<std::int32_t, std::vector<Corners>> by_leaflet;
   for (const auto &[corners, leaflet] : net_.triangles()) by_leaflet[leaflet].push_back(corners);
   for (auto &[id, triangles] : by_leaflet) {
-    UrisLeaflet leaflet{
-        file_name_of_leaflet(options.valve, id), {}, std::move(triangles), id == housing_ && ring_ == ring_scaffold};
+    UrisLeaflet leaflet{file_name_of_leaflet(options.valve, id), {}, std::move(triangles)};
     for (const Corners &corners : leaflet.triangles)
       leaflet.nodes.insert(leaflet.nodes.end(), corners.begin(), corners.end());
     std::sort(leaflet.nodes.begin(), leaflet.nodes.end());
@@ -171,27 +170,18 @@ void UrisLeaflets::turn_ring(double opening) {
   }
 }
 
-// Adds the triangles that widen the boxes. A housing gets its own, because the solver uses a separate box for it.
-void UrisLeaflets::add_boxes(const UrisMotion &motion) {
-  std::vector<Corners> moving, resting;
-  const bool has_scaffold = ring_ == ring_scaffold;
-  for (const auto &[corners, leaflet] : net_.triangles())
-    (has_scaffold && leaflet == housing_ ? resting : moving).push_back(corners);
+// Adds the triangles that widen the box. The face "box" is the last: if several triangles are equally near, the solver takes the
+// first.
+void UrisLeaflets::add_box(const UrisMotion &motion) {
+  std::vector<Corners> triangles;
+  for (const auto &[corners, leaflet] : net_.triangles()) triangles.push_back(corners);
   const std::vector<double> first = vertices_at(motion.opening.front()), last = vertices_at(motion.opening.back());
-  const auto add = [&](const std::vector<Corners> &triangles, UrisLeaflet &face) {
-    boxes_.emplace_back(triangles, first, last, half_thickness_, grid_);
-    const std::int64_t vertex =
-                           static_cast<std::int64_t>(first.size()) / 3 + UrisBox::n_nodes * (view(boxes_).size() - 1),
-                       node = view(face.nodes).size();
-    for (std::int64_t i = 0; i < UrisBox::n_nodes; ++i) face.nodes.push_back(vertex + i);
-    for (std::int64_t i = 0; i < UrisBox::n_nodes; i += 3)
-      face.triangles.push_back({node + i, node + i + 1, node + i + 2});
-  };
-  for (UrisLeaflet &leaflet : leaflets_)
-    if (leaflet.is_scaffold) add(resting, leaflet);
-  // The face "box" must be the last: if several triangles are equally near, the solver takes the first.
-  leaflets_.push_back({"box", {}, {}, false});
-  add(moving, leaflets_.back());
+  box_.emplace(std::move(triangles), first, last, half_thickness_, grid_);
+  UrisLeaflet face{"box", {}, {}};
+  for (std::int64_t i = 0; i < UrisBox::n_nodes; ++i)
+    face.nodes.push_back(static_cast<std::int64_t>(first.size()) / 3 + i);
+  for (std::int64_t i = 0; i < UrisBox::n_nodes; i += 3) face.triangles.push_back({i, i + 1, i + 2});
+  leaflets_.push_back(std::move(face));
 }
 
 // ---- Uris box ----

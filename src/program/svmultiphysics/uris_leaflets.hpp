@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -115,7 +116,6 @@ struct UrisLeaflet {
   std::string name;                 // usable as a file's name
   std::vector<std::int64_t> nodes;  // for each node, its vertex; ascending
   std::vector<Corners> triangles;   // corners as numbers of the leaflet's own nodes, from 0
-  bool is_scaffold;                 // true for a housing that the solver gets as its scaffold
 };
 
 // Lengths are in the solver's unit, cm, unless the unit of the mesh is not known.
@@ -146,13 +146,13 @@ class UrisLeaflets {
   void find_forward(double opening);
   void turn_ring(double opening);
   void part(const ExportOptions &options);
-  void add_boxes(const UrisMotion &motion);
+  void add_box(const UrisMotion &motion);
 
   std::string subject_;
   Valve valve_;
   Surface surface_;
   FinerTriangles net_;
-  std::vector<UrisBox> boxes_;
+  std::optional<UrisBox> box_;
   std::vector<UrisLeaflet> leaflets_;
   std::array<double, 3> forward_{};
   double half_thickness_ = 0, longest_edge_ = 0, grid_ = 0;

@@ -82,10 +82,9 @@ struct FrameTriangles {
   std::vector<Corners> corners;  // as vertices of the frame
 };
 
-FrameTriangles triangles_of(const UrisLeaflets &leaflets, const std::vector<double> &xyz, bool of_scaffold) {
+FrameTriangles triangles_of(const UrisLeaflets &leaflets, const std::vector<double> &xyz) {
   FrameTriangles frame;
   for (const UrisLeaflet &leaflet : leaflets.leaflets()) {
-    if (leaflet.is_scaffold != of_scaffold) continue;
     for (const std::int64_t vertex : leaflet.nodes) frame.box.grow(xyz.data() + 3 * vertex);
     for (const Corners &corners : leaflet.triangles) {
       const auto corner = [&](std::size_t c) { return vertex_of(xyz, view(leaflet.nodes)[corners[c]]); };
@@ -198,7 +197,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
                                  bool is_closing, double half_thickness, double margin) {
   SolverDistances distances;
   const double far = far_in_half_thicknesses * half_thickness;
-  const FrameTriangles frame = triangles_of(leaflets, xyz, false);
+  const FrameTriangles frame = triangles_of(leaflets, xyz);
   distances.box = frame.box.widened(margin);
   distances.to_leaflets.assign(static_cast<std::size_t>(mesh.n_nodes), far);
   distances.nearest.assign(static_cast<std::size_t>(mesh.n_nodes), -1);
@@ -215,13 +214,6 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
     view(distances.to_leaflets)[i] = is_before ? -distance : distance;
     view(distances.nearest)[i] = static_cast<std::int64_t>(nearest);
   }
-  const FrameTriangles scaffold = triangles_of(leaflets, xyz, true);
-  if (scaffold.middles.empty()) return distances;
-  distances.to_scaffold.assign(static_cast<std::size_t>(mesh.n_nodes), far);
-  const PointTree scaffold_middles(scaffold.middles);
-  for (std::int64_t i = 0; i < mesh.n_nodes; ++i)
-    if (scaffold.box.contains(mesh.xyz() + 3 * i))
-      scaffold_middles.nearest(mesh.point(i), view(distances.to_scaffold)[i]);
   return distances;
 }
 
@@ -241,9 +233,7 @@ double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const Shape
 
 double solver_delta(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at, const SolverDistances &distances,
                     double half_thickness) {
-  const double of_leaflets = delta_of(interpolated_distance(mesh, e, at, distances.to_leaflets), half_thickness);
-  if (distances.to_scaffold.empty()) return of_leaflets;
-  return of_leaflets + delta_of(interpolated_distance(mesh, e, at, distances.to_scaffold), half_thickness);
+  return delta_of(interpolated_distance(mesh, e, at, distances.to_leaflets), half_thickness);
 }
 
 SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances, double from, double to,
@@ -272,10 +262,10 @@ SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets,
   };
   const auto length = [](const Point &v) { return std::sqrt(product(v, v)); };
   for (const UrisLeaflet &leaflet : leaflets.leaflets())
-    if (!leaflet.is_scaffold && leaflet.name != "box")
+    if (leaflet.name != "box")
       for (const std::int64_t vertex : leaflet.nodes)
         speeds.of_leaflets = std::max(speeds.of_leaflets, length(velocity_of(vertex)));
-  const FrameTriangles frame = triangles_of(leaflets, xyz, false);
+  const FrameTriangles frame = triangles_of(leaflets, xyz);
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
     if (!(std::abs(view(distances.to_leaflets)[i]) < half_thickness)) continue;
     const Corners &corners = view(frame.corners)[view(distances.nearest)[i]];

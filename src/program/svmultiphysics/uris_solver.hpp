@@ -75,11 +75,8 @@ double determinant_at(const SolverMesh &mesh, std::int64_t e, const ShapeFunctio
 struct SolverDistances {
   Box box = empty_box();  // the solver's
   std::int64_t n_in_box = 0;
-  // (n_nodes): signed distances to the leaflets, and distances to the scaffold. Far nodes have the solver's large number. The
-  // list of the scaffold is empty if there is none.
-  std::vector<double> to_leaflets, to_scaffold;
-  std::vector<std::int64_t>
-      nearest;  // (n_nodes): the leaflets' triangle with the nearest middle, or -1 outside the box
+  std::vector<double> to_leaflets;    // (n_nodes), signed: far nodes have the solver's large number
+  std::vector<std::int64_t> nearest;  // (n_nodes): the triangle with the nearest middle, or -1 outside the box
 };
 // `xyz` has all vertices of the frame. A closing valve also uses the direction of forward flow for the sign. `margin` widens the
 // box on each side beyond the solver's own box.

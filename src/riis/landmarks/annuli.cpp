@@ -175,13 +175,18 @@ std::string advice_for(const LandmarkFit &fit, const Landmarks &landmarks) {
          ": look for a landmark that is not at its place, or that has another's name";
 }
 
+// Returns the angle between the axis of a fitted valve and the annulus' normal, in degrees.
+double lean_of(const LandmarkFit &fit, Vec3 normal) {
+  return arc_cosine(std::min(1.0, std::abs((transposed(fit.pose.rotation) * normal).z))) * 180 / pi;
+}
+
 // Refuses a fitted valve that stands obliquely in the annulus.
-void check_axis(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 normal) {
-  const double degrees = arc_cosine(std::min(1.0, std::abs((transposed(fit.pose.rotation) * normal).z))) * 180 / pi;
+void check_axis(const LandmarkFit &fit, Vec3 normal, const std::string &advice) {
+  const double degrees = lean_of(fit, normal);
   constexpr double most_degrees = 20;
   if (degrees > most_degrees)
     fail(RIIS_INVALID_ARGUMENT, "the axis of the fitted valve is at ", rounded(degrees, 3),
-         " degrees to the annulus' normal; it must be at most ", most_degrees, "; ", advice_for(fit, landmarks));
+         " degrees to the annulus' normal; it must be at most ", most_degrees, "; ", advice);
 }
 
 // ---- Mitral ----
@@ -261,9 +266,36 @@ struct ShownDepth {
   bool has_posterior_horn;  // or the depth goes to the annulus point that is farthest from the anterior horn
 };
 
+// The heights of both ends of an annulus above its sides, along its normal.
+struct HornHeights {
+  std::size_t anterior_landmark, posterior_landmark;
+  double anterior, posterior;
+  double usual_difference;  // by the valve's proportions
+  double depth;             // between both ends
+};
+
+// Returns the cause of a fit that contradicts the landmarks. If one horn rises and the other falls, the annulus looks like one
+// that is turned, so the fitted valve leans, and the largest residual may be at a right landmark.
+std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 normal, const HornHeights &heights) {
+  const double degrees = lean_of(fit, normal);
+  const double by_heights =
+      arc_tangent(std::abs(heights.anterior - heights.posterior - heights.usual_difference), heights.depth) * 180 / pi;
+  constexpr double upright_degrees = 5;
+  if (degrees < upright_degrees || by_heights < 0.5 * degrees) return advice_for(fit, landmarks);
+  const auto words = [&](std::size_t landmark, double height) -> std::string {
+    return Message(words_for(landmarks, landmark), " is ", rounded(landmarks.scale * std::abs(height), 3),
+                   height < 0 ? " below" : " above")
+        .text();
+  };
+  return Message("the horns' heights make it lean: ", words(heights.anterior_landmark, heights.anterior), " and ",
+                 words(heights.posterior_landmark, heights.posterior),
+                 " the annulus' sides, along that normal; look for a horn that is not at its place")
+      .text();
+}
+
 // Refuses a fitted valve whose depth is not the annulus'.
-void check_depth(const LandmarkModel &fitted, const LandmarkFit &fit, const Landmarks &landmarks,
-                 const ShownDepth &shown) {
+void check_depth(const LandmarkModel &fitted, const Landmarks &landmarks, const ShownDepth &shown,
+                 const std::string &advice) {
   const FittedSize &ap = fitted.sizes[MitralModel::ap];
   // Noise alone moves the horns, and so their distance.
   const double most_apart = std::max(shown.depth / 12, 5 * landmarks.noise);
@@ -273,7 +305,7 @@ void check_depth(const LandmarkModel &fitted, const LandmarkFit &fit, const Land
        rounded(landmarks.scale * shown.depth, 3),
        shown.has_posterior_horn ? " apart, seen along the annulus' normal"
                                 : " behind the anterior horn, seen along its normal",
-       "; the difference must be at most ", rounded(landmarks.scale * most_apart, 3), "; ", advice_for(fit, landmarks));
+       "; the difference must be at most ", rounded(landmarks.scale * most_apart, 3), "; ", advice);
 }
 
 // Refuses a posterior horn or a trigone on the wrong side of the annulus. `y_of` returns a landmark's place from the posterior
@@ -317,8 +349,9 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   const Vec3 widest = *std::max_element(points.begin(), points.end(),
                                         [](const Vec3 &a, const Vec3 &b) { return std::abs(a.x) < std::abs(b.x); });
   const double low_z = widest.z;
-  const double posterior_z =
-      std::min_element(points.begin(), points.end(), [](const Vec3 &a, const Vec3 &b) { return a.y < b.y; })->z;
+  const auto farthest =
+      std::min_element(points.begin(), points.end(), [](const Vec3 &a, const Vec3 &b) { return a.y < b.y; });
+  const double posterior_z = farthest->z;
   const Vec3 horn_there = back * to_horn;
   const double low_y = lower.y, depth = horn_there.y - low_y, width = upper.x - lower.x;
   const auto y_of = [&](std::size_t i) { return (back * (landmarks.at(i) - middle)).y - low_y; };
@@ -375,10 +408,20 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   const Pose upright = made.starts[0];
   for (const double lean : {-10.0, 10.0})
     made.starts.push_back({upright.rotation * rotation_about({1, 0, 0}, lean), upright.translation});
+  const std::size_t posterior =
+      has_posterior_horn ? posterior_horns[0] : outline.ring[static_cast<std::size_t>(farthest - points.begin())];
+  const HornHeights heights{
+      horn,
+      posterior,
+      horn_there.z - low_z,
+      (back * (landmarks.at(posterior) - middle)).z - low_z,
+      grown * (value_of(valve, "anterior_horn_height") - value_of(valve, "posterior_horn_height")),
+      depth};
   made.check = [=](const LandmarkModel &fitted, const LandmarkFit &fit, const Landmarks &given) {
     if (!is_side_known) check_side(fitted, given);
-    check_axis(fit, given, normal);
-    check_depth(fitted, fit, given, shown);
+    const std::string cause = cause_of(fit, given, normal, heights);
+    check_axis(fit, normal, cause);
+    check_depth(fitted, given, shown, cause);
   };
   return made;
 }
@@ -460,7 +503,7 @@ KindOfLandmarks saddle_landmarks(const Valve &valve, const SaddleKind &names, co
   KindOfLandmarks made =
       one_model(std::move(model), {{rotation, outline.middle + rotation * (origin - by)}}, names.depth);
   made.check = [normal = outline.normal](const LandmarkModel &, const LandmarkFit &fit, const Landmarks &given) {
-    check_axis(fit, given, normal);
+    check_axis(fit, normal, advice_for(fit, given));
   };
   return made;
 }

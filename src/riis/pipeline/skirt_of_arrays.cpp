@@ -202,7 +202,7 @@ class StripMaker {
     if (!(longest >= least_skirt * radius && longest <= most_skirt * radius))
       fail(RIIS_INVALID_ARGUMENT, "arrays.skirt_length is ", faces.skirt.length, "; it must be 0, or from ",
            least_skirt, " to ", most_skirt, " times the mean distance of the attachment from its axis, which is ",
-           radius / scale);
+           rounded(radius / scale, 4));
     for (const AttachedEdge &edge : faces.skirt.edges)
       for (const std::int64_t id : {edge.from, edge.to}) check_length(id);
   }

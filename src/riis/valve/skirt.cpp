@@ -531,7 +531,7 @@ void add_skirt(PatchSet &set, double length, const SkirtLengths &lengths) {
   if (lengths.empty()) {
     if (!(length >= least_skirt * radius && length <= most_skirt * radius))
       fail(RIIS_INVALID_PARAMETER, "skirt_length is ", length, "; it must be 0, or from ", least_skirt, " to ",
-           most_skirt, " times the mean distance of the attachment from its axis, which is ", radius);
+           most_skirt, " times the mean distance of the attachment from its axis, which is ", rounded(radius, 4));
     const Vector<double> even(n_even_parts + 1, length);
     for (std::size_t side = 0; side < sides.size(); ++side)
       maker.add(side, 0, set.patches[sides[side].patch].images.size(), even);

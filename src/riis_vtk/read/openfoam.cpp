@@ -461,7 +461,7 @@ std::vector<Ids> read_addresses(const std::vector<fs::path> &folders, const char
   std::int64_t n_claimed = 0, most = -1;
   for (std::size_t i = 0; i < folders.size(); ++i) {
     if (!has_file(folders[i], name))
-      fail_file(folders[i].string(), "has no file ", name, "; reconstructParMesh joins the parts");
+      fail_file(folders[i].string(), "has no file ", name, "; reconstructParMesh -constant joins the parts");
     FoamFile file(folders[i], name);
     all.push_back(file.labels());
     if (all[i].size() != static_cast<std::size_t>(sizes[i]))
@@ -611,6 +611,8 @@ vtkSmartPointer<vtkUnstructuredGrid> read_openfoam(const std::string &path) {
     is_single = read_parts(path, parts, mesh);
   } else if (has_collated_parts(root)) {
     fail_file(path, "has its parts in one folder; reconstructParMesh -constant joins them");
+  } else if (fs::exists(root / "md.idx")) {
+    fail_file(path, "is a folder of ADIOS2, which is not read");
   } else {
     fail_file(path, "is a directory, but not a case of OpenFOAM: it lacks constant/polyMesh");
   }

@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // A type of cells: its number in a mixed list, and its names without "_" in lower case. n_nodes is 0 if it varies. The first name
-// is written.
+// is written. The number is 0 if XDMF gives none: dolfinx writes cells of order 3, with VTK's order of nodes.
 struct Topology {
   int number, vtk_type, n_nodes;
   const char *written;
@@ -55,6 +55,9 @@ constexpr Topology topologies[] = {
     {48, VTK_QUADRATIC_HEXAHEDRON, 20, "Hexahedron_20", {"hexahedron20", "hex20"}},
     {49, VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, 24, "Hexahedron_24", {"hexahedron24", "hex24"}},
     {50, VTK_TRIQUADRATIC_HEXAHEDRON, 27, "Hexahedron_27", {"hexahedron27", "hex27"}},
+    {0, VTK_LAGRANGE_TRIANGLE, 10, "Triangle_10", {"triangle10", ""}},
+    {0, VTK_LAGRANGE_QUADRILATERAL, 16, "Quadrilateral_16", {"quadrilateral16", ""}},
+    {0, VTK_LAGRANGE_TETRAHEDRON, 20, "Tetrahedron_20", {"tetrahedron20", ""}},
 };
 
 std::string plain_name(const std::string &name) {
@@ -329,7 +332,7 @@ class XdmfFile {
     while (at < end) {
       const std::int64_t number = view(values)[at++];
       const auto *const known = std::find_if(std::begin(topologies), std::end(topologies),
-                                             [&](const Topology &t) { return t.number == number; });
+                                             [&](const Topology &t) { return t.number == number && number != 0; });
       const std::int64_t cell = mesh_.types->GetNumberOfValues();
       if (known == std::end(topologies))
         fail_file(path_, "cell ", cell, " is of XDMF's type ", number, ", which is not read");
@@ -379,11 +382,15 @@ class XdmfFile {
 
 // ---- Writing ----
 
-const Topology *topology_of(int vtk_type) {
+const Topology *topology_of(vtkUnstructuredGrid *grid, vtkIdType cell) {
+  int vtk_type = grid->GetCellType(cell);
   if (vtk_type == VTK_LINE) vtk_type = VTK_POLY_LINE;
   if (vtk_type == VTK_VERTEX) vtk_type = VTK_POLY_VERTEX;
-  const auto *const found = std::find_if(std::begin(topologies), std::end(topologies),
-                                         [&](const Topology &t) { return t.vtk_type == vtk_type; });
+  // A Lagrange cell has its order by the number of its nodes.
+  const vtkIdType n_nodes = grid->GetCells()->GetCellSize(cell);
+  const auto *const found = std::find_if(std::begin(topologies), std::end(topologies), [&](const Topology &t) {
+    return t.vtk_type == vtk_type && (t.number != 0 || t.n_nodes == n_nodes);
+  });
   return found == std::end(topologies) ? nullptr : found;
 }
 
@@ -443,19 +450,24 @@ class XdmfWriter {
     const std::int64_t n_cells = grid_->GetNumberOfCells();
     std::vector<std::int64_t> values;
     bool is_mixed = false;
+    std::int64_t without_number = -1;  // a cell that a mixed list cannot have
     for (std::int64_t cell = 0; cell < n_cells; ++cell) {
       const int type = grid_->GetCellType(cell);
-      if (!topology_of(type))
-        fail_file(path_, "cell ", cell, " is of VTK's type ", type, ", which XDMF lacks; write a .vtu");
-      is_mixed = is_mixed || type != grid_->GetCellType(0) || topology_of(type)->n_nodes == 0;
+      const Topology *const of_cell = topology_of(grid_, cell);
+      if (!of_cell) fail_file(path_, "cell ", cell, " is of VTK's type ", type, ", which XDMF lacks; write a .vtu");
+      if (of_cell->number == 0 && without_number < 0) without_number = cell;
+      is_mixed = is_mixed || type != grid_->GetCellType(0) || of_cell->n_nodes == 0;
     }
-    const Topology *const known = n_cells > 0 ? topology_of(grid_->GetCellType(0)) : &topologies[0];
+    if (is_mixed && without_number >= 0)
+      fail_file(path_, "cell ", without_number, " is of VTK's type ", grid_->GetCellType(without_number),
+                ", which XDMF lacks among cells of other types; write a .vtu");
+    const Topology *const known = n_cells > 0 ? topology_of(grid_, 0) : &topologies[0];
     for (std::int64_t cell = 0; cell < n_cells; ++cell) {
       vtkIdType n_nodes = 0;
       const vtkIdType *nodes = nullptr;
       grid_->GetCells()->GetCellAtId(cell, n_nodes, nodes);
       if (is_mixed) {
-        const Topology *const here = topology_of(grid_->GetCellType(cell));
+        const Topology *const here = topology_of(grid_, cell);
         values.push_back(here->number);
         if (here->n_nodes == 0) values.push_back(n_nodes);
       }
