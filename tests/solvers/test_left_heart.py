@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests the numbers and the refusals of examples/left_heart on invented flows and tables, without OpenFOAM.
 
-RIIS_VOLUME_SEARCH is the library of examples/left_heart/coupled/volumeSearch.C.
+RIIS_VOLUME_SEARCH is the library of examples/left_heart/coupled/volumeSearch.C. It is empty if Python cannot load the library.
 """
 import contextlib
 import io
@@ -298,6 +298,9 @@ class Search(unittest.TestCase):
         return np.array(rows).T, found
 
     def test_echo(self):
+        if not os.environ["RIIS_VOLUME_SEARCH"]:
+            print("[  SKIPPED ] test_echo")  # as tests in C do
+            self.skipTest("Python cannot load the library")
         for echo in (0.0, -0.3, -0.64):
             (residuals, trials), (slope, found) = self.steps(echo)
             self.assertLess(residuals.max(), 66, f"echo {echo}")  # 0.5 mmHg
