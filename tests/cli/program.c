@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -87,6 +88,7 @@ static pid_t start(const char *argument, va_list rest) {
   const pid_t process = fork();
   if (process < 0) give_up("fork");
   if (process == 0) {
+    signal(SIGINT, SIG_DFL); /* a job in a shell's background ignores it, and so would the program */
     dup2(out, STDOUT_FILENO);
     dup2(err, STDERR_FILENO);
     if (program_stdout) close(STDOUT_FILENO);

@@ -5,7 +5,7 @@
 # test programs must pass.
 set -euo pipefail
 flang=$1 source=$2 work=$3 library=$4
-flags=(-O1 -Werror)
+flags=(-O0 -Werror)
 # shellcheck source=tests/fortran/page_sources.sh
 . "$source/tests/fortran/page_sources.sh"
 rm -rf "$work"
@@ -18,14 +18,14 @@ link=("$library" "-Wl,-rpath,$(dirname "$library")")
 tests=$source/tests/fortran
 # The interface intentionally takes pointers to arrays without the target attribute, and flang warns about this.
 for name in checks box; do
-  "$flang" -O1 -c "$tests/$name.f90"
+  "$flang" -O0 -c "$tests/$name.f90"
 done
 for name in test_calls test_objects test_meshes test_marking test_resistance test_components test_laws test_frames test_f2003 \
     error_stop; do
-  "$flang" -O1 "$tests/$name.f90" ./*.o "${link[@]}" -o "$name"
+  "$flang" -O0 "$tests/$name.f90" ./*.o "${link[@]}" -o "$name"
 done
 for name in test_f77 test_f77_motion test_f77_loads test_f77_arrays; do
-  "$flang" -O1 -I"$source/fortran/generated" "$tests/$name.f" "$tests/f77_checks.f" ./riis*.o "${link[@]}" -o "$name"
+  "$flang" -O0 -I"$source/fortran/generated" "$tests/$name.f" "$tests/f77_checks.f" ./riis*.o "${link[@]}" -o "$name"
 done
 for name in test_calls test_objects test_meshes test_marking test_resistance test_components test_laws test_frames test_f2003 \
     test_f77 test_f77_motion test_f77_loads test_f77_arrays; do

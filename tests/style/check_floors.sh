@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_floors.sh SOURCE_FOLDER
 # The folders of the library, src/riis, are ordered as floors: no file may include a file of a later floor. So are the folders of
-# src/riis_vtk. All other products use the library only by its public headers. The headers in src/common include no product's
+# src/riis_vtk. All other products use the library only by its public headers. The files in src/common include no product's
 # headers. The plug-ins also leave out src/common, because users build them without the library's sources.
 set -euo pipefail
 cd "$1"
