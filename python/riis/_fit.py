@@ -454,7 +454,7 @@ def fit(
     shares = (numpy.array([own[name] for name in names]) - limits[:, 0]) / (limits[:, 1] - limits[:, 0])
     x = numpy.zeros(problem.n)
     x[: len(names)] = numpy.clip(shares, 0.01, 0.99)
-    # Equal cusps are images of one cusp, which has no derivative by a size of one of them. So these sizes start apart.
+    # Three equal cusps may open farther than unequal ones. So these sizes start apart, and the search sees one rule.
     x[: len(names)] += [1e-7 * (i + 1) if name.startswith(("cusp_", "commissure_")) else 0.0 for i, name in enumerate(names)]
     any_rotation = "rotation" in moves and "rotation_angle" not in given
     n_least = min(_LEAST_STARTS if whole else _LEAST_STARTS_OF_PART, n_most)

@@ -253,7 +253,7 @@ def problem_of(kind, points, whole=True, thickness=0.0):
     problem = Problem(points, numpy.ones(len(points)), valve, names, bounds, ["rotation", "translation", "scale"], 4.0, whole,
                       FINE, thickness, 0.0)
     problem.begin(Pose(matrix_of(numpy.array([0.1, 0.2, 0.3])), numpy.array([0.1, 0.2, -0.1]), 1.1))
-    middle = [0.45 + 0.02 * name.startswith("cusp_1.") for name in names]  # unequal cusps, because equal ones have one shape
+    middle = [0.45 + 0.02 * name.startswith("cusp_1.") for name in names]  # unequal cusps, as in a fit
     return problem, numpy.concatenate([middle, 0.02 * numpy.ones(problem.n - len(names))])
 
 

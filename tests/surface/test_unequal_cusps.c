@@ -175,6 +175,25 @@ TEST(equal_sizes_by_other_names_are_the_same_valve) {
   }
 }
 
+/* The length from the root along the symmetry curve of cusp 0 to the free edge. */
+static double geometric_height(riis_valve *valve) {
+  const riis_valve_patches closed = patches_of(valve, 0);
+  const cubic below = side_of(&closed, 0, u0), zone = side_of(&closed, 1, u0);
+  return length_by_rule(&below) + length_by_rule(&zone);
+}
+
+/* Surgeons measured 2.38 +- 0.20 cm, from 1.5 to 3 cm, in 286 patients (docs/theory/coapting.md). Cusps grow with the root. */
+TEST(bicuspid_cusps_are_as_high_as_those_of_patients) {
+  riis_valve *usual = new_valve("bicuspid"), *dilated = new_valve("bicuspid");
+  CHECK_OK(riis_valve_set_scalar(usual, "annulus", 2.7));
+  CHECK_OK(riis_valve_set_scalar(dilated, "annulus", 3));
+  CHECK_OK(riis_valve_set_scalar(dilated, "stj", 3.3));
+  printf("geometric height of bicuspid valves: %.2f cm, in a dilated root %.2f cm\n", geometric_height(usual),
+         geometric_height(dilated));
+  CHECK_NEAR(geometric_height(usual), 1.91, 0.005);
+  CHECK_NEAR(geometric_height(dilated), 2.38, 0.2);
+}
+
 /* The free edge keeps its length, or grows by edge_stretch in proportion to the opening. */
 TEST(free_edges_keep_their_length) {
   random_source random = random_start("test_unequal_cusps");
@@ -351,6 +370,256 @@ TEST(bumps_mix_the_two_states) {
       assert_memory_equal(of_sick, of_healthy, sizeof of_sick);
     }
   }
+}
+
+/* --- One of equal cusps that changes --------------------------------------------------------------------------------- */
+
+/* Equal cusps are images of one half, and unequal cusps have patches of their own, in another order. */
+enum { n_ids = 64, n_near = 400 };
+
+/* Finds the first and the last vertex of each patch that a triangle uses. */
+static void find_blocks(const riis_triangles *all, int64_t first[n_ids], int64_t last[n_ids]) {
+  for (int id = 0; id < n_ids; ++id) first[id] = all->n_vertices, last[id] = -1;
+  for (int64_t i = 0; i < 3 * all->n_triangles; ++i) {
+    const int32_t id = all->patch_id[i / 3];
+    assert_true(id >= 0 && id < n_ids);
+    first[id] = all->vertex_id[i] < first[id] ? all->vertex_id[i] : first[id];
+    last[id] = all->vertex_id[i] > last[id] ? all->vertex_id[i] : last[id];
+  }
+}
+
+/* Finds for each vertex of one surface the vertex of another surface with the same patch, u and v, or -1 if no triangle has
+ * it. Returns 0 if the surfaces have other vertices. */
+static int match_vertices(const riis_surface *from, const riis_surface *to, int64_t *match) {
+  const riis_triangles a = triangles_of(from), b = triangles_of(to);
+  int64_t first_a[n_ids], last_a[n_ids], first_b[n_ids], last_b[n_ids];
+  if (a.n_vertices != b.n_vertices || a.n_triangles != b.n_triangles) return 0;
+  find_blocks(&a, first_a, last_a);
+  find_blocks(&b, first_b, last_b);
+  for (int64_t i = 0; i < a.n_vertices; ++i) match[i] = -1;
+  for (int id = 0; id < n_ids; ++id) {
+    if (last_a[id] - first_a[id] != last_b[id] - first_b[id]) return 0;
+    for (int64_t i = first_a[id]; i <= last_a[id]; ++i) {
+      match[i] = first_b[id] + (i - first_a[id]);
+      for (int c = 0; c < 2; ++c)
+        if (fabs(a.uv[2 * i + c] - b.uv[2 * match[i] + c]) > 1e-3) return 0;
+    }
+  }
+  return 1;
+}
+
+/* Makes a valve with random equal cusps, perhaps fused, with a skirt and warped. */
+static riis_valve *equal_valve(random_source *random, int kind) {
+  riis_valve *valve = new_valve(kinds[kind]);
+  set_sizes(random, valve);
+  CHECK_OK(riis_valve_set_scalar(valve, "open_radius_ratio", random_between(random, 0.6, 0.8)));
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", random_between(random, 0.05, 0.95)));
+  if (random_bits(random) % 3 == 0)
+    for (int k = 0; k < n_cusps_of(kind); ++k) set_of(valve, "commissure", k, "fusion", 0.25);
+  if (random_bits(random) % 2) CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", 0.2));
+  if (random_bits(random) % 2) {
+    enum { n = 8 };
+    double from[3 * n], to[3 * n];
+    for (int i = 0; i < 3 * n; ++i) {
+      from[i] = (i / 3 >> i % 3 & 1 ? 2.0 : -2.0) + 0.1 * (i % 5);
+      to[i] = from[i] + random_between(random, -0.1, 0.1);
+    }
+    riis_warp *warp = NULL;
+    const riis_points points = points_at(n, from), targets = points_at(n, to);
+    CHECK_OK(riis_warp_create(&points, NULL, &warp));
+    own(warp);
+    CHECK_OK(riis_warp_set_targets(warp, &targets));
+    CHECK_OK(riis_valve_set_warp(valve, warp, NULL));
+  }
+  return valve;
+}
+
+static riis_valve *copy_of(const riis_valve *valve) {
+  riis_valve *made = NULL;
+  CHECK_OK(riis_valve_copy(valve, &made));
+  return own(made);
+}
+
+/* Returns the valve with one size of one cusp or commissure changed by a share of it. */
+static riis_valve *with_changed(const riis_valve *valve, const char *name, double share) {
+  double value;
+  riis_valve *made = copy_of(valve);
+  CHECK_OK(riis_valve_get(made, name, 1, &value));
+  CHECK_OK(riis_valve_set_scalar(made, name, (1 + share) * value));
+  return made;
+}
+
+static void random_own_size(random_source *random, int kind, char name[40]) {
+  static const char *const names[] = {"sector", "effective_height", "coaptation_height", "open_radius_ratio", "height"};
+  const int k = (int)(random_bits(random) % (uint64_t)n_cusps_of(kind)), which = (int)(random_bits(random) % 5);
+  snprintf(name, 40, "%s_%d.%s", which == 4 ? "commissure" : "cusp", k, names[which]);
+}
+
+/* Returns the distances and K of the nodes, and their derivatives if the surface has a direction. */
+static riis_mark_list all_marks(const riis_surface *surface, const double *xyz) {
+  riis_marks *marks = NULL;
+  riis_resistance resistance;
+  riis_mark_options options = mark_options();
+  CHECK_OK(riis_marks_create(&marks));
+  own(marks);
+  CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
+  resistance.R = 1;
+  options.resistance = &resistance;
+  options.distance_limit = 10;
+  riis_direction direction;
+  if (riis_surface_get_direction(surface, 0, &direction, sizeof direction) == RIIS_OK)
+    options.fields = RIIS_FIELD_GRADIENT;
+  CHECK_OK(riis_mark_nodes(surface, mesh_of(n_near, xyz), &options, marks));
+  const riis_mark_list list = within_list(marks);
+  assert_int_equal(list.n_nodes, n_near);
+  return list;
+}
+
+/* Rates of vertices and derivatives of distances and of K are differences between surfaces of unequal cusps. */
+TEST(a_size_of_one_of_equal_cusps_has_derivatives) {
+  random_source random = random_start("test_unequal_cusps");
+  const double share = 1e-6;
+  int n_alike = 0, n_moving = 0, n_off = 0, n_compared = 0, n_tried = 0;
+  double worst = 0;
+  for (int trial = 0; trial < trials_of(60); ++trial) {
+    const int owned_before = n_owned(), kind = trial % 3;
+    riis_valve *valve = equal_valve(&random, kind);
+    riis_surface_options options = surface_options();
+    options.offset = trial % 2 ? random_between(&random, -0.5, 0.5) : 0;
+    options.triangulation = trial / 3 % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+    options.scale = random_power_of_ten(&random, -1, 1), options.half_thickness = 0.1 * options.scale;
+    options.rotation_angle = 33, options.rotation_axis[1] = 0.5, options.translation[0] = 2;
+    char name[40];
+    random_own_size(&random, kind, name);
+    double size;
+    CHECK_OK(riis_valve_get(valve, name, 1, &size));
+    riis_valve *after = with_changed(valve, name, share), *before = with_changed(valve, name, -share);
+    riis_surface *at = NULL, *high = NULL, *low = NULL;
+    const riis_status status[3] = {riis_surface_create(valve, &options, &at),
+                                   riis_surface_create(after, &options, &high),
+                                   riis_surface_create(before, &options, &low)};
+    riis_surface *const made[3] = {at, high, low};
+    for (int i = 0; i < 3; ++i) {
+      if (made[i]) own(made[i]);
+      assert_true(status[i] == RIIS_OK || status[i] == RIIS_INVALID_PARAMETER);
+    }
+    if (!at || !high || !low) {
+      free_owned_after(owned_before);
+      continue;
+    }
+    ++n_tried;
+    CHECK_OK(riis_surface_add_direction(at, after, before, 2 * share * size, &options, &options));
+    const riis_triangles all = triangles_of(at);
+    int64_t *to_high = own(malloc((size_t)all.n_vertices * sizeof *to_high)),
+            *to_low = own(malloc((size_t)all.n_vertices * sizeof *to_low));
+    if (!match_vertices(at, high, to_high) || !match_vertices(at, low, to_low)) {
+      free_owned_after(owned_before);
+      continue;
+    }
+    ++n_alike;
+    riis_direction direction;
+    CHECK_OK(riis_surface_get_direction(at, 0, &direction, sizeof direction));
+    const double *above = triangles_of(high).xyz, *below = triangles_of(low).xyz;
+    double speed = 0, off = 0;
+    for (int64_t i = 0; i < 3 * all.n_vertices; ++i) {
+      if (to_high[i / 3] < 0) continue;
+      const double slope = (above[3 * to_high[i / 3] + i % 3] - below[3 * to_low[i / 3] + i % 3]) / (2 * share * size);
+      speed = fmax(speed, fabs(direction.rate[i])), off = fmax(off, fabs(slope - direction.rate[i]));
+    }
+    /* A cusp that opens as far as its edge allows does not open farther with another open_radius_ratio. */
+    if (!(speed > 1e-6)) {
+      assert_true(strstr(name, "open_radius_ratio") != NULL && off <= 1e-6);
+      free_owned_after(owned_before);
+      continue;
+    }
+    ++n_moving;
+    if (off > 1e-5 * speed)
+      print_message("%s of %s: rates are off by %.2g of the largest\n", name, kinds[kind], off / speed);
+    worst = fmax(worst, off / speed);
+    double xyz[3 * n_near];
+    for (int i = 0; i < n_near; ++i) {
+      const double *vertex = all.xyz + 3 * (int64_t)(random_bits(&random) % (uint64_t)all.n_vertices);
+      for (int c = 0; c < 3; ++c) xyz[3 * i + c] = vertex[c] + 0.15 * options.scale * random_between(&random, -1, 1);
+    }
+    const riis_mark_list here = all_marks(at, xyz), up = all_marks(high, xyz), down = all_marks(low, xyz);
+    const double eps = options.half_thickness, by_K = 1 / (eps * eps * eps);
+    for (int i = 0; i < n_near; ++i) {
+      const double of_d = (up.distance[i] - down.distance[i]) / (2 * share * size);
+      const double of_K = (up.K[i] - down.K[i]) / (2 * share * size);
+      ++n_compared;
+      n_off += !(fabs(of_d - here.distance_gradient[i]) <= 1e-4 * speed &&
+                 fabs(of_K - here.K_gradient[i]) <= 1e-3 * by_K * speed);
+    }
+    free_owned_after(owned_before);
+  }
+  printf("%d of %d surfaces alike, rates off by at most %.2g, %d of %d derivatives are off\n", n_alike, n_tried, worst,
+         n_off, n_compared);
+  CHECK_MET(n_moving >= 3 && 3 * n_alike >= n_tried);
+  CHECK_AT_MOST(worst, 1e-5);
+  assert_true(n_off <= 0.02 * n_compared); /* ties, and nodes whose closest triangle changes */
+}
+
+/* Velocities from equal to unequal cusps and back are those of the same valve whose equal cusps also have patches of their own,
+ * because of a bump that does nothing. */
+TEST(equal_cusps_become_unequal_in_motion) {
+  random_source random = random_start("test_unequal_cusps");
+  int n_alike = 0, n_moving = 0;
+  double worst = 0;
+  for (int trial = 0; trial < trials_of(30); ++trial) {
+    const int owned_before = n_owned(), kind = trial % 3;
+    riis_valve *equal = equal_valve(&random, kind), *of_patches = copy_of(equal);
+    set_of(of_patches, "bump", 0, "leaflet", 0);
+    riis_surface_options options = surface_options();
+    options.triangulation = trial / 3 % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+    char name[40];
+    random_own_size(&random, kind, name);
+    riis_valve *unequal = with_changed(equal, name, 0.02);
+    riis_surface *images = new_surface(equal, &options), *patches = new_surface(of_patches, &options), *other = NULL;
+    const riis_triangles all = triangles_of(images);
+    int64_t *match = own(malloc((size_t)all.n_vertices * sizeof *match));
+    double *xyz = own(malloc(3 * (size_t)all.n_vertices * sizeof *xyz));
+    memcpy(xyz, all.xyz, 3 * (size_t)all.n_vertices * sizeof *xyz);
+    if (riis_surface_create(unequal, &options, &other) != RIIS_OK || !match_vertices(images, patches, match)) {
+      riis_surface_destroy(&other);
+      free_owned_after(owned_before);
+      continue;
+    }
+    own(other), ++n_alike;
+    CHECK_OK(riis_surface_update_moving(images, equal, unequal, 0.01, NULL, NULL));
+    CHECK_OK(riis_surface_update_moving(patches, of_patches, unequal, 0.01, NULL, NULL));
+    assert_memory_equal(triangles_of(images).xyz, xyz, 3 * (size_t)all.n_vertices * sizeof *xyz);
+    const double *a = velocity_of(images), *b = velocity_of(patches);
+    double fastest = 0, off = 0;
+    for (int64_t i = 0; i < 3 * all.n_vertices; ++i) {
+      if (match[i / 3] < 0) continue;
+      fastest = fmax(fastest, fabs(a[i])), off = fmax(off, fabs(a[i] - b[3 * match[i / 3] + i % 3]));
+    }
+    n_moving += fastest > 0.01;
+    worst = fmax(worst, off);
+    /* The other way: the bits do not depend on the build of the earlier state but for rounding. */
+    riis_surface *from_patches = new_surface(unequal, &options);
+    CHECK_OK(riis_surface_update_moving(other, unequal, equal, 0.01, NULL, NULL));
+    CHECK_OK(riis_surface_update_moving(from_patches, unequal, of_patches, 0.01, NULL, NULL));
+    const riis_triangles there = triangles_of(other);
+    for (int64_t i = 0; i < 3 * there.n_vertices; ++i)
+      worst = fmax(worst, fabs(velocity_of(other)[i] - velocity_of(from_patches)[i]));
+    free_owned_after(owned_before);
+  }
+  printf("%d of %d valves move, velocities differ by at most %.2g\n", n_moving, n_alike, worst);
+  CHECK_MET(n_moving > 2);
+  CHECK_AT_MOST(worst, 1e-9);
+}
+
+/* A fused commissure has patches that another one lacks. A little fusion gives both states these patches. */
+TEST(fusion_of_one_state_only_is_refused) {
+  riis_valve *whole = valve_at("coapting", 0.4), *fused = copy_of(whole), *nearly = copy_of(whole);
+  set_of(fused, "commissure", 1, "fusion", 0.3);
+  set_of(nearly, "commissure", 1, "fusion", 0.01);
+  riis_surface *surface = new_surface(fused, NULL);
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER,
+                "valve_before has 12 patches, valve has 16: they must be two states of one valve",
+                riis_surface_update_moving(surface, fused, whole, 0.01, NULL, NULL));
+  CHECK_OK(riis_surface_update_moving(surface, fused, nearly, 0.01, NULL, NULL));
 }
 
 TEST(the_skirt_has_its_own_leaflet) {

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "geometry/bezier.hpp"
+#include "valve/warp.hpp"
 
 namespace riis {
 
@@ -470,19 +473,57 @@ Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<doubl
   return made;
 }
 
-void check_same_build(const PatchSet &now, const PatchSet &before, const StateNames &names) {
-  if (now.patches.size() != before.patches.size())
-    fail(RIIS_INVALID_PARAMETER, names.state, " has ", before.patches.size(), " patches, ", names.of, " has ",
-         now.patches.size(), ": they must be two states of one valve");
-  for (std::size_t i = 0; i < now.patches.size(); ++i) {
-    const auto &images = now.patches[i].images, &images_before = before.patches[i].images;
-    const bool is_same = std::equal(
-        images.begin(), images.end(), images_before.begin(), images_before.end(),
-        [](const PatchImage &a, const PatchImage &b) { return a.mirror == b.mirror && a.patch_id == b.patch_id; });
-    if (!is_same)
-      fail(RIIS_INVALID_PARAMETER, "patch ", i, " of ", names.state, " is not patch ", i, " of ", names.of,
-           ": they must be two states of one valve");
+namespace {
+
+Vector<std::int32_t> ids_of(const PatchSet &set) {
+  Vector<std::int32_t> ids;
+  for (const Patch &patch : set.patches)
+    for (const PatchImage &image : patch.images) ids.push_back(image.patch_id);
+  return ids;
+}
+
+}  // namespace
+
+bool have_same_build(const PatchSet &now, const PatchSet &before) {
+  const auto are_alike = [](const PatchImage &a, const PatchImage &b) {
+    return a.mirror == b.mirror && a.patch_id == b.patch_id;
+  };
+  return std::equal(now.patches.begin(), now.patches.end(), before.patches.begin(), before.patches.end(),
+                    [&](const Patch &a, const Patch &b) {
+                      return std::equal(a.images.begin(), a.images.end(), b.images.begin(), b.images.end(), are_alike);
+                    });
+}
+
+PatchSet with_own_patches(const PatchSet &state, const PatchSet &like) {
+  PatchSet made = state;
+  made.seams.clear();  // the other state may lack them, and they only change the last bits
+  // The patches of a warped valve are their own already.
+  if (state.material.empty()) made = without_images(made);
+  const Vector<std::int32_t> ids = ids_of(made);
+  Vector<Patch> patches;
+  Vector<MappedInside> inside;
+  for (const std::int32_t id : ids_of(like)) {
+    const auto at = static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+    patches.push_back(made.patches[at]);
+    if (at < made.mapped_inside.size()) inside.push_back(made.mapped_inside[at]);
   }
+  made.patches = std::move(patches);
+  made.mapped_inside = std::move(inside);
+  return made;
+}
+
+void check_same_build(const PatchSet &now, const PatchSet &before, const StateNames &names) {
+  if (have_same_build(now, before)) return;
+  Vector<std::int32_t> ids = ids_of(now), ids_before = ids_of(before);
+  if (ids.size() != ids_before.size())
+    fail(RIIS_INVALID_PARAMETER, names.state, " has ", ids_before.size(), " patches, ", names.of, " has ", ids.size(),
+         ": they must be two states of one valve");
+  std::sort(ids.begin(), ids.end());
+  std::sort(ids_before.begin(), ids_before.end());
+  const auto [here, there] = std::mismatch(ids.begin(), ids.end(), ids_before.begin());
+  if (here != ids.end())
+    fail(RIIS_INVALID_PARAMETER, names.state, " has no patch ", *here, " as ", names.of,
+         " has: they must be two states of one valve");
 }
 
 }  // namespace riis

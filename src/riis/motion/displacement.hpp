@@ -177,8 +177,14 @@ Vector<double> joints_of(const PatchSet &set, const Side &side);
 // Moves each line with the two joints beside it. If the number of joints changed, no line moves.
 Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to);
 
-// Fails with RIIS_INVALID_PARAMETER unless the patches of both states have the same build: the same numbers of patches, images
-// and kinds. The message names the states.
+// Returns whether patch i of one state has the images of patch i of the other.
+bool have_same_build(const PatchSet &now, const PatchSet &before);
+// Gives each image of a state a patch of its own. The patches follow each other as the images of `like` do, which have the same
+// ids. Equal cusps of coapting valves are images of one half, and unequal cusps have patches of their own. So two states
+// of one valve may differ in their build, and only their patches of this kind correspond.
+PatchSet with_own_patches(const PatchSet &state, const PatchSet &like);
+// Fails with RIIS_INVALID_PARAMETER unless both states have the same build, or at least images with the same ids. The message
+// names the states.
 void check_same_build(const PatchSet &now, const PatchSet &before, const StateNames &names = {"valve_before", "valve"});
 
 }  // namespace riis

@@ -189,6 +189,18 @@ void write_rates(const PatchStates &states, const LevelledGrid &levelled, const 
 
 void make_vertex_rates(const PatchSet &at, const Vector<LevelledGrid> &grids, const Direction &direction, int n_threads,
                        std::vector<double> &rates) {
+  if (!have_same_build(at, direction.after) || !have_same_build(at, direction.before)) {
+    const bool is_one_state = &direction.after == &direction.before;
+    const PatchSet own = with_own_patches(at, at), after = with_own_patches(direction.after, at);
+    const PatchSet before = is_one_state ? PatchSet{} : with_own_patches(direction.before, at);
+    Vector<LevelledGrid> own_grids;
+    for (std::size_t i = 0; i < grids.size(); ++i)
+      own_grids.insert(own_grids.end(), at.patches[i].images.size(), grids[i]);
+    return make_vertex_rates(
+        own, own_grids,
+        {after, is_one_state ? after : before, direction.placement_after, direction.placement_before, direction.step},
+        n_threads, rates);
+  }
   Vector<std::int64_t> first;
   std::int64_t n_vertices = 0;
   for (std::size_t i = 0; i < grids.size(); ++i) {

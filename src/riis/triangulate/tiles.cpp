@@ -21,26 +21,37 @@ const Seam *seam_of(const PatchSet &set, std::size_t patch, std::size_t image) {
   return nullptr;
 }
 
-PatchVertices vertices_of(const PatchSet &set, std::size_t patch, const LevelledGrid &levelled,
-                          const EarlierState *moved) {
+// Returns the displacements of the vertices, in the order of vertices_of.
+Vector<Vec3> displacements_of(const MovedPatch &moved, const LevelledGrid &levelled) {
+  const PatchDisplacement moves(moved, levelled);
+  const QuadGrid &grid = levelled.grid;
+  Vector<Vec3> made;
+  made.reserve(static_cast<std::size_t>(levelled.n_vertices));
+  for (std::size_t j = 0; j < grid.v.size(); ++j)
+    for (std::size_t i = 0; i < grid.u.size(); ++i) made.push_back(moves.at_lines(i, j));
+  auto level_of_next = levelled.levels.begin();
+  for_each_quad(grid, [&](std::size_t i, std::size_t j) {
+    const int level = *level_of_next++;
+    if (level == 0) return;
+    for (int row = 0; row <= 1 << level; ++row)
+      for (int column = 0; column <= 1 << level; ++column) made.push_back(moves.without_jumps(i, j, column, row));
+  });
+  return made;
+}
+
+PatchVertices vertices_of(const LevelledGrid &levelled) {
   const QuadGrid &grid = levelled.grid;
   const auto n = static_cast<std::size_t>(levelled.n_vertices);
-  std::optional<PatchDisplacement> moves;
-  if (moved) moves.emplace(MovedPatch{set, moved->patches_before, patch}, levelled);
   PatchVertices made;
   made.points.reserve(n);
   made.uv.reserve(2 * n);
-  made.displacements.reserve(moves ? n : 0);
   const auto add_uv = [&](double u, double v) {
     made.uv.push_back(u);
     made.uv.push_back(v);
   };
   made.points = grid.points;
-  for (std::size_t j = 0; j < grid.v.size(); ++j)
-    for (std::size_t i = 0; i < grid.u.size(); ++i) {
-      add_uv(grid.u[i], grid.v[j]);
-      if (moves) made.displacements.push_back(moves->at_lines(i, j));
-    }
+  for (const double v : grid.v)
+    for (const double u : grid.u) add_uv(u, v);
   auto level_of_next = levelled.levels.begin();
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *level_of_next++;
@@ -55,7 +66,6 @@ PatchVertices vertices_of(const PatchSet &set, std::size_t patch, const Levelled
       for (int column = 0; column <= n_parts; ++column) {
         const double s = column * step, t = row * step;
         made.points.push_back(quad.at(s, t));
-        if (moves) made.displacements.push_back(moves->without_jumps(i, j, column, row));
         add_uv((1 - s) * u0 + s * u1, (1 - t) * v0 + t * v1);
       }
   });
@@ -209,6 +219,8 @@ bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
 
 Tiles::Tiles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles)
     : set_(set), how_(how), grids_(grids), triangles_(triangles) {
+  if (how.earlier && !have_same_build(set, how.earlier->patches_before))
+    own_ = OwnPatches{with_own_patches(set, set), with_own_patches(how.earlier->patches_before, set)};
   std::int64_t n_ids = 0;
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const auto &images = set.patches[i].images;
@@ -244,7 +256,10 @@ void Tiles::make_patch_vertices() {
   }
   of_patches_.resize(grids_.size());
   parallel_for(view(grids_).size(), how_.n_threads, [&](std::int64_t i, int) {
-    view(of_patches_)[i] = vertices_of(set_, static_cast<std::size_t>(i), view(grids_)[i], how_.earlier);
+    view(of_patches_)[i] = vertices_of(view(grids_)[i]);
+    if (how_.earlier && !own_)
+      view(of_patches_)[i].displacements =
+          displacements_of({set_, how_.earlier->patches_before, static_cast<std::size_t>(i)}, view(grids_)[i]);
   });
 }
 
@@ -261,12 +276,23 @@ void Tiles::place_vertices_of(const Tile &tile) {
       if (tile.seam->has(uv[2 * i], uv[2 * i + 1]))
         put_vector(xyz, i, place(how_.placement, place(*tile.twin, points[i])));
   if (!how_.earlier) return;
+  double *const velocity = triangles_.velocity.data() + 3 * tile.first_vertex;
+  if (own_) {
+    const auto number = static_cast<std::size_t>(&tile - tiles_.data());
+    LevelledGrid levelled = grids_[tile.patch];
+    for (Vec3 &p : levelled.grid.points) p = place(*tile.image, p);
+    const Vector<Vec3> displacements = displacements_of({own_->now, own_->before, number}, levelled);
+    const PatchImage &in_place = own_->now.patches[number].images.front();
+    const ImageVelocity own_velocity(in_place, in_place, how_.placement, *how_.earlier);
+    for (std::int64_t i = 0; i < points.size(); ++i)
+      put_vector(velocity, i, own_velocity.velocity(place(*tile.image, points[i]), view(displacements)[i]));
+    return;
+  }
   const std::ptrdiff_t image = tile.image - set_.patches[tile.patch].images.data();
   const PatchImage &before = how_.earlier->patches_before.patches[tile.patch].images[static_cast<std::size_t>(image)];
   const ImageVelocity image_velocity(*tile.image, before, how_.placement, *how_.earlier);
   for (std::int64_t i = 0; i < points.size(); ++i)
-    put_vector(triangles_.velocity.data() + 3 * tile.first_vertex, i,
-               image_velocity.velocity(points[i], view(of_patch.displacements)[i]));
+    put_vector(velocity, i, image_velocity.velocity(points[i], view(of_patch.displacements)[i]));
 }
 
 void Tiles::make_room_for_triangles() {

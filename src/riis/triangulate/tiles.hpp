@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "base/recycled.hpp"
 #include "common/array_view.hpp"
@@ -31,7 +32,12 @@ struct Tile {
 struct PatchVertices {
   Vector<Vec3> points;
   Vector<double> uv;
-  Vector<Vec3> displacements;  // displacements since an earlier state; empty without such a state
+  Vector<Vec3> displacements;  // displacements since an earlier state of the same build; empty without such a state
+};
+
+// Both states of a moving valve whose builds differ. Each tile has a patch of its own, with the number of the tile.
+struct OwnPatches {
+  PatchSet now, before;
 };
 
 class Tiles {
@@ -78,6 +84,7 @@ class Tiles {
   TriangleSet &triangles_;
   Vector<Tile> tiles_;
   Vector<PatchVertices> of_patches_;
+  std::optional<OwnPatches> own_;
   std::int64_t n_vertices_ = 0, room_ = 0;
 };
 
