@@ -255,7 +255,12 @@ void Marking::measure(Piece &piece) {
     combine(sums.marks, valves_[i].stats());
     sums.leaks.add(piece, valves_[i].result());
     for (LeafletsOutside &state : sums.outside) state.add(piece);
-    if (sums.outside_closed) sums.outside_closed->add(piece);
+    // The closed valve matters only if the open one is outside, which a mesh in pieces tells after the last piece.
+    const bool may_be_outside =
+        !mesh_.is_whole() || std::any_of(sums.outside.begin(), sums.outside.end(), [](const LeafletsOutside &state) {
+          return state.share_so_far() > most_outside;
+        });
+    if (sums.outside_closed && may_be_outside) sums.outside_closed->add(piece);
     node_counts_.add(piece.nodes, list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT), within_limit(i));
     std::vector<std::int64_t> regions;
     if (wants_measures_ && piece.nodes.is_whole() && is_closed(valves_[i]))

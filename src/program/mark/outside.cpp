@@ -36,6 +36,15 @@ void LeafletsOutside::add(const Piece &piece) {
           piece.path);
 }
 
+double LeafletsOutside::share_so_far() const {
+  double all = 0, outside = 0;
+  for (std::size_t i = 0; i < is_outside_.size(); ++i) {
+    all += view(samples_.area)[i];
+    if (view(is_outside_)[i] != 0) outside += view(samples_.area)[i];
+  }
+  return all > 0 ? outside / all : 0;
+}
+
 OutsideReport LeafletsOutside::report() const {
   struct Area {
     double all = 0, outside = 0;

@@ -22,6 +22,8 @@ class LeafletsOutside {
   // Takes another surface of a valve with these options.
   LeafletsOutside(const MarkOptions &options, const riis_surface *surface, std::optional<double> opening);
   void add(const Piece &piece);
+  // Returns the share that is outside this rank's pieces so far.
+  double share_so_far() const;
   // Returns the shares of all ranks' pieces.
   OutsideReport report() const;
 
