@@ -491,6 +491,49 @@ static void expect_bad(const char *pieces, const char *part_of_text) {
   assert_false(scratch_exists("bad_out.pvtu"));
 }
 
+/* A piece as dolfinx writes it for a function: a tetrahedron, whose nodes have the numbers of all ranks. */
+static void write_piece_of_dolfinx(const char *name, const char *points, const char *ids) {
+  char text[2048];
+  snprintf(text, sizeof text,
+           "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"2.2\">\n<UnstructuredGrid>\n"
+           "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">\n<Points><DataArray type=\"Float64\" "
+           "NumberOfComponents=\"3\" format=\"ascii\">%s</DataArray></Points>\n<Cells>"
+           "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 3</DataArray>"
+           "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">4</DataArray>"
+           "<DataArray type=\"Int8\" Name=\"types\" format=\"ascii\">71</DataArray></Cells>\n<PointData>"
+           "<DataArray type=\"Int64\" Name=\"vtkOriginalPointIds\" IdType=\"1\" format=\"ascii\">%s</DataArray>"
+           "</PointData></Piece>\n</UnstructuredGrid></VTKFile>\n",
+           points, ids);
+  scratch_write_text(name, text);
+}
+
+/* The nodes that two ranks share differ in their last bits, so the function's list is refused, with the writer of the mesh. VTK's
+ * writer states the order of bytes, and the same array may then have other numbers. */
+TEST(functions_of_dolfinx_are_refused) {
+  write_piece_of_dolfinx("u_p0_000000.vtu", "0 0 0 1 0 0 0 1 0 0 0 0.1", "0 1 2 3");
+  write_piece_of_dolfinx("u_p1_000000.vtu", "1 1 1 1 1e-17 0 0 1 0 0 0 0.10000000000000002", "4 1 2 3");
+  for (int is_of_vtk = 0; is_of_vtk < 2; ++is_of_vtk) {
+    char text[1024];
+    snprintf(text, sizeof text,
+             "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\"%s>\n"
+             "<PUnstructuredGrid GhostLevel=\"1\"><PPointData><PDataArray type=\"Int64\" "
+             "Name=\"vtkOriginalPointIds\" IdType=\"1\"/></PPointData><PPoints><PDataArray type=\"Float64\" "
+             "NumberOfComponents=\"3\"/></PPoints>\n<Piece Source=\"u_p0_000000.vtu\"/>"
+             "<Piece Source=\"u_p1_000000.vtu\"/></PUnstructuredGrid></VTKFile>\n",
+             is_of_vtk ? " byte_order=\"LittleEndian\"" : "");
+    scratch_write_text("u000000.pvtu", text);
+    if (is_of_vtk) {
+      run_program("mark", scratch_path("u000000.pvtu"), "--allow-none", "--stats", "-", NULL);
+      assert_int_equal(program_exit_code, 0);
+      assert_true(json_number(program_out, "n_nodes") == 7);
+    } else {
+      RUN_REFUSED(
+          1, "; the ranks of dolfinx write a function's nodes so, in the last digit: VTKFile.write_mesh does not\n",
+          "mark", scratch_path("u000000.pvtu"), "--allow-none");
+    }
+  }
+}
+
 TEST(broken_pieces_are_refused) {
   rng = random_start("broken_pieces_are_refused");
   has_ids = has_ghosts = has_attribute = 0;

@@ -279,8 +279,8 @@ TEST(test_xdmf_of_order_3) {
     riis_vtk_mesh *mesh = NULL;
     int64_t offsets[2], node_ids[20];
     uint8_t type = 0;
-    CHECK_OK(riis_vtk_mesh_read(scratch_path("three.xdmf"), &mesh));
-    CHECK_OK(riis_vtk_mesh_copy_cells(mesh, 1, offsets, &type, cells[i].n_nodes, node_ids));
+    expect_fine(riis_vtk_mesh_read(scratch_path("three.xdmf"), &mesh));
+    expect_fine(riis_vtk_mesh_copy_cells(mesh, 1, offsets, &type, cells[i].n_nodes, node_ids));
     riis_vtk_mesh_destroy(&mesh);
     assert_int_equal(type, cells[i].vtk_type);
     assert_int_equal(offsets[1], cells[i].n_nodes);

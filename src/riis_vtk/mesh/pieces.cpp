@@ -41,6 +41,7 @@ struct riis_vtk_pieces {
   std::vector<const char *> paths;  // points into files
   std::vector<riis::vtk::Declared> point_arrays, cell_arrays;
   std::string global_ids;  // the name of the array with the attribute GlobalIds, or ""
+  bool has_ids_of_dolfinx = false;
   bool has_ghosts = false;
 };
 
@@ -48,6 +49,7 @@ namespace riis::vtk {
 namespace {
 
 constexpr std::int64_t most_pieces = 1'000'000;
+constexpr const char *ids_of_dolfinx = "vtkOriginalPointIds";
 
 // ---- The list ----
 
@@ -103,7 +105,9 @@ std::unique_ptr<riis_vtk_pieces> read_pieces(const std::string &path, const Caug
   check_xml(path, "PUnstructuredGrid");
   auto made = std::make_unique<riis_vtk_pieces>();
   std::vector<std::optional<std::string>> sources;
+  bool has_byte_order = false;
   for_each_element(path, caught, [&](const std::vector<std::string> &way, XmlAttributes attributes) {
+    if (way.size() == 1) has_byte_order = value_of(attributes, "byte_order").has_value();
     if (way.size() < 3 || way[0] != "VTKFile" || way[1] != "PUnstructuredGrid") return;
     const std::string &name = way.back();
     if (way.size() == 3 && name == "Piece") sources.push_back(value_of(attributes, "Source"));
@@ -114,6 +118,11 @@ std::unique_ptr<riis_vtk_pieces> read_pieces(const std::string &path, const Caug
   });
   check_declared(path, made->point_arrays);
   check_declared(path, made->cell_arrays);
+  // dolfinx numbers the nodes of all ranks in this array. A file of functions gives a shared node other coordinates on each
+  // rank, in their last bits, so it is refused. Filters of VTK number the nodes of each piece, and VTK's writer states the order
+  // of bytes.
+  made->has_ids_of_dolfinx = !has_byte_order && std::any_of(made->point_arrays.begin(), made->point_arrays.end(),
+                                                            [](const Declared &a) { return a.name == ids_of_dolfinx; });
   made->path = path;
   set_files(*made, files_of(path, sources));
   return made;
@@ -176,6 +185,20 @@ void check_arrays(const riis_vtk_pieces &pieces, const std::string &path, const 
   }
 }
 
+// Returns the array of global ids, or NULL if there is none.
+vtkDataArray *global_ids_of(vtkUnstructuredGrid *grid) {
+  vtkPointData *data = grid->GetPointData();
+  vtkAbstractArray *array = data->GetGlobalIds();
+  for (const char *name : {"vtkGlobalIds", "GlobalNodeId", "GlobalPointIds"})
+    if (!array) array = data->GetAbstractArray(name);
+  if (!array) return nullptr;
+  const std::string type = xml_type_of(array);
+  if (type.find("Int") == std::string::npos || array->GetNumberOfComponents() != 1)
+    fail(RIIS_FILE_ERROR, joined("point array ", array->GetName(), " has ", array->GetNumberOfComponents(),
+                                 " components of ", type, "; global ids are one whole number for each node"));
+  return vtkDataArray::SafeDownCast(array);
+}
+
 vtkSmartPointer<vtkUnstructuredGrid> read_piece(const riis_vtk_pieces &pieces, std::int64_t piece,
                                                 const CaughtOutput &caught) {
   const std::string &path = view(pieces.files)[piece];
@@ -184,6 +207,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_piece(const riis_vtk_pieces &pieces, s
     check_arrays(pieces, path, "point", grid->GetPointData(), pieces.point_arrays);
     check_arrays(pieces, path, "cell", grid->GetCellData(), pieces.cell_arrays);
   }
+  if (pieces.has_ids_of_dolfinx && !global_ids_of(grid)) grid->GetPointData()->SetActiveGlobalIds(ids_of_dolfinx);
   return grid;
 }
 
@@ -285,20 +309,6 @@ class NodeRoles {
   vtkNew<vtkIdList> stream_;
   std::int64_t n_cells_ = 0;
 };
-
-// Returns the array of global ids, or NULL if there is none.
-vtkDataArray *global_ids_of(vtkUnstructuredGrid *grid) {
-  vtkPointData *data = grid->GetPointData();
-  vtkAbstractArray *array = data->GetGlobalIds();
-  for (const char *name : {"vtkGlobalIds", "GlobalNodeId", "GlobalPointIds"})
-    if (!array) array = data->GetAbstractArray(name);
-  if (!array) return nullptr;
-  const std::string type = xml_type_of(array);
-  if (type.find("Int") == std::string::npos || array->GetNumberOfComponents() != 1)
-    fail(RIIS_FILE_ERROR, joined("point array ", array->GetName(), " has ", array->GetNumberOfComponents(),
-                                 " components of ", type, "; global ids are one whole number for each node"));
-  return vtkDataArray::SafeDownCast(array);
-}
 
 void copy_ids(vtkDataArray *from, std::int64_t *to) {
   switch (from->GetDataType()) {
