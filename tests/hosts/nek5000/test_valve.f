@@ -62,6 +62,7 @@ c     (2x, 5y, 0), and th = K dt/1.5 / (rho + K dt/1.5) is 2/3.
       call ensure_ends(-1.,1.,600.,-1.)
       call ensure_ends(1.,1.,0.,0.)
       call ensure_ends(1.,-1.,600.,0.)
+      call ensure_drive
       write(6,*) 'valve: fine'
       end
 c-----------------------------------------------------------------------
@@ -75,7 +76,7 @@ c     to. At the inlet, where blood has the mean velocity 3, it is 600.
       include 'RIISV'
       integer e
       real most
-      common /ends/ uin,uout
+      common /ends/ uin,uout,across,pnext
       istep = 1
       uparam(15) = 600.
       uin = 3.
@@ -96,4 +97,36 @@ c     to. At the inlet, where blood has the mean velocity 3, it is 600.
          call close(bfz(2,3,iz,e),b*.001,'its velocity')
       enddo
       enddo
+      end
+c-----------------------------------------------------------------------
+      subroutine ensure_drive
+c     Blood that follows the pressure without a loss, in a pipe of the
+c     area 2, has the flow of the wave, and rests while the leaflets
+c     move.
+      include 'SIZE'
+      include 'TOTAL'
+      real mean
+      common /ends/ uin,uout,across,pnext
+      uparam(7) = 90.
+      across = 2.
+      mean = 0.
+      total = 0.
+      do i=0,699
+         call valve_drive(i*dt,mean,p)
+         mean = mean+p*dt/(1.06*(uparam(14)-uparam(11)))
+         call valve_opening((i+1)*dt,o)
+         if (o.lt..9) call ensure(abs(mean).lt..2,'leaflets and blood')
+         if (i.eq.309) call ensure(abs(mean-45.).lt..5,'the peak')
+         total = total+2.*mean*dt
+      enddo
+      call ensure(abs(total-90.*.13).lt..1,'the volume of the beat')
+c     Blood that is too fast is held back.
+      call valve_drive(.31,0.,p)
+      call valve_drive(.31,1.,q)
+      call close(p-q,1.06*(uparam(14)-uparam(11))/.02,'the drive')
+      call valve_drive(.75,mean,p)
+      call close(p,-uparam(4),'the pressure on the closed valve')
+      uparam(3) = .5
+      call valve_drive(.3,mean,p)
+      call close(p,uparam(4),'the pressure on a held valve')
       end
