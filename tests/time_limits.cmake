@@ -7,7 +7,7 @@
 #   riis_test_timeout_script   the limit of a script that runs the program or compiles many times
 #   riis_test_timeout_long     the limit of tests that have to end with RIIS_TEST_LONG=1
 # With sanitizers each test has at least three times its usual limit, and with the thread sanitizer six times. The emulator of
-# ./run arm64 needs 7 to 20 times as long as a processor, so there a limit is five times as long.
+# ./run arm64 needs 7 to 20 times as long as a processor, and up to 40 times for pictures. There a limit is ten times as long.
 # A test that is a script and states no limit has CTest's limit, 1500.
 set(riis_test_timeout 300) # needs at most 30
 set(riis_test_timeout_saturne 800) # example_code_saturne needs at most 80
@@ -16,7 +16,7 @@ set(riis_test_timeout_script 1200) # needs at most 120
 set(riis_test_timeout_long 3600) # no sanitizer runs with this variable
 set(riis_test_timeout_factor 1)
 if(CMAKE_CROSSCOMPILING)
-  set(riis_test_timeout_factor 5)
+  set(riis_test_timeout_factor 10)
 elseif(RIIS_SANITIZE MATCHES "thread")
   set(riis_test_timeout_factor 6)
 elseif(RIIS_SANITIZE)
