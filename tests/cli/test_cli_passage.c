@@ -128,7 +128,7 @@ TEST(test_flow) {
   assert_true(fabs(json_number(program_out, "leak") - 20 * 0.1 / 500 * closed_area) <= 1e-12);
   const double half_thickness = json_number(program_out, "half_thickness");
   assert_true(fabs(json_number(cells, "mean") * json_number(cells, "mean_edge") - 2 * half_thickness) <= 1e-12);
-  assert_true(json_number(cells, "least") <= json_number(cells, "mean") && json_number(cells, "n_leaking_edges") > 0);
+  assert_true(json_number(cells, "least") <= json_number(cells, "mean") && json_number(cells, "n_edges") > 0);
   assert_true(json_has_text(first, "state", "\"found\""));
   char typed[32];
   snprintf(typed, sizeof typed, "%.17g", json_number(first, "opening"));
