@@ -65,7 +65,9 @@ void MovingValve::mark(FileNodes &nodes, int32_t fields) {
 Surface MovingValve::closed_surface() const {
   const Valve closed = copy_of(source_.valve);
   check(riis_valve_set_scalar(closed, "opening", 0), subject());
-  return create<Surface>(riis_surface_create, closed, &options().surface_options);
+  Surface surface;
+  if (riis_surface_create(closed, &options().surface_options, surface.out()) != RIIS_OK) return {};
+  return surface;
 }
 
 double MovingValve::largest_speed() const {
