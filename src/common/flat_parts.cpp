@@ -141,19 +141,19 @@ void Finder::fit(Part &part) const {
   if (part.area > 0) part.plane = {unit_vector(area), 1 / part.area * centre};
 }
 
-bool Finder::is_in(const Plane &plane, std::int64_t i, double tolerance) const {
+bool Finder::is_in(const Plane &plane, std::int64_t triangle, double tolerance) const {
   for (std::size_t k = 0; k < 3; ++k)
-    if (!(std::abs(plane.distance_of(all_.corner(i, k))) <= tolerance)) return false;
+    if (!(std::abs(plane.distance_of(all_.corner(triangle, k))) <= tolerance)) return false;
   static const double least_cosine = sine_cosine_degrees(most_lean).cosine;
-  return dot(view(normals_)[i], plane.normal) >= least_cosine || is_thin(i);
+  return dot(view(normals_)[triangle], plane.normal) >= least_cosine || is_thin(triangle);
 }
 
 // The normal of a triangle with so little height says nothing.
-bool Finder::is_thin(std::int64_t i) const {
+bool Finder::is_thin(std::int64_t triangle) const {
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k)
-    longest = std::max(longest, norm(all_.corner(i, (k + 1) % 3) - all_.corner(i, k)));
-  return 2 * view(areas_)[i] <= 1e-6 * size_ * longest;
+    longest = std::max(longest, norm(all_.corner(triangle, (k + 1) % 3) - all_.corner(triangle, k)));
+  return 2 * view(areas_)[triangle] <= 1e-6 * size_ * longest;
 }
 
 Part Finder::grown(std::int64_t seed, double tolerance) {

@@ -205,7 +205,8 @@ void Marking::take_states_for_outside() {
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     sums_[i].outside.emplace_back(valves_[i]);
     if (!(valves_[i].opening().value_or(0) > 0)) continue;
-    if (const Surface closed = valves_[i].closed_surface()) sums_[i].outside_closed.emplace(valves_[i].options(), closed, 0);
+    if (const Surface closed = valves_[i].closed_surface())
+      sums_[i].outside_closed.emplace(valves_[i].options(), closed, 0);
   }
   if (!all_.is_series()) return;
   move_to_first(times_, valves_, std::greater<>());
