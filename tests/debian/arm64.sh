@@ -56,7 +56,6 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 foreach(kind LIBRARY INCLUDE PACKAGE)
   set(CMAKE_FIND_ROOT_PATH_MODE_\${kind} ONLY)
 endforeach()
-set(RIIS_PKG_CONFIG $1/bin/pkg-config CACHE FILEPATH "")
 set(MPI_C_COMPILER $1/bin/mpicc)
 set(MPI_CXX_COMPILER $1/bin/mpicxx)
 set(MPI_Fortran_COMPILER $1/bin/mpifort)
@@ -103,7 +102,8 @@ configure() {
   write_toolchain "$folder" >"$folder/toolchain.new"
   cmp -s "$folder/toolchain.new" "$folder/toolchain.cmake" || mv "$folder/toolchain.new" "$folder/toolchain.cmake"
   cd "$source"
-  cmake --preset test -B "$folder/build" -D CMAKE_TOOLCHAIN_FILE="$folder/toolchain.cmake"
+  cmake --preset test -B "$folder/build" -D CMAKE_TOOLCHAIN_FILE="$folder/toolchain.cmake" \
+    -D RIIS_PKG_CONFIG="$folder/bin/pkg-config"
 }
 
 build() {
