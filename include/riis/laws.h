@@ -118,8 +118,8 @@ typedef struct riis_opening_angle {
   double flow_gain;     /* K_q, >= 0 */
   double friction;      /* K_f, >= 0 */
   double vortex_gain;   /* K_v, >= 0 */
-  double angle_min;     /* degrees, 0 to 90: closed. Default 0 */
-  double angle_max;     /* degrees, above angle_min, at most 90: open. Default 75 */
+  double angle_min;     /* the angle of the closed valve in degrees, 0 to 90. Default 0 */
+  double angle_max;     /* the angle of the open valve in degrees, above angle_min, at most 90. Default 75 */
 } riis_opening_angle;
 RIIS_API riis_status riis_opening_angle_init(riis_opening_angle *law, int64_t struct_size); /* the defaults */
 /* The state of the angle law. */

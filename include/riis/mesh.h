@@ -125,7 +125,7 @@ typedef struct riis_mesh_faces {
   int64_t n_faces;         /* >= 0 */
   const void *owner;       /* face i joins the cells owner[i * stride] and neighbor[i * stride] */
   const void *neighbor;    /* the second cell; index_base - 1 (-1 or 0) for a face at the boundary, which joins nothing */
-  int64_t stride;          /* entries from face to face, 1 to 1024: 1, the default, or 2 for face_cells(2, n_faces) */
+  int64_t stride;          /* entries from one face to the next, 1 to 1024. Default 1; face_cells(2, n_faces) has 2 */
   int32_t id_bits;         /* of owner and neighbor */
   int32_t index_base;      /* of owner and neighbor */
   int32_t n_threads;       /* default 0 */

@@ -83,8 +83,9 @@ typedef struct riis_placement {
   double position_error;     /* standard error of the position of the valve's origin, mesh units */
   int64_t worst_landmark_id; /* the landmark with the largest residual */
   int32_t n_undetermined;    /* the number of parameters with RIIS_SIZE_UNDETERMINED */
-  int32_t n_as_annulus;      /* the number of trigones behind the anterior horn, where the valve has none. They count as
-                                points of the annulus, and do not say how long IT_distance is */
+  int32_t n_as_annulus;      /* the number of given trigones that lie behind the anterior horn. The model has no
+                                trigones there, so these count as points of the annulus, and do not say how
+                                long IT_distance is */
 } riis_placement;
 /* The caller's arrays for the results of riis_place. NULL arrays, the default, are not written. */
 typedef struct riis_placement_arrays {

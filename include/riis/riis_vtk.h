@@ -154,8 +154,8 @@ RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, do
  *   n_chosen  the number of cells with such a value; only volume cells count if the mesh has some. NULL refuses none
  * Errors: RIIS_INVALID_ARGUMENT if there is no such array or name; the mesh is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_choose_cells(riis_vtk_mesh *mesh, const char *where, int64_t *n_chosen);
-/* Gives a cell array that seems to tell domains apart: 2 to 16 whole numbers at the volume cells, two of which are at
- * cells of one type with a common node. Arrays whose names speak of something else, such as "rank", do not count.
+/* Gives a cell array that probably numbers domains. Volume cells have 2 to 16 whole numbers in it, and two cells of
+ * one type with a common node have different numbers. Arrays named for something else, such as "rank", do not count.
  *   array     its name, until the next call or the mesh's destruction. "" if there is none
  *   n_values  the number of its values; 0 if there is none
  *   values    (n_values), ascending. NULL if they are not wanted */
@@ -307,7 +307,7 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
  * - Leaflets and riis_attached come from the first file. `leaflets` names their cell array, as in riis_vtk_surface_read.
  * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly the same
  *   position in the first file become one vertex. They must also share one position in each of the other
- *   files. If leaflets touch at corners in the first file and separate later, use files with points instead.
+ *   files. If leaflets touch at corners in the first file and separate later, use .vtp files, which number points.
  * - Times ascend strictly, and coordinates are finite, as in riis_keyframe_arrays.
  * Errors: RIIS_FILE_ERROR naming the file and the difference, with its value. */
 typedef struct riis_vtk_motion riis_vtk_motion;
@@ -432,7 +432,7 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  *   one of them. Other cells with a marked node show only their far side, in a pale colour. If the mesh has
  *   volume cells, flat cells are not drawn.
  * - The wall is a translucent shell in both panels. Its flat ends are open: flat parts with a sharp rim, such as
- *   an inlet, are left out. A wall of flat parts alone, such as a box, is whole.
+ *   an inlet, are left out. A wall that consists of flat parts, such as a box, is drawn whole.
  * - Captions name the half thickness and count the marked nodes.
  * - Axes and a scale bar are below the panels. If a mesh is much longer than the surface, the picture cuts
  *   it at dashed lines. Pictures lower than 120 pixels have no texts, axes or bar.

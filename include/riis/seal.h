@@ -85,7 +85,7 @@ typedef struct riis_passage {
   double distance;  /* the distance of node_id. A half thickness of at least this distance closes the passage between
                        these triangles, and a smaller one leaves it open. 0 without a path. With an offset o, nodes are
                        ordered by the half thickness that marks them, and this is the half thickness of node_id. It is
-                       s / (1 + o) for a signed distance s of at least 0, and -s / (1 - o) below */
+                       s / (1 + o) for a signed distance s >= 0, and -s / (1 - o) for s < 0 */
   double point[3];  /* the coordinates of node_id; 0 without a path */
   double seconds;   /* wall time of riis_find_passage */
   int32_t state;    /* RIIS_PASSAGE_* */

@@ -31,8 +31,8 @@ enum {
   RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
   RIIS_LEAFLET_HOUSING = 2,     /* bileaflet: the housing's wall, if ring_height is not 0 */
   RIIS_LEAFLET_SKIRT = 3        /* the skirt of a valve of any kind but bileaflet, if skirt_length is not 0. It has this id,
-                                   or the largest leaflet_id + 1 if that is larger, as for four cusps. The skirt of arrays
-                                   has its id by the same rule. riis_surface_info has the id */
+                                   or the largest leaflet_id + 1 if that is larger, as for four cusps. A skirt of arrays
+                                   gets its id by the same rule. riis_surface_info tells the id */
 };
 
 /* How triangles of zero area in the caller's arrays are treated. */

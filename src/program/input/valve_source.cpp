@@ -371,7 +371,7 @@ std::string first_bytes_of(const std::string &path, std::size_t n) {
   return bytes;
 }
 
-// Returns the first mesh of a .pvd, with the words that lead to it, or "" if the list cannot be read.
+// Returns the end of a refusal, such as ", such as step0.vtu", with the first mesh of a .pvd. "" if the .pvd names none.
 std::string first_file_of_list(const std::string &path) {
   constexpr std::size_t most_bytes = 65536;
   const std::string text = first_bytes_of(path, most_bytes), begin = " file=\"";

@@ -11,7 +11,7 @@ namespace riis::program {
 namespace {
 
 constexpr double dolfinx_step = 0.002;  // s
-// Processor time of a cell and a step, measured (docs/patient_fenicsx.md, "What was run").
+// The measured processor time per cell and step (docs/patient_fenicsx.md, "What was run").
 constexpr double dolfinx_seconds = 4e-5;
 
 Json keys_of(const PressureCurve &curve) {

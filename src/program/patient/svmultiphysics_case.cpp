@@ -22,7 +22,7 @@ constexpr int steps_between_files = 10;
 // The triangles of the leaflets, in half thicknesses. K of the solver's own engine is then within 5 %, and riis as its engine is
 // exact (docs/export.md, "How fine the triangles must be"). Finer triangles would take the solver hours.
 constexpr double largest_edge = 0.5;
-// Processor time of a cell and a step, measured (docs/patient_svmultiphysics.md, "What it costs").
+// The measured processor time per cell and step (docs/patient_svmultiphysics.md, "What it costs").
 constexpr double seconds_of_cell = 7e-5;
 constexpr int n_modes = 128;  // of a curve of pressure, which differs from its polygon by less than 0.5 mmHg
 

@@ -87,7 +87,7 @@ class VelocityBend {
   // The control points of `velocity` are the velocities of the control points of the curve's spans.
   VelocityBend(const Curve &curve, const Vector<Bezier> &velocity);
 
-  // Estimates the largest distance of the velocity from its linear interpolation between shares u0 and u1.
+  // Estimates how far the velocity is from linear interpolation between u0 and u1, which are shares of the curve.
   double off_linear(double u0, double u1) const;
 
  private:
