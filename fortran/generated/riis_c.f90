@@ -569,7 +569,7 @@ module riis_c
                                    !! passage between these triangles, and a smaller one leaves it open. 0 without a
                                    !! path. With an offset o, nodes are ordered by the half thickness that marks them,
                                    !! and this is the half thickness of node_id. It is s / (1 + o) for a signed distance
-                                   !! s of at least 0, and -s / (1 - o) below
+                                   !! s >= 0, and -s / (1 - o) for s < 0
     real(c_double) :: point(3)     !< the coordinates of node_id; 0 without a path
     real(c_double) :: seconds      !< wall time of riis_find_passage
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
@@ -712,9 +712,9 @@ module riis_c
     real(c_double) :: position_error        !< standard error of the position of the valve's origin, mesh units
     integer(c_int64_t) :: worst_landmark_id !< the landmark with the largest residual
     integer(c_int32_t) :: n_undetermined    !< the number of parameters with RIIS_SIZE_UNDETERMINED
-    integer(c_int32_t) :: n_as_annulus      !< the number of trigones behind the anterior horn, where the valve has
-                                            !! none. They count as points of the annulus, and do not say how long
-                                            !! IT_distance is
+    integer(c_int32_t) :: n_as_annulus      !< the number of given trigones that lie behind the anterior horn. The model
+                                            !! has no trigones there, so these count as points of the annulus, and do
+                                            !! not say how long IT_distance is
   end type riis_placement
 
   !> c_null_ptr for arrays that are not wanted

@@ -5761,8 +5761,9 @@ subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vorte
   real(c_double), intent(in) :: flow_gain                 !< K_q, >= 0.
   real(c_double), intent(in) :: friction                  !< K_f, >= 0.
   real(c_double), intent(in) :: vortex_gain               !< K_v, >= 0.
-  real(c_double), intent(in) :: angle_min                 !< Degrees, 0 to 90: closed. Usually 0.
-  real(c_double), intent(in) :: angle_max                 !< Degrees, above angle_min, at most 90: open. Usually 75.
+  real(c_double), intent(in) :: angle_min                 !< The angle of the closed valve in degrees, 0 to 90. Usually 0.
+  real(c_double), intent(in) :: angle_max                 !< The angle of the open valve in degrees, above angle_min, at most
+                                                          !! 90. Usually 75.
   real(c_double), intent(in) :: time                      !< At least state(1).
   real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
   real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.

@@ -47,7 +47,7 @@ static int read_apart(const char *name, const char *what) {
   struct rusage used;
   assert_true(wait4(child, &ended, 0, &used) == child);
   if (!WIFEXITED(ended) || WEXITSTATUS(ended) > 1) fail_msg("%s: the process ends with %#x", what, (unsigned)ended);
-  if (!is_sanitized() && used.ru_maxrss > most_kilobytes) fail_msg("%s: %ld kB", what, used.ru_maxrss);
+  if (!is_short_test() && used.ru_maxrss > most_kilobytes) fail_msg("%s: %ld kB", what, used.ru_maxrss);
   return WEXITSTATUS(ended) == 0;
 }
 
