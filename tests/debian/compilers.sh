@@ -41,7 +41,7 @@ bits() {
 }
 
 # all_files FOLDER: reads all files of the preset default.
-all_files() { configure "$1" default && "$source/tests/debian/read_sources.py" "$1" c++17 c++20 c++23; }
+all_files() { configure "$1" default && "$source/tests/debian/read_sources.py" "$1" c++17 c++20 c++2b; }
 
 # tried LOG COMMAND...: runs the command with its output in a log. Returns its status, and prints where the log is if it fails.
 tried() {
@@ -64,7 +64,8 @@ row() {
     status=1
   fi
   if [[ $mode != quick ]]; then
-    more=$(tried "$name.standards.log" "$source/tests/debian/read_sources.py" "$name" c++20 c++23) || status=1
+    # clang 14 knows C++23 by its earlier name only, and all compilers know that.
+    more=$(tried "$name.standards.log" "$source/tests/debian/read_sources.py" "$name" c++20 c++2b) || status=1
     more=" | ${more:-C++20 and C++23: no warning}"
   fi
   if [[ $mode == all ]]; then

@@ -49,12 +49,12 @@ constexpr unsigned n_pools = 16;
 class ShortLock {
  public:
   void lock() noexcept {
-    while (is_held_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
+    while (is_held_.exchange(true, std::memory_order_acquire)) std::this_thread::yield();
   }
-  void unlock() noexcept { is_held_.clear(std::memory_order_release); }
+  void unlock() noexcept { is_held_.store(false, std::memory_order_release); }
 
  private:
-  std::atomic_flag is_held_ = ATOMIC_FLAG_INIT;
+  std::atomic<bool> is_held_{false};
 };
 
 struct alignas(64) Pool {
