@@ -512,7 +512,12 @@ PatchSet with_own_patches(const PatchSet &state, const PatchSet &like) {
   return made;
 }
 
-void check_same_build(const PatchSet &now, const PatchSet &before, const StateNames &names) {
+void check_same_build(const PatchSet &now, const PatchSet &before) {
+  if (!have_same_build(now, before))
+    fail(RIIS_INVALID_PARAMETER, "two states have other images of patches: they must be states of one valve");
+}
+
+void check_same_ids(const PatchSet &now, const PatchSet &before, const StateNames &names) {
   if (have_same_build(now, before)) return;
   Vector<std::int32_t> ids = ids_of(now), ids_before = ids_of(before);
   if (ids.size() != ids_before.size())

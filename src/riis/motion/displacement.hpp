@@ -179,12 +179,13 @@ Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<doubl
 
 // Returns whether patch i of one state has the images of patch i of the other.
 bool have_same_build(const PatchSet &now, const PatchSet &before);
-// Gives each image of a state a patch of its own. The patches follow each other as the images of `like` do, which have the same
-// ids. Equal cusps of coapting valves are images of one half, and unequal cusps have patches of their own. So two states
-// of one valve may differ in their build, and only their patches of this kind correspond.
+// Gives each image of a state a patch of its own, in the order of the images of `like`, which has the same ids. Two states of
+// one valve may differ in their build: equal cusps are images of one half, and unequal cusps have patches of their own.
 PatchSet with_own_patches(const PatchSet &state, const PatchSet &like);
-// Fails with RIIS_INVALID_PARAMETER unless both states have the same build, or at least images with the same ids. The message
-// names the states.
-void check_same_build(const PatchSet &now, const PatchSet &before, const StateNames &names = {"valve_before", "valve"});
+// Fails with RIIS_INVALID_PARAMETER unless both states have the same build.
+void check_same_build(const PatchSet &now, const PatchSet &before);
+// Fails with RIIS_INVALID_PARAMETER unless the images of both states have the same ids. with_own_patches then gives both states
+// one build. The message names the states.
+void check_same_ids(const PatchSet &now, const PatchSet &before, const StateNames &names = {"valve_before", "valve"});
 
 }  // namespace riis

@@ -112,7 +112,7 @@ void add_direction(const ValveDirection &direction, int n_threads, Surface &surf
     const StateNames names{name, "the surface's valve"};
     state.check_is_state_of(*source.kind, source.is_warped, names);
     PatchSet made = state.make_patches_unsearched(name);
-    check_same_build(*surface.patches(), made, names);
+    check_same_ids(*surface.patches(), made, names);
     return made;
   };
   const PatchSet after = patches_of(direction.after, "valve_after");

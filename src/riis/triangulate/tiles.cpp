@@ -316,7 +316,7 @@ Vector<std::size_t> Tiles::complete_triangles() {
 Triangulation checked(const PatchSet &set, const Triangulation &asked) {
   Triangulation how = asked;
   how.max_error = error_left(set, asked.max_error);
-  if (how.earlier) check_same_build(set, how.earlier->patches_before);
+  if (how.earlier) check_same_ids(set, how.earlier->patches_before);
   return how;
 }
 
