@@ -146,6 +146,14 @@ std::vector<double> openings_from_0_to_1(std::int32_t n) {
 
 Valve copy_of(const riis_valve *valve) { return create<Valve>(riis_valve_copy, valve); }
 
+Surface surface_at(riis_valve *valve, double opening, const riis_surface_options &how) {
+  check(riis_valve_set_scalar(valve, "opening", opening));
+  Surface surface;
+  const riis_status status = riis_surface_create(valve, &how, surface.out());
+  if (status != RIIS_INVALID_PARAMETER && status != RIIS_LIMIT_EXCEEDED) check(status);
+  return surface;
+}
+
 // Tries the valve at opening 1 only. A valve that is valid at 0 and refused at 1 has only one state. Other faults are reported
 // when the surface is made.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how) {

@@ -56,6 +56,9 @@ double opening_of(const riis_valve *valve);
 // Returns n openings from 0 to 1.
 std::vector<double> openings_from_0_to_1(std::int32_t n);
 Valve copy_of(const riis_valve *valve);
+// Returns the surface at an opening that the user did not request, or null if the valve cannot have that opening. The call leaves
+// the valve at this opening.
+Surface surface_at(riis_valve *valve, double opening, const riis_surface_options &how);
 // Returns the library's reason if the valve cannot open, or "" if it can. With these options, the valve must make a surface at
 // opening 0. The call leaves the valve at opening 1.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how);

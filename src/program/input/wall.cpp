@@ -168,9 +168,11 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   if (!options.skirt) return;
   if (options.wall.empty()) {
     check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
-    // The library knows the length in the valve's own unit only.
+    // The library knows the length in the valve's own unit only. It tests the length before it makes triangles.
+    riis_surface_options how = options.surface_options;
+    how.triangulation = RIIS_TRIANGULATION_ADAPTED;
     Surface trial;
-    if (riis_surface_create(valve, &options.surface_options, trial.out()) != RIIS_OK &&
+    if (riis_surface_create(valve, &how, trial.out()) != RIIS_OK &&
         std::string(riis_last_error()).rfind("skirt_length is ", 0) == 0)
       refuse_usage(subject + ": " + shortest(*options.skirt) +
                    (options.unit ? std::string(" ") + name_of(*options.unit) : "") + ": " + riis_last_error());

@@ -75,16 +75,6 @@ void warn_of_crossings(const ValveOptions &options, const riis_surface_info &sur
        place_text(options, found.deepest_point, found.total_length / static_cast<double>(found.n_pairs)) + advice);
 }
 
-// Returns the surface at an opening, or null if the valve cannot have that opening. An impossible opening is no error here,
-// because the user did not request it.
-Surface surface_at(riis_valve *valve, double opening, const riis_surface_options &how) {
-  check(riis_valve_set_scalar(valve, "opening", opening));
-  Surface surface;
-  const riis_status status = riis_surface_create(valve, &how, surface.out());
-  if (status != RIIS_INVALID_PARAMETER && status != RIIS_LIMIT_EXCEEDED) check(status);
-  return surface;
-}
-
 }  // namespace
 
 CrossingReport look_for_crossings(const ValveOptions &options, const riis_valve *valve, const riis_surface *surface,

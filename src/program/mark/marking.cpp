@@ -202,17 +202,23 @@ void Marking::move_to_least_openings() { move_to_first(times_, valves_, std::les
 
 // The leaflets may reach beyond the wall where the valve is closed, and also where it is open.
 void Marking::take_states_for_outside() {
-  for (std::size_t i = 0; i < valves_.size(); ++i) {
-    sums_[i].outside.emplace_back(valves_[i]);
-    if (!(valves_[i].opening().value_or(0) > 0)) continue;
-    if (const Surface closed = valves_[i].closed_surface())
-      sums_[i].outside_closed.emplace(valves_[i].options(), closed, 0);
-  }
+  for (std::size_t i = 0; i < valves_.size(); ++i) sums_[i].outside.emplace_back(valves_[i]);
   if (!all_.is_series()) return;
   move_to_first(times_, valves_, std::greater<>());
   for (std::size_t i = 0; i < valves_.size(); ++i)
     if (valves_[i].opening() != report_.valves[i].opening) sums_[i].outside.emplace_back(valves_[i]);
   move_to_least_openings();
+}
+
+LeafletsOutside *Marking::closed_state(std::size_t i) {
+  ValveSums &sums = sums_[i];
+  if (!sums.outside_closed && sums.outside.front().opening().value_or(0) > 0) {
+    const MarkOptions &of_valve = valves_[i].options();
+    const Valve copy = copy_of(valves_[i].source().valve);
+    if (const Surface closed = surface_at(copy, 0, of_valve.surface_options))
+      sums.outside_closed.emplace(of_valve, closed, 0);
+  }
+  return sums.outside_closed ? &*sums.outside_closed : nullptr;
 }
 
 void Marking::move_to_step(std::size_t step) {
@@ -261,7 +267,7 @@ void Marking::measure(Piece &piece) {
         !mesh_.is_whole() || std::any_of(sums.outside.begin(), sums.outside.end(), [](const LeafletsOutside &state) {
           return state.share_so_far() > most_outside;
         });
-    if (sums.outside_closed && may_be_outside) sums.outside_closed->add(piece);
+    if (LeafletsOutside *const closed = may_be_outside ? closed_state(i) : nullptr) closed->add(piece);
     node_counts_.add(piece.nodes, list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT), within_limit(i));
     std::vector<std::int64_t> regions;
     if (wants_measures_ && piece.nodes.is_whole() && is_closed(valves_[i]))
@@ -412,7 +418,6 @@ void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
 void Marking::report_outside(std::size_t i, const MeshCounts &counts) {
   std::optional<OutsideReport> &report = report_.valves[i].outside;
   std::optional<OutsideReport> closed;
-  if (sums_[i].outside_closed) closed = sums_[i].outside_closed->report();
   for (const LeafletsOutside &state : sums_[i].outside) {
     const OutsideReport found = state.report();
     if (found.opening == 0.0) closed = found;
@@ -420,6 +425,8 @@ void Marking::report_outside(std::size_t i, const MeshCounts &counts) {
   }
   if (counts.n_volume_cells == 0) report.reset();
   if (!report) return;
+  if (report->share > most_outside)
+    if (const LeafletsOutside *const state = closed_state(i)) closed = state->report();
   if (report->opening == report_.valves[i].opening) report->opening.reset();
   if (n_marked_[marked_at(most_steps_[i], i)] > 0)
     warn_of_outside(*report, closed, report_.valves[i].surface.half_thickness, all_.surface_of(i));

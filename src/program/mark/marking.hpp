@@ -58,7 +58,7 @@ class Marking {
     std::optional<double> closed_area{};
     std::vector<std::vector<SharedNode>> shared{};    // by piece, with the open regions of this valve
     std::vector<LeafletsOutside> outside{};           // at the least opening, and in a series at the largest
-    std::optional<LeafletsOutside> outside_closed{};  // of a valve that is always open
+    std::optional<LeafletsOutside> outside_closed{};  // of a valve that is always open, once it matters
   };
 
   const MarkOptions &options() const { return all_.options; }
@@ -74,6 +74,8 @@ class Marking {
 
   void move_to_least_openings();
   void take_states_for_outside();
+  // Returns the closed state of a valve that is always open. NULL if the valve closes, or if its sizes allow no closed valve.
+  LeafletsOutside *closed_state(std::size_t i);
   void find_neighbors_for_search(Piece &piece);
   void mark_at_all_times(Piece &piece);
   void set_arrays(riis_vtk_mesh *file) const;

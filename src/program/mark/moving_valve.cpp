@@ -62,14 +62,6 @@ void MovingValve::mark(FileNodes &nodes, int32_t fields) {
   check(riis_mark_nodes(surface_, nodes.mesh(), &how, result_), options().mesh);
 }
 
-Surface MovingValve::closed_surface() const {
-  const Valve closed = copy_of(source_.valve);
-  check(riis_valve_set_scalar(closed, "opening", 0), subject());
-  Surface surface;
-  if (riis_surface_create(closed, &options().surface_options, surface.out()) != RIIS_OK) return {};
-  return surface;
-}
-
 double MovingValve::largest_speed() const {
   const riis_triangles triangles = triangles_of(surface_);
   const double *velocity = triangles.velocity;

@@ -35,7 +35,6 @@ class MovingValve {
   riis_marks *result() const { return result_.get(); }
   std::optional<double> opening() const;  // nothing for a surface from a file
   double largest_speed() const;           // the largest speed of a vertex
-  Surface closed_surface() const;         // closed; empty if the sizes allow no closed valve. The valve has an opening
   riis_mark_stats stats() const { return stats_of(result_); }
 
   std::optional<CrossingReport> crossings{};  // set if crossings were looked for

@@ -36,11 +36,11 @@ void LeafletsOutside::add(const Piece &piece) {
           piece.path);
 }
 
-double LeafletsOutside::share_so_far() const {
+double LeafletsOutside::share_of(const std::vector<std::uint8_t> &is_outside) const {
   double all = 0, outside = 0;
-  for (std::size_t i = 0; i < is_outside_.size(); ++i) {
+  for (std::size_t i = 0; i < is_outside.size(); ++i) {
     all += view(samples_.area)[i];
-    if (view(is_outside_)[i] != 0) outside += view(samples_.area)[i];
+    if (view(is_outside)[i] != 0) outside += view(samples_.area)[i];
   }
   return all > 0 ? outside / all : 0;
 }
@@ -50,19 +50,17 @@ OutsideReport LeafletsOutside::report() const {
     double all = 0, outside = 0;
   };
   std::map<std::int32_t, Area> by_leaflet;
-  Area sum;
   const std::vector<std::uint8_t> of_ranks = ranks::gather(is_outside_);
   const std::size_t n = is_outside_.size();
+  std::vector<std::uint8_t> is_outside(n, 1);
   for (std::size_t i = 0; i < n; ++i) {
-    bool is_out = true;
-    for (std::size_t at = i; at < of_ranks.size(); at += n) is_out = is_out && of_ranks[at] != 0;
-    for (Area *const area : {&sum, &by_leaflet[samples_.leaflet[i]]}) {
-      area->all += samples_.area[i];
-      if (is_out) area->outside += samples_.area[i];
-    }
+    for (std::size_t at = i; at < of_ranks.size(); at += n) is_outside[i] &= of_ranks[at];
+    Area &area = by_leaflet[samples_.leaflet[i]];
+    area.all += samples_.area[i];
+    if (is_outside[i] != 0) area.outside += samples_.area[i];
   }
   OutsideReport made;
-  if (sum.all > 0) made.share = sum.outside / sum.all;
+  made.share = share_of(is_outside);
   made.opening = opening_;
   for (const auto &[leaflet, area] : by_leaflet)
     if (area.outside > 0) made.leaflets.push_back({name_of_leaflet(options_, info_, leaflet), area.outside / area.all});

@@ -22,12 +22,15 @@ class LeafletsOutside {
   // Takes another surface of a valve with these options.
   LeafletsOutside(const MarkOptions &options, const riis_surface *surface, std::optional<double> opening);
   void add(const Piece &piece);
+  std::optional<double> opening() const { return opening_; }
   // Returns the share that is outside this rank's pieces so far.
-  double share_so_far() const;
+  double share_so_far() const { return share_of(is_outside_); }
   // Returns the shares of all ranks' pieces.
   OutsideReport report() const;
 
  private:
+  double share_of(const std::vector<std::uint8_t> &is_outside) const;
+
   const MarkOptions &options_;
   riis_surface_info info_;
   std::optional<double> opening_;

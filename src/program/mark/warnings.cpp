@@ -314,15 +314,12 @@ bool remove_bumps(riis_valve *valve) {
 
 // Returns the closed valve with a band that does not step aside, or null if the valve cannot close.
 Surface closed_surface(const ValveOptions &options, riis_valve *valve) {
-  check(riis_valve_set_scalar(valve, "opening", 0));
   riis_surface_options how = own_frame(options);
   how.offset = 0;
   how.measure = RIIS_MEASURE_TRIANGLES;
   how.measure_tolerance = RIIS_AUTO;
   how.triangulation = RIIS_TRIANGULATION_ADAPTED;
-  Surface surface;
-  if (riis_surface_create(valve, &how, surface.out()) != RIIS_OK) return nullptr;
-  return surface;
+  return surface_at(valve, 0, how);
 }
 
 // Returns the orifice, and as effective area what is left of it after its edge along the leaflets has moved inwards.
