@@ -56,7 +56,7 @@ class Finder {
   // `faces_outwards` says that the triangles face outwards. Else the wall beside a part counts as behind it.
   Finder(const Triangles &triangles, bool faces_outwards);
 
-  // Returns the flat parts that may be ends, the largest first. The result also has `parts`, which are known before.
+  // Returns the flat parts that may be ends, the largest first. `parts` are known already, and are among them.
   std::vector<Part> find(std::vector<Part> parts);
   // Returns the part that closed a hole.
   Part closed_hole(std::vector<std::int64_t> triangles);

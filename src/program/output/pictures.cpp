@@ -78,8 +78,8 @@ std::string title_of_valve(const ValveOptions &options) {
   return title;
 }
 
-// Returns the title of a picture. The title of a file begins with its base name. The title of a valve begins with the kind, and
-// with a capital as other captions do.
+// Returns the title of a picture. The title of a file begins with its base name. The title of a kind of valve begins with a
+// capital letter, as other captions do.
 std::string picture_title(const ValveOptions &options, const riis_valve *valve, const ValveReport &report) {
   std::string title = surface_title(report);
   title.erase(0, report.surface_name.rfind('/') + 1);

@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // A type of cells: its number in a mixed list, and its names without "_" in lower case. n_nodes is 0 if it varies. The first name
-// is written. The number is 0 if XDMF gives none: dolfinx writes cells of order 3, with VTK's order of nodes.
+// is written. The number is 0 if XDMF gives none, as for cells of order 3, which dolfinx writes with VTK's order of nodes.
 struct Topology {
   int number, vtk_type, n_nodes;
   const char *written;
