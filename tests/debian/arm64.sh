@@ -160,11 +160,12 @@ run_tests() {
   cd "$folder/build"
   rm -f "$folder/results.xml"
   # Random tests make few trials: same_bits compares all results with those of other processors anyhow.
+  # If a process starts programs by posix_spawn at the same time, they crash under PRoot. So ninja starts one compiler at a time.
   # Threads that wait would otherwise take the processors from the threads that compute. Mesa draws without LLVM, whose machine
   # code crashes in the emulator. Rarely, qemu 7.2 waits for its own locks for ever. Such a test reaches its time limit, and then
   # runs again.
   env PATH="$folder/bin:$PATH" CMAKE_TOOLCHAIN_FILE="$folder/toolchain.cmake" \
-    RIIS_TEST_SHORT=1 OMP_WAIT_POLICY=passive GALLIUM_DRIVER=softpipe \
+    RIIS_TEST_SHORT=1 CMAKE_BUILD_PARALLEL_LEVEL=1 OMP_WAIT_POLICY=passive GALLIUM_DRIVER=softpipe \
     PKG_CONFIG_SYSROOT_DIR="$folder/root" PKG_CONFIG_LIBDIR="$folder/root$libraries/pkgconfig:$folder/root/usr/share/pkgconfig" \
     python3 -B "$source/tests/debian/older_calls.py" proot -q qemu-aarch64-static -r / -w "$folder/build" \
     -b "$folder/root$libraries:$libraries" -b "$folder/root/usr/lib/ld-linux-aarch64.so.1:/usr/lib/ld-linux-aarch64.so.1" \

@@ -95,6 +95,9 @@ ProgramEnd run_program(const std::vector<std::string> &words, std::FILE *input,
   std::rewind(messages.get());
   read_lines(messages.get(), [&end](const std::string &line) { end.messages.push_back(line); });
   if (!end.messages.empty()) end.last_message = end.messages.back();
+  // POSIX also lets posix_spawnp start a process that cannot run the program and then ends with this status.
+  constexpr int not_run = 127;
+  if (end.status == not_run && end.messages.empty()) end.error = ENOENT;
   return end;
 }
 
