@@ -84,7 +84,8 @@ static const char *with_sizes(const char *title, const riis_surface *surface) {
 }
 
 /* Compares a picture that the program draws of a valve with a picture that the C interface draws with the expected title. */
-static void expect_title(const char *title, const char *valve_name, const char *kind, const char *setting, const char *value) {
+static void expect_title(const char *title, const char *valve_name, const char *kind, const char *setting,
+                         const char *value) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_vtk_picture_options options;
@@ -160,7 +161,8 @@ TEST(test_valve_views) {
 /* The title must say that the paper's aortic valve is not closed. A disease has its name in place of the kind. */
 TEST(test_titles) {
   expect_title("Aortic valve, opening 0 (the paper's, not closed)", "aortic", "aortic", "--set", "opening=0");
-  expect_title("Aortic valve, opening 0 (the paper's, not closed)", "aortic", "aortic", "--set", "open_radius_ratio=0.9");
+  expect_title("Aortic valve, opening 0 (the paper's, not closed)", "aortic", "aortic", "--set",
+               "open_radius_ratio=0.9");
   expect_title("Aortic valve, opening 0", "aortic", "aortic", "--set", "leaflet_angle=60");
   expect_title("Bicuspid type 0, opening 0", "bicuspid_type_0", "bicuspid", "--set", "annulus=2.741");
 }
