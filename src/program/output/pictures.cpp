@@ -70,7 +70,7 @@ void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOp
 
 namespace {
 
-// Returns a title such as "Mitral valve", or the name of a disease, such as "Mitral clip". For a file, the title is the base name.
+// Returns a title such as "Mitral valve", or a disease such as "Mitral clip". For a file, the title is the base name.
 std::string title_of_valve(const ValveOptions &options) {
   const std::string name = options.surface.empty() ? options.valve : options.surface;
   if (!options.surface.empty() || is_valve_file(options.valve)) return name.substr(name.rfind('/') + 1);
