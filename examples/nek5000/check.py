@@ -94,7 +94,7 @@ def ranks(runs, judge):
 
 
 def brute(runs, judge):
-    for name in ("plate_0", "plate_20_1", "closed", "held_0.02", "held_0.5", "whole", "beat"):
+    for name in ("plate_0", "plate_20_1", "closed", "held_0.02", "held_0.5", "whole"):
         if not os.path.exists(os.path.join(runs, name)):
             continue
         step, triangles, marked, differ, largest = numbers(lines_of(runs, name, "RIIS_BRUTE")[0])

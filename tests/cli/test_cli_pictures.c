@@ -83,14 +83,16 @@ static const char *with_sizes(const char *title, const riis_surface *surface) {
   return text;
 }
 
-/* Compares a picture of the program with a picture that the C interface draws with the expected title. */
-static void expect_title(const char *title, const char *setting, const char *value) {
+/* Compares a picture that the program draws of a valve with a picture that the C interface draws with the expected title. */
+static void expect_title(const char *title, const char *valve_name, const char *kind, const char *setting,
+                         const char *value) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_vtk_picture_options options;
-  static const char *const names[3] = {"right", "left", "non-coronary"};
-  RUN_FINE("surface", "--picture", scratch_path("by_program.png"), setting, value);
-  expect_fine(riis_valve_create("aortic", &valve));
+  static const char *const names[3] = {"right", "left", "non-coronary"}, *const names_of_two[2] = {"cusp 0", "cusp 1"};
+  const int is_bicuspid = strcmp(kind, "bicuspid") == 0;
+  RUN_FINE("surface", "--valve", valve_name, "--picture", scratch_path("by_program.png"), setting, value);
+  expect_fine(riis_valve_create(kind, &valve));
   /* The title contains the value, and the valve in the picture has the same value. */
   const char *const number = strchr(value, '=') + 1;
   char name[64];
@@ -99,8 +101,8 @@ static void expect_title(const char *title, const char *setting, const char *val
   expect_fine(riis_surface_create(valve, NULL, &surface));
   expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
   options.title = with_sizes(title, surface);
-  options.leaflet_names = names;
-  options.n_leaflet_names = 3;
+  options.leaflet_names = is_bicuspid ? names_of_two : names;
+  options.n_leaflet_names = is_bicuspid ? 2 : 3;
   options.unit = "cm";
   expect_fine(riis_vtk_draw(surface, NULL, &options, scratch_path("by_c.png")));
   assert_true(scratch_is_same("by_program.png", "by_c.png"));
@@ -156,11 +158,13 @@ TEST(test_valve_views) {
   }
 }
 
-/* The title must say that the paper's aortic valve is not closed. */
+/* The title must say that the paper's aortic valve is not closed. A disease has its name in place of the kind. */
 TEST(test_titles) {
-  expect_title("Aortic valve, opening 0 (the paper's, not closed)", "--set", "opening=0");
-  expect_title("Aortic valve, opening 0 (the paper's, not closed)", "--set", "open_radius_ratio=0.9");
-  expect_title("Aortic valve, opening 0", "--set", "leaflet_angle=60");
+  expect_title("Aortic valve, opening 0 (the paper's, not closed)", "aortic", "aortic", "--set", "opening=0");
+  expect_title("Aortic valve, opening 0 (the paper's, not closed)", "aortic", "aortic", "--set",
+               "open_radius_ratio=0.9");
+  expect_title("Aortic valve, opening 0", "aortic", "aortic", "--set", "leaflet_angle=60");
+  expect_title("Bicuspid type 0, opening 0", "bicuspid_type_0", "bicuspid", "--set", "annulus=2.741");
 }
 
 /* The scale bar shows the unit that the user named. */

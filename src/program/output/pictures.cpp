@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <utility>
 #include <vector>
@@ -69,21 +70,21 @@ void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOp
 
 namespace {
 
-// Returns a title such as "Mitral valve". For a file, the title is the base name.
+// Returns a title such as "Mitral valve", or a disease such as "Mitral clip". For a file, the title is the base name.
 std::string title_of_valve(const ValveOptions &options) {
   const std::string name = options.surface.empty() ? options.valve : options.surface;
   if (!options.surface.empty() || is_valve_file(options.valve)) return name.substr(name.rfind('/') + 1);
-  std::string title = name + " valve";
+  std::string title = options.disease.empty() ? name + " valve" : options.disease;
   title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  std::replace(title.begin(), title.end(), '_', ' ');
   return title;
 }
 
-// Returns the title of a picture. The title of a file begins with its base name. The title of a kind of valve begins with a
-// capital letter, as other captions do.
+// Returns the title of a picture. It begins with the title of the valve, in place of the report's name.
 std::string picture_title(const ValveOptions &options, const riis_valve *valve, const ValveReport &report) {
   std::string title = surface_title(report);
-  title.erase(0, report.surface_name.rfind('/') + 1);
-  if (report.opening && !is_valve_file(report.surface_name)) title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  const bool is_kind = report.opening && !is_valve_file(report.surface_name);
+  title.replace(0, report.surface_name.size() + (is_kind ? std::strlen(" valve") : 0), title_of_valve(options));
   if (is_papers_aortic_valve(options, valve)) title += " (the paper's, not closed)";
   return title;
 }
