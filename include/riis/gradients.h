@@ -14,10 +14,9 @@ extern "C" {
 
 /* ---- Gradients: directions in which the surface of a valve changes ------------------------------------- */
 
-/* Adds a direction in which the surface of a valve changes. It belongs to a parameter, a landmark or a number of the
- * placement.
- *   valve_after, valve_before  two copies of the surface's valve, with the parameter a little larger and a little smaller than
- *                   in the surface. If only the placement changes, both are the same valve
+/* Adds a direction in which the surface of a valve changes: by a parameter, a landmark or a number of the placement.
+ *   valve_after, valve_before  two copies of the surface's valve, with the parameter a little larger and a little smaller than in
+ *                              the surface. If only the placement changes, pass the same valve twice
  *   dp              the parameter's difference from valve_before to valve_after, 1e-30 to 1e30 in magnitude
  *   options_after, options_before  scale, rotation and translation of both states; other fields are ignored. NULL: the
  *                   surface's options
