@@ -160,7 +160,8 @@ Part Finder::grown(std::int64_t seed, double tolerance) {
   Part part;
   part.triangles = {seed};
   fit(part);
-  // At first the plane moves with each triangle. Then the triangles are collected anew in the plane, until they stay.
+  // At first the plane moves with each triangle. The triangles are then collected anew in the plane, until the collection stays
+  // the same.
   Vector3 area = part.area * part.plane.normal, centre = part.area * part.plane.point;
   double sum = part.area;
   collect(seed, part, tolerance, [&](std::int64_t i) {

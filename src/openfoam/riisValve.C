@@ -390,8 +390,8 @@ void riisValve::forces(const volVectorField &U, const vector &about, vectorField
   addOverRanks(moment);
 }
 
-// Moves the valve to its position at the end of the step, marks the cells, and computes K. This happens once in a step, so all
-// outer correctors of the step use the same K.
+// Moves the valve to its position at the end of the step, marks the cells, and computes K. The marking happens once in a step, so
+// all outer correctors of the step use the same K.
 void riisValve::mark() {
   const Time &time = mesh_.time();
   const riis_surface_options placementBefore = placement_;

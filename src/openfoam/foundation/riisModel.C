@@ -2,9 +2,9 @@
 // Defines riisValve for the Foundation's OpenFOAM, as an fvModel: it adds a heart valve to the momentum equation, and a volume
 // source to the equation of p.
 //
-// It moves the valve by a law in time, and marks the cells once in a step. It adds K (U - U_valve) / rho to the equation of a
-// solver with kinematic pressure, such as the module incompressibleFluid. The source comes from ../riisNetSource.H. The solver
-// takes it by fvModels().sourceProxy(p), so no solver of matrices is needed here. ../../README.md lists the entries.
+// The model moves the valve by a law in time, and marks the cells once in a step. The model adds K (U - U_valve) / rho to the
+// equation of a solver with kinematic pressure, such as the module incompressibleFluid. The source comes from ../riisNetSource.H.
+// The solver takes it by fvModels().sourceProxy(p), so no solver of matrices is needed here. ../../README.md lists the entries.
 #include "addToRunTimeSelectionTable.H"
 #include "fvMatrices.H"
 #include "fvModel.H"
@@ -151,8 +151,8 @@ void riisModel::printForce() const {
        << " N" << endl;
 }
 
-// Moves the valve to its position at the end of the step, marks the cells, and computes K. This happens once in a step, so all
-// outer correctors of the step use the same K.
+// Moves the valve to its position at the end of the step, marks the cells, and computes K. The marking happens once in a step, so
+// all outer correctors of the step use the same K.
 void riisModel::correct() {
   const Time &time = mesh().time();
   if (timeIndex_ == time.timeIndex()) return;
@@ -193,7 +193,7 @@ void riisModel::addSup(const volVectorField &U, fvMatrix<vector> &eqn) const {
   if (withVelocity_) eqn += KU_ / rho;
 }
 
-// Gives the solver's equation of p the volume source. One source serves all valves, so the first of them gives it.
+// Gives the solver's equation of p the volume source. One source serves all valves, so the first valve gives this source.
 void riisModel::addSup(fvMatrix<scalar> &eqn) const {
   if (!mesh().conformal()) {
     FatalErrorInFunction << "valve " << name() << " at time " << timeName(mesh())

@@ -13,7 +13,7 @@ namespace riis::program {
 struct CloseFile {
   void operator()(std::FILE *file) const { std::fclose(file); }
 };
-// A file without a name. It is gone when it is closed.
+// A file without a name. Its closing removes the file.
 using TemporaryFile = std::unique_ptr<std::FILE, CloseFile>;
 // Returns NULL, and sets errno, if the file cannot be made.
 TemporaryFile temporary_file();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The processes of a run. There is one, unless the program was built with MPI and started by mpirun. Then every process, a rank,
-// takes its share of a mesh's pieces. Only ranks.cpp calls MPI.
+// The processes of a run. There is one process, unless the program was built with MPI and started by mpirun. With mpirun, every
+// process, a rank, takes its share of a mesh's pieces. Only ranks.cpp calls MPI.
 
 // The ranks call the same exchanges in the same order. Each exchange begins with an agreement that no rank has failed. A rank
-// that fails outside an exchange makes one more agreement, at the end of the program. So it meets the next agreement of the
-// others. All ranks end with the message of the lowest failed rank, and none waits forever.
+// that fails outside an exchange makes one more agreement, at the end of the program. This agreement meets the next agreement of
+// the other ranks. All ranks end with the message of the lowest failed rank, and none waits forever.
 #pragma once
 
 #include <cstddef>

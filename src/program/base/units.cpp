@@ -68,7 +68,7 @@ namespace {
 
 // A valve fits its vessel if the valve's largest side is between these limits. The mesh's middle side is at least the least
 // width, because the valve is no wider than the vessel. The mesh's shortest side is at most the largest width, because the vessel
-// is not much wider than the valve. Both are numbers of valves, and they span a decade, so two units seldom fit.
+// is not much wider than the valve. Both widths are measured in valves and span a decade, so two units seldom fit.
 constexpr double least_width = 0.4, largest_width = 4;
 // Edges longer than this share of the valve's largest side do not show the valve.
 constexpr double longest_edge = 0.3;

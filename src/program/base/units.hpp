@@ -67,8 +67,8 @@ inline Box empty_box() {
   return {{far, far, far}, {-far, -far, -far}};
 }
 
-// Sums over points. They tell how far the points reach along their principal axes, so a vessel that lies obliquely is not taken
-// for a wide one.
+// Sums over points. These sums tell how far the points reach along their principal axes, so a vessel that lies obliquely is not
+// taken for a wide one.
 struct Moments {
   double n = 0, sum[3]{}, squares[6]{};  // squares has xx, yy, zz, xy, xz, yz
 
@@ -93,8 +93,8 @@ struct Sizes {
   double unnamed_factor = 1;    // the factor that stands for a run without a unit
 };
 
-// Both limits of the half thickness are shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of the
-// largest side of its aortic valve.
+// These two limits of the half thickness are shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of
+// the largest side of its aortic valve.
 inline constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
 
 // is_too_large returns whether the half thickness is larger than a quarter of the surface. is_too_small returns whether it is so

@@ -38,7 +38,7 @@ constexpr const char *name_of_server = "Xvfb";
 // The numbers that the files have in Xvfb.
 enum ServerFile : int { display_file = 3, key_file = 4, n_server_files = 5 };
 
-// A file descriptor. Its number is above those of the server's files, so that none of these replaces it.
+// A file descriptor. Its number is above the numbers of the server's files, so that no such file replaces this one.
 class File {
  public:
   explicit File(int low) : number_(low < 0 ? -1 : fcntl(low, F_DUPFD_CLOEXEC, 10)) {

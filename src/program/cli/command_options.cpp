@@ -309,7 +309,8 @@ void declare_style(Command &command, PictureStyle &style) {
   command.choice("--picture-panels", "both (default), valve or marks", panel_names, style.panels, "WHICH");
 }
 
-// --view is declared after --picture, so CLI11 passes the pictures first. Their number is then known when the views are read.
+// --view is declared after --picture, so CLI11 passes the pictures first. The number of pictures is then known when the views are
+// read.
 void declare_pictures(Command &command, MarkOptions &options) {
   CLI::Option *const pictures =
       command

@@ -159,7 +159,7 @@ std::string text_of_size(const AreaOptions &options, const riis_valve *valve, co
          summary_line("range", text_of_range(options, found.range)) + summary_line("cost", text_of_cost(found.range));
 }
 
-// The rate of a cubic is a parabola between two keys. So it is fastest at a key or at the parabola's vertex.
+// The rate of a cubic is a parabola between two keys. The opening is therefore fastest at a key or at the parabola's vertex.
 std::string text_of_rate(const OpeningLaw &law, std::vector<double> times, double period) {
   if (period > 0) times.push_back(times.front() + period);
   double fastest = 0, at = times.front();

@@ -76,9 +76,9 @@ struct Answer {
 
 // Reads the mesh, writes it to a .vtu, and answers through the pipe.
 [[noreturn]] void read_as_child(const std::string &path, const std::string &passed, int answer, pid_t parent) {
-  // Readers print errors of their own. This process's message goes through the pipe.
+  // Readers print errors of their own. The message of the child process goes through the pipe.
   const int nowhere = open("/dev/null", O_WRONLY);
-  // This process ends with its parent, and removes nothing of its parent's.
+  // The child process ends with its parent, and removes no file of its parent.
   for (const int ending : UnbrokenWrite::signals)
     if (signal(ending, SIG_DFL) == SIG_IGN) signal(ending, SIG_IGN);
   end_with_parent(SIGKILL);

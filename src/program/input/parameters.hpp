@@ -26,7 +26,7 @@ void set_from_text(riis_valve *valve, const std::string &setting);
 // others. Of the bumps at no place, only bump_0 is shown.
 std::string json_template(const riis_valve *valve);
 // Returns the parameters as a table for people. Each line has a parameter's name, value, unit, range and description. One line
-// stands for all parts, such as bumps, that are like the part before them.
+// stands for all like parts, such as bumps.
 std::string parameter_table(const riis_valve *valve);
 
 }  // namespace riis::program

@@ -93,9 +93,9 @@ struct Placed {
 Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, const std::string &kind,
                           const std::vector<std::string> &held, Reader reader);
 
-// Warps the valve to the landmarks, and returns the warp. It is smoothed by the noise; at 0 it meets the landmarks. A warp that
-// folds at one of five openings is refused, and the message says whether smoothing it helps. Other commands check each opening
-// that they take.
+// Warps the valve to the landmarks, and returns the warp. The noise smooths the warp; a noise of 0 makes a warp that meets the
+// landmarks. A warp that folds at one of five openings is refused, and the message says whether smoothing it helps. Other
+// commands check each opening that they take.
 Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader reader);
 
 // Refuses landmarks that are not at these nodes of a mesh, (3, n_nodes). `of`, such as " of mesh.vtu", names the mesh. If other

@@ -326,7 +326,7 @@ const std::set<std::string> meshes_of_gmsh = {".unv", ".bdf", ".nas"};
 // gmsh 4 leaves the prisms of a .mesh out, without a word.
 const std::set<std::string> meshes_of_meshio = {".inp", ".su2",  ".med", ".mesh", ".meshb", ".avs", ".dat", ".f3grid",
                                                 ".h5m", ".mdpa", ".vol", ".node", ".ele",   ".xml", ".post"};
-// ParaView opens these. They hold blocks, or grids that are not unstructured.
+// ParaView opens the files with these endings. Such files hold blocks, or grids that are not unstructured.
 const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".pvti", ".pvtr",
                                                   ".pvts", ".plt",  ".tec",   ".vtmb",   ".vtpc", ".vtpd"};
 // CAD files, which gmsh fills with cells or covers with triangles.
@@ -408,7 +408,7 @@ std::string hint_for_msh(const std::string &path, const std::string &refusal) {
 
 std::string conversion_hint(const std::string &path, Content wanted, const std::string &refusal) {
   const std::string ending = ending_of(path);
-  // A refusal replaces control characters. So a path with such characters gets no hint, because the command would not work.
+  // A refusal replaces control characters. A path with control characters gets no hint, because the command would not work.
   if (std::any_of(path.begin(), path.end(), is_control) || has_text(refusal, "Git LFS")) return "";
   if (wanted == Content::mesh) {
     if (ending == ".msh") return hint_for_msh(path, refusal);

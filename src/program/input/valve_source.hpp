@@ -88,7 +88,7 @@ int64_t count_leaflets(const riis_surface *surface);
 
 // --surface FILE.pvd or FILE.dat: the surface of a motion given by frames.
 
-// Returns whether --surface is a motion. Its files end in .pvd or .dat.
+// Returns whether --surface is a motion. Files of motions end in .pvd or .dat.
 bool is_motion(const ValveOptions &options);
 
 // The motion of --surface, the paths of the files with its frames, and their times.

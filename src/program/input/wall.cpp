@@ -33,7 +33,7 @@ struct Change {
   bool is_turned;
 };
 
-// Makes the wall. It is already in the mesh's frame, so no other placement applies to it.
+// Makes the wall. The wall is already in the mesh's frame, so no other placement applies to it.
 Surface make_wall(const ValveOptions &options, const SurfaceFile &file, Change change = {"1", false}) {
   const auto arrays = get<riis_surface_arrays>(riis_vtk_surface_get_arrays, file);
   auto how = defaults<riis_surface_options>();
@@ -168,7 +168,7 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   if (!options.skirt) return;
   if (options.wall.empty()) {
     check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
-    // The library knows the length in the valve's own unit only. It tests the length before it makes triangles.
+    // The library knows the length in the valve's own unit only. The library tests the length before the triangles are made.
     riis_surface_options how = options.surface_options;
     how.triangulation = RIIS_TRIANGULATION_ADAPTED;
     Surface trial;

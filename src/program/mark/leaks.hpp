@@ -94,7 +94,7 @@ class PassageCheck {
              Report &report);
 
  private:
-  // Returns the node of all pieces that is nearest to an end. Its longest edge may be in another piece.
+  // Returns the node of all pieces that is nearest to an end. The longest edge of this node may be in another piece.
   std::optional<PieceEnd> nearest(int end, bool has_ids) const;
   PassageReport find(const riis_surface *surface) const;
   double longest_edge_at(const riis_passage &found, const MeshCounts &counts) const;

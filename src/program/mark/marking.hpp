@@ -41,7 +41,7 @@ class Marking {
   std::vector<MovingValve> &valves() { return valves_; }
   Report &report() { return report_; }
   const std::vector<double> &times() const { return times_; }
-  // Both functions need a judged marking. n_marked is the number of marked nodes of all pieces.
+  // The next two functions need a judged marking. n_marked is the number of marked nodes of all pieces.
   std::int64_t n_marked(std::size_t step, std::size_t valve) const { return view(n_marked_)[marked_at(step, valve)]; }
   bool has_marks() const;
   // Returns the nodes of the last piece that are within the distance limit at some time of a series.

@@ -46,7 +46,7 @@ class MeshPieces {
   const std::vector<std::string> &files() const { return files_; }
   bool is_whole() const { return is_whole_; }
   const std::string &cells_where() const { return options_.cells_where; }
-  // Warns of domains that touch, if the user chose none of them. This rank has read its pieces.
+  // Warns of domains that touch, if the user chose none of them. The function needs the pieces that this rank has read.
   void warn_of_regions() const;
   // Calls `work` with each of this rank's pieces, in ascending order, or only with those whose numbers `is_wanted` accepts. A
   // failure ends all ranks. Adds to the seconds of reading, unless they are NULL.
@@ -188,7 +188,7 @@ struct MatchedNodes {
   std::int64_t n_joins() const;
 };
 
-// Matches the nodes of all ranks. `has_ids` says whether keys have global ids. Then one id at two places is refused. `files`
+// Matches the nodes of all ranks. `has_ids` says whether keys have global ids. With ids, one id at two places is refused. `files`
 // names the pieces.
 MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has_ids,
                          const std::vector<std::string> &files);
@@ -196,7 +196,7 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
 // Warns if no piece shares a node with another.
 void warn_of_apart(const MeshCounts &counts, const MatchedNodes &matched, const MeshPieces &mesh);
 
-// The nodes that no cell of their piece uses. They count if no other piece has them inside.
+// The nodes that no cell of their piece uses. Such nodes count if no other piece has them inside.
 class LooseNodes {
  public:
   void add(const PieceNodes &nodes);

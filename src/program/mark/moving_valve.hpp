@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One valve of a run: its surface at the present time, with or without velocities, and its marks.
+// One valve of a run, with its marks and its surface at the present time, which may have velocities.
 #pragma once
 
 #include <riis/riis.h>
@@ -26,7 +26,7 @@ class MovingValve {
   void move_to(double time, std::optional<double> since = std::nullopt);
   // Marks with `fields`, a sum of RIIS_FIELD_*. Velocities need a last move with an earlier time.
   void mark(FileNodes &nodes, int32_t fields);
-  // Forgets the last marks. Otherwise a search in another mesh would begin at their nodes.
+  // Forgets the last marks. With the old marks, a search in another mesh would begin at wrong nodes.
   void forget_marks() { result_ = new_result(); }
 
   const MarkOptions &options() const { return source_.options; }

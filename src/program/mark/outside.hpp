@@ -39,7 +39,7 @@ class LeafletsOutside {
 };
 
 // Warns if more than a small share is outside. Open leaflets may lie against the wall and reach into it at the right place, so
-// `closed` decides whether the valve stands wrongly. It is empty for a surface from a file. `name` is the surface's name.
+// `closed` decides whether the valve stands wrongly. For a surface from a file, `closed` is empty. `name` is the surface's name.
 void warn_of_outside(const OutsideReport &report, const std::optional<OutsideReport> &closed, double half_thickness,
                      const std::string &name);
 // Returns a text such as "26 % of the leaflets' area (right 61 %)".

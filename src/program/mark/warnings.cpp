@@ -26,7 +26,7 @@ Cause first_cause = Cause::outside;  // the cause whose advice was printed
 // Smaller meshes are not judged, because all nodes of a small mesh may well lie near the surface.
 constexpr int64_t fewest_judged_nodes = 100;
 
-// Returns a coordinate as text, rounded to a tenth of the edge or finer. It has no trailing zeros, and 0 has no sign.
+// Returns a coordinate as text, rounded to a tenth of the edge or finer. The text has no trailing zeros, and 0 has no sign.
 std::string coordinate_text(double x, double edge) {
   constexpr int most_digits = 17;  // the most digits of a double
   int n_digits = 6;
@@ -81,7 +81,7 @@ std::string marked_text(const Situation &s) {
   return has_hardly_any(s) ? "only " + text : text + ", which looks wrong";
 }
 
-// Returns a warning that names the positions of mesh and surface. It is used if sizes do not explain the marks.
+// Returns a warning that names the positions of mesh and surface. This warning is used if sizes do not explain the marks.
 Warning warning_of_places(const Situation &s) {
   return {Cause::place,
           "the mesh is in " + text_of(s.mesh, s.median_edge) + ", the surface in " + text_of(s.surface, s.median_edge) +
@@ -168,8 +168,8 @@ std::string sides_text(const Box &box) {
   return joined_by(sides, " x ");
 }
 
-// Returns a warning if the sizes suggest other units than the present ones. It names each possible unit, and the options to
-// write, such as "the mesh looks as if it were in metres, ...: write --unit m".
+// Returns a warning if the sizes suggest other units than the present ones. The warning names each possible unit, and the options
+// to write, such as "the mesh looks as if it were in metres, ...: write --unit m".
 std::optional<Warning> warning_of_units(const Situation &s) {
   const UnitJudgement units = judgement_of(s, s.is_unit_known);
   const bool is_same = units.factors == std::vector<double>{1};
@@ -188,7 +188,7 @@ std::optional<Warning> warning_of_units(const Situation &s) {
                  ": write " + joined_by(write, " or ") + in_place_of(s.options)};
 }
 
-// Returns a warning if the half thickness is too large or too small. It names the option to write.
+// Returns a warning if the half thickness is too large or too small. The warning names the option to write.
 std::optional<Warning> warning_of_half_thickness(const Situation &s) {
   const bool is_large = is_too_large(s.half_thickness, s);
   if (!is_large && !is_too_small(s.half_thickness, s)) return std::nullopt;

@@ -29,10 +29,10 @@ class SeriesFiles {
   bool is_wanted() const { return !pvd_.empty(); }
   // Refuses a folder that cannot be written to, and a path that is a file.
   void check_folder() const;
-  // Finds files of an earlier run that would be taken for further steps of this run's series. They are files of steps that this
-  // run does not write, and an earlier list by riis names them. Refuses further steps that this list does not name, and files
-  // that another list names. `parts` are those of path_of, and `has_pieces` says whether each step also has files of pieces,
-  // whose parts are p0000 and so on.
+  // Finds files of an earlier run that would be taken for further steps of this run's series. Such files are of steps that this
+  // run does not write, and an earlier list by riis names these files. Refuses further steps that this list does not name, and
+  // files that another list names. `parts` are those of path_of, and `has_pieces` says whether each step also has files of
+  // pieces, whose parts are p0000 and so on.
   void find_earlier(const std::vector<std::string> &parts, bool has_pieces);
   // Makes the folder if it is wanted and does not exist, and removes the files of an earlier run.
   void make_folder() const;
@@ -59,7 +59,7 @@ class SeriesFiles {
   std::vector<std::string> earlier_;  // files of an earlier run
 };
 
-// Writes the lists of a series within half a second after its files, even during a long step. So a killed process leaves lists
+// Writes the lists of a series within half a second after its files, even during a long step. A killed process thus leaves lists
 // of nearly all its files. The lists are not written after every file, because writing a long list takes longer than writing a
 // file.
 

@@ -52,9 +52,9 @@ class OutputLocks {
 // Delays Ctrl-C and similar signals while a file is written. Every file is first written under a temporary name and then moved.
 // If the process ended in between, the unfinished file would stay behind.
 
-// While an object of this type lives, the first SIGINT, SIGTERM or SIGHUP waits. It ends the process when the object is
-// destroyed. A second signal acts at once. Signals that were ignored stay ignored. Objects made while another one lives do
-// nothing. Other threads may make objects only while one lives.
+// While an object of this type lives, the first SIGINT, SIGTERM or SIGHUP waits. The waiting signal ends the process when the
+// object is destroyed. A second signal acts at once. Signals that were ignored stay ignored. Objects made while another one lives
+// do nothing. Other threads may make objects only while one lives.
 class UnbrokenWrite {
  public:
   UnbrokenWrite();
@@ -88,7 +88,7 @@ std::filesystem::path folder_of(const std::filesystem::path &place);
 // Throws a Refusal for an output that is one of these files. `what` describes the files in the message.
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options);
 
-// Returns whether a later text can replace an earlier one. This is impossible on stdout, in a device and in a pipe.
+// Returns whether a later text can replace an earlier one. Replacing is impossible on stdout, in a device and in a pipe.
 bool can_be_replaced(const std::string &path);
 // Writes a file, or stdout if the path is "-", on the first rank. Afterwards the file is complete or, after a failure, unchanged.
 void write_text(const std::string &path, const std::string &text);

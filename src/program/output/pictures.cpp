@@ -308,7 +308,7 @@ namespace {
   refuse_data(path + ": the movie cannot be made: " + reason);
 }
 
-// Returns the name of a frame's file. It contains the frame's number in the form that ffmpeg reads.
+// Returns the name of a frame's file. The name contains the frame's number in the form that ffmpeg reads.
 std::string frame_name(std::size_t number) {
   char text[32];
   std::snprintf(text, sizeof text, "frame_%06zu.png", number);
@@ -324,7 +324,8 @@ std::string frame_pattern(const std::string &folder) {
 
 std::vector<std::string> encoding_of(const std::string &path, bool has_size) {
   if (has_ending(path, ".gif")) {
-    // The movie repeats for ever, and all its frames share one palette of colours. It is small unless the user gave a size.
+    // The movie repeats for ever, and all its frames share one palette of colours. The movie is small unless the user gave a
+    // size.
     return {"-filter_complex",
             std::string(has_size ? "" : "scale='min(800,iw)':-2:flags=lanczos,") +
                 "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",
@@ -333,7 +334,7 @@ std::vector<std::string> encoding_of(const std::string &path, bool has_size) {
             "-f",
             "gif"};
   }
-  // This kind of H.264 plays in every player.
+  // H.264 with these options plays in every player.
   return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"};
 }
 
@@ -364,7 +365,7 @@ void Movie::encode() const {
   if (end.status == 0 && std::rename(temporary.c_str(), place.c_str()) == 0) return;
   const int error = errno;
   std::remove(temporary.c_str());
-  // The user's Ctrl-C also reaches ffmpeg. Then the failure needs no message.
+  // The user's Ctrl-C also reaches ffmpeg. After Ctrl-C the failure needs no message.
   if (UnbrokenWrite::has_signal()) return;
   if (end.status == 0) refuse_movie(path_, system_text(error));
   refuse_movie(path_, "ffmpeg ends with status " + std::to_string(end.status) + ": " + end.last_message.substr(0, 200));

@@ -48,8 +48,8 @@ class Movie {
   std::size_t n_frames_ = 0;
 };
 
-// Draws the pictures of a run at its first time, and the movie of a series. Both show all valves as one surface, and their marks
-// in the whole mesh.
+// Draws the pictures of a run at its first time, and the movie of a series. Pictures and movie show all valves as one surface,
+// and the marks in the whole mesh.
 
 class RunPictures {
  public:

@@ -38,7 +38,7 @@ constexpr double end_edge_share = 0.35;
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
 // The wall goes through itself if triangles overlap by more than this share of its size.
 constexpr double least_crossing_share = 1e-5;
-// So many triangles of a new patch are compared with the wall.
+// The number of triangles of a new patch that are compared with the wall.
 constexpr std::size_t n_compared = 9;
 
 // The elements of a file of gmsh, with the numbers of their surfaces or volumes. Nodes are counted from 0.
@@ -344,7 +344,7 @@ class PatientMesher {
            ", and repair or smooth it, as by Surface Toolbox of 3D Slicer";
   }
 
-  // Says where the wall goes through itself, or "". This is what gmsh fails at most often.
+  // Says where the wall goes through itself, or "". Most failures of gmsh are at such a crossing.
   std::string crossing_text() const {
     auto arrays = defaults<riis_surface_arrays>();
     arrays.n_vertices = static_cast<std::int64_t>(old_.points.size());

@@ -332,7 +332,7 @@ class WallRepair {
     for (const std::int64_t id : corner) view(is_locked_)[id] = 1;
   }
 
-  // Returns the triangle that has the side from a to b in this direction, or -1. One of the two is a vertex of a thin triangle.
+  // Returns the triangle that has the side from a to b in this direction, or -1. Either a or b is a vertex of a thin triangle.
   std::int64_t of_side(std::int64_t a, std::int64_t b) const {
     const auto found = around_.find(around_.count(a) > 0 ? a : b);
     for (const std::int64_t i : found->second)

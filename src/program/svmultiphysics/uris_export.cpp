@@ -351,7 +351,7 @@ std::string as_name(std::string text) {
 }
 
 // Returns the name of the valve in the solver's input. The solver also uses it in names of arrays and files, so two valves of one
-// run need two names. Their folders differ, so the name is that of the folder with its path.
+// run need two names. The folders of the valves differ, so the name is the folder's path.
 std::string block_name(const ExportOptions &options) {
   if (!options.name.empty()) return options.name;
   constexpr std::size_t longest = 64;

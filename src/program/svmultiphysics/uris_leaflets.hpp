@@ -128,10 +128,11 @@ class UrisLeaflets {
   // Returns the library's surface at the last opening of vertices_at.
   const riis_surface *surface() const { return surface_.get(); }
   const std::vector<UrisLeaflet> &leaflets() const { return leaflets_; }
-  // Returns all vertices at an opening, xyz(3, n). They are multiples of a power of two, so that the solver's sums of them are
-  // exact.
+  // Returns all vertices at an opening, xyz(3, n). The coordinates are multiples of a power of two, so that the solver's sums of
+  // coordinates are exact.
   std::vector<double> vertices_at(double opening);
-  // Returns the direction of forward flow. It is the mean normal of the leaflets in the first frame, without the housing.
+  // Returns the direction of forward flow. This direction is the mean normal of the leaflets in the first frame, without the
+  // housing.
   const std::array<double, 3> &forward() const { return forward_; }
   double half_thickness() const { return half_thickness_; }
   double longest_edge() const { return longest_edge_; }

@@ -23,7 +23,7 @@ constexpr double widening = 0.1, far_in_half_thicknesses = 1e6;
 
 // ---- The nearest middle of a triangle ----
 
-// A tree over points. It finds the nearest point, and of equally near ones the first.
+// A tree over points. The tree finds the nearest point, and the first of equally near points.
 class PointTree {
  public:
   explicit PointTree(std::vector<Point> points) : points_(std::move(points)), order_(points_.size()) {
@@ -162,7 +162,7 @@ SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path, do
   check(riis_vtk_mesh_copy_cells(file, n_cells, offsets.data(), types.data(), 0, nullptr), path);
   resize(nodes, offsets.back());
   check(riis_vtk_mesh_copy_cells(file, n_cells, nullptr, nullptr, offsets.back(), nodes.data()), path);
-  // VTK's types of points, lines and faces. They bound the volume, and the solver has them in other files.
+  // VTK's types of points, lines and faces. Such cells bound the volume, and the solver has them in other files.
   constexpr std::uint8_t without_volume[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23, 28, 30, 34, 35, 36};
   for (std::int64_t i = 0; i < n_cells; ++i) {
     const std::uint8_t type = view(types)[i];

@@ -94,7 +94,7 @@ double solver_delta(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions
 // Returns (1 + cos(pi d / eps)) / (2 eps^2), or 0 beyond eps.
 double delta_of(double distance, double half_thickness);
 
-// The nodes whose signed distances lie in a range. Their places are measured along the direction of forward flow.
+// The nodes whose signed distances lie in a range. The places of these nodes are measured along the direction of forward flow.
 struct SolverBand {
   std::int64_t n_nodes = 0;
   double volume = 0, from = 0, to = 0;
@@ -105,8 +105,8 @@ SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances,
 // The largest speeds of a frame, from the vertices of this frame and of the frame before.
 struct SolverSpeeds {
   double of_leaflets = 0;  // of the leaflets' vertices
-  // The largest velocity that the solver gives to a node within the half thickness. It extrapolates the velocity in the plane of
-  // the nearest triangle.
+  // The largest velocity that the solver gives to a node within the half thickness. The solver extrapolates the velocity in the
+  // plane of the nearest triangle.
   double of_nodes = 0;
 };
 SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets, const SolverDistances &distances,

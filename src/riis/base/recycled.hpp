@@ -15,7 +15,7 @@ namespace riis {
 // Arrays whose resize() leaves new elements without a value. A large array is therefore written only once, when its owner
 // fills it.
 
-// This allocator takes its memory from the allocator `Memory`, and leaves new elements without a value.
+// An allocator that takes its memory from the allocator `Memory`, and leaves new elements without a value.
 template <class T, template <class> class Memory>
 struct UnfilledAllocator : Memory<T> {
   static_assert(std::is_trivially_default_constructible_v<T>);

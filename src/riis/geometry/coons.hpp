@@ -65,8 +65,8 @@ QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLin
 QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
 
 // A patch of arcs consists of the straight lines from side_v0, the base, to side_v1, the edge, plus 2 v (1-v) O(u)
-// (geometry/bulge.hpp). Its grid is made in two steps, lines and then rows, because patches that share an arc must have equally
-// many rows.
+// (geometry/bulge.hpp). The grid of such a patch is made in two steps, lines and then rows, because patches that share an arc
+// must have equally many rows.
 struct ArcLines {
   Vector<GridLine> u_lines;
   Vector<Vec3> offsets;   // O on each line
@@ -104,7 +104,7 @@ GridLines lines_of_arc_grid(const ArcLines &lines, const QuadGrid &grid);
 std::size_t interval_of(const Vector<double> &values, double x);
 
 // Returns S(u,v) by bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o as the
-// numerator of the weight. It must be u - u_{o-1}.)
+// numerator of the weight. The right numerator is u - u_{o-1}.)
 Vec3 evaluate(const QuadGrid &grid, double u, double v);
 
 }  // namespace riis

@@ -51,8 +51,8 @@ Level subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, doub
   }
 }
 
-// Returns the quad with both ends of its shortest edge moved to the middle of this edge. So no point moves by more than half the
-// edge.
+// Returns the quad with both ends of its shortest edge moved to the middle of this edge. No point thus moves by more than half
+// the edge.
 Quad without_shortest_edge(const Quad &quad, double &shortest) {
   std::array<Vec3, 4> corner{quad.p00, quad.p10, quad.p11, quad.p01};
   std::size_t at = 0;

@@ -46,8 +46,8 @@ inline bool is_usable(double coordinate) { return std::abs(coordinate) <= max_co
 inline bool is_usable(Vec3 p) { return is_usable(p.x) && is_usable(p.y) && is_usable(p.z); }
 
 // Checks pointers, stride and every coordinate. Returns the points' box, which the same pass finds. Fails with
-// RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first unusable coordinate. Then the message names the point by `what`
-// ("node", "point") and its number. In messages, `prefix` precedes the names of arguments, such as "points.". Only the
+// RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first unusable coordinate. The message of such a failure names the point
+// by `what` ("node", "point") and its number. In messages, `prefix` precedes the names of arguments, such as "points.". Only the
 // calling thread runs, because more threads would save no time, and the caller may not want them.
 template <class Real>
 Bounds check_points(const StridedReals<Real> &points, const char *what, riis_status bad_coordinate,

@@ -79,7 +79,7 @@ Vec3 nearest_on(const std::array<Bezier, n> &curve, Vec3 p) {
   return best;
 }
 
-// Refuses an outline that crosses itself, seen along the normal. Its edges join the points in their order.
+// Refuses an outline that crosses itself, seen along the normal. The outline's edges join the points in their order.
 void check_outline(const Landmarks &landmarks, const std::vector<std::size_t> &ring, Vec3 x, Vec3 y) {
   struct Flat {
     double x, y;
@@ -150,7 +150,7 @@ Vec3 checked_forward(const Landmarks &landmarks, const Outline &outline, std::si
   return forward;
 }
 
-// The direction towards the atrium, by the flow or the commissures. It is 0 if the landmarks show no direction.
+// The direction towards the atrium, by the flow or the commissures. The vector is 0 if the landmarks show no direction.
 Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   const auto medial = landmarks.with_role(RIIS_LANDMARK_POSTEROMEDIAL),
              lateral = landmarks.with_role(RIIS_LANDMARK_ANTEROLATERAL);
@@ -393,8 +393,8 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   made.n_as_annulus = are_behind ? static_cast<std::int32_t>(trigones.size()) : 0;
   made.starts.push_back({rotation, middle + rotation * (origin_there - by)});
   if (!is_side_known) {
-    // The points of the annulus alone do not tell the atrium's side from the ventricle's. But the horns of a healthy annulus are
-    // nearer to the atrium than its sides.
+    // The points of the annulus alone do not tell the atrium's side from the ventricle's. In a healthy annulus, however, the
+    // horns are nearer to the atrium than the sides.
     const bool is_turned = horn_there.z + posterior_z < 2 * low_z;
     if (is_turned) {
       const Rotation other = rotation * rotation_about({0, 1, 0}, 180);

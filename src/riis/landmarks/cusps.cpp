@@ -197,8 +197,8 @@ double mean_radius(const Landmarks &landmarks, const std::vector<std::size_t> &n
   return sum / static_cast<double>(numbers.size());
 }
 
-// Returns a length for the fit, with `start` as its first value. Its expected value `grown` is the template's length times the
-// ratio of the valves' sizes.
+// Returns a length for the fit, with `start` as its first value. The length's expected value `grown` is the template's length
+// times the ratio of the valves' sizes.
 FittedSize length_size(const std::string &name, double start, double grown, double radius) {
   return {name, start, 1, 0.05 * radius, 10 * radius, grown, 0.3 * grown};
 }

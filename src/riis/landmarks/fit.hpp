@@ -20,7 +20,7 @@ namespace riis {
 // Small dense least squares (Levenberg 1944, Marquardt 1963) and symmetric eigenvalues (Jacobi 1846).
 // In: a function that gives residuals. Out: the unknowns for which the sum of their squares is least, and the covariance there.
 
-// Computes the residuals for the unknowns x. Their number is the same in each call.
+// Computes the residuals for the unknowns x. The number of residuals is the same in each call.
 using Residuals = std::function<void(const std::vector<double> &x, std::vector<double> &residuals)>;
 
 struct Minimum {

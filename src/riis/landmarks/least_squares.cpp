@@ -10,7 +10,7 @@
 namespace riis {
 namespace {
 
-// The step of central differences, as a share of `size`. It balances two errors: the error of the differences, step^2, and
+// The step of central differences, as a share of `size`. This step balances two errors: the error of the differences, step^2, and
 // rounding, 1e-16 / step.
 constexpr double difference_step = 1e-5;
 // The iteration ends if a step is shorter than this share of `size`.

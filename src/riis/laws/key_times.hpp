@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interpolates between keys in time, once or periodically. It serves openings (laws/opening_laws.hpp) and the vertices of
-// keyframes (arrays/user_arrays.hpp).
+// Interpolates between keys in time, once or periodically. The interpolation serves openings (laws/opening_laws.hpp) and the
+// vertices of keyframes (arrays/user_arrays.hpp).
 // In: times of keys, a period. Out: the keys around a time, and the values and rates between them.
 #pragma once
 

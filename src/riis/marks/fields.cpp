@@ -101,7 +101,8 @@ class TriangleFields {
   }
 
   void write(const Range &range) const {
-    // The nodes of a list lie far apart in memory. So their coordinates are fetched while earlier nodes are computed.
+    // The nodes of a list lie far apart in memory. The coordinates of such nodes are therefore fetched while earlier nodes are
+    // computed.
     constexpr std::int64_t ahead = 4 * pairs_at_once;
     for (std::int64_t first = range.begin; first < range.end; first += pairs_at_once) {
       for (std::int64_t i = first + ahead; i < std::min(first + ahead + pairs_at_once, range.end); ++i)
@@ -212,7 +213,7 @@ class TriangleFields {
 
   std::int64_t n_directions() const { return view(rates_).size(); }
 
-  // Writes the velocities and (u,v). They are interpolated from the vertices with the weights.
+  // Writes the velocities and (u,v). The weights interpolate these fields from the vertices.
   void write_mixed(const std::int64_t *triangle, const PointsOnTriangles &on, std::int64_t first,
                    std::int64_t n) const {
     const std::int64_t *vertex[pairs_at_once];

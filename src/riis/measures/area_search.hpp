@@ -24,8 +24,8 @@ class AreaSearch {
     double value, area;
   };
 
-  // Tries n_samples values from `from` to `to`. Their distances are equal, or grow with the value if `grows`. Then it looks for
-  // the exact places at which the area stops growing or falling.
+  // Tries n_samples values from `from` to `to`. The distances between these values are equal, or grow with the value if `grows`.
+  // After that, the search looks for the exact places at which the area stops growing or falling.
   AreaSearch(Area area, double from, double to, std::int32_t n_samples, bool grows);
 
   bool has_area() const { return !points_.empty(); }

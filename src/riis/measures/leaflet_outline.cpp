@@ -217,7 +217,7 @@ class FarthestEdges {
     return std::clamp(of_a / (of_a - of_b), 0.0, 1.0);
   }
 
-  // An edge turns by less than half a turn. So its distance from the centre is unique in each direction.
+  // An edge turns by less than half a turn. The edge's distance from the centre is therefore unique in each direction.
   void add(const Turn &turn) {
     const auto place = [&](double angle) {
       return static_cast<std::size_t>(std::lower_bound(angles_.begin(), angles_.end(), angle) - angles_.begin());

@@ -67,8 +67,8 @@ struct ValveDirections {
   bool keeps_axis;      // the outline is seen along `axis`, and not along the vector area of its edges
 };
 
-// Returns the outline, with the axis on the side of the valve's axis. Triangles from arrays have no valve. Their axis is on the
-// side of the boundary's normal. Returns nothing if the edges do not surround a centre, or enclose no area.
+// Returns the outline, with the axis on the side of the valve's axis. Triangles from arrays have no valve. The axis of such
+// triangles is on the side of the boundary's normal. Returns nothing if the edges do not surround a centre, or enclose no area.
 std::optional<SeenOutline> outline_of_leaflets(const LeafletBoundary &boundary,
                                                const std::optional<ValveDirections> &valve);
 

@@ -122,7 +122,8 @@ class Mesh {
     edges_.forget();
   }
 
-  // Both functions set new coordinates, of the same nodes or of other nodes. A different number of nodes removes the adjacency.
+  // borrow_nodes and take_grid set new coordinates, of the same nodes or of other nodes. A different number of nodes removes the
+  // adjacency.
   void borrow_nodes(const StridedPoints &nodes, const Bounds &bounds);
   void take_grid(std::unique_ptr<const Grid> grid);
   // Copies the nodes. After a failure the mesh keeps its old nodes.

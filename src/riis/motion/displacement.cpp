@@ -90,8 +90,8 @@ bool has_points_inside(const MovedPatch &moved) {
   return moved.patch < moved.now.mapped_inside.size() && moved.patch < moved.before.mapped_inside.size();
 }
 
-// The position of a point relative to another point, in steps of u and v, by least squares. It is 0 if the steps are nearly
-// parallel.
+// The position of a point relative to another point, in steps of u and v, by least squares. This position is 0 if the steps are
+// nearly parallel.
 struct StepsBeside {
   double u = 0, v = 0;
 
@@ -131,8 +131,8 @@ struct MaterialArcs {
 
 using OfSides = std::array<std::array<Vec3, n_material>, 4>;  // vectors on the sides v0, v1, u0, u1.
 
-// Vectors at the even shares of a patch's warped sides. They lie on the polynomials that pass through the vectors at the shares
-// `nodes`.
+// Vectors at the even shares of a patch's warped sides. The vectors lie on the polynomials that pass through the vectors at the
+// shares `nodes`.
 class AtShares {
  public:
   AtShares(const std::array<std::array<double, n_material>, 4> &nodes, const OfSides &values) {
@@ -150,7 +150,7 @@ class AtShares {
     return mix(v0[at_u], v1[at_u], v) + mix(u0[at_v], u1[at_v], u) -
            mix(mix(v0[0], v0[last], u), mix(v1[0], v1[last], u), v);
   }
-  // These functions return the change of the combination from one even share before to one even share behind.
+  // along_u and along_v return the change of the combination from one even share before to one even share behind.
   Vec3 along_u(std::size_t at_u, std::size_t at_v) const {
     const auto &[v0, v1, u0, u1] = at_;
     return mix(v0[at_u + 1] - v0[at_u - 1], v1[at_u + 1] - v1[at_u - 1], material_share(at_v)) +

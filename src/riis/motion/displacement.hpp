@@ -87,10 +87,10 @@ struct PatchMaterial {
 // curves move. The polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// The map adds this part to the displacement inside a warped Coons patch. It is 0 at the sides. At the four inner points with u
-// and v of 1/3 or 2/3, the displacement belongs to the material point that the map moves there. The displacement follows from
-// the mapped points beside these points (MappedInside). The excess over the Coons combination of the sides is a polynomial of
-// degree 3 in u and in v.
+// The map adds this part to the displacement inside a warped Coons patch. This part is 0 at the sides. At the four inner points
+// with u and v of 1/3 or 2/3, the displacement belongs to the material point that the map moves there. The displacement follows
+// from the mapped points beside these points (MappedInside). The excess over the Coons combination of the sides is a polynomial
+// of degree 3 in u and in v.
 class RestInside {
  public:
   RestInside() = default;
@@ -103,7 +103,7 @@ class RestInside {
   }
 
  private:
-  // They are 1 at one of the two thirds, and 0 at the other third and at the ends.
+  // Each polynomial is 1 at one third, and 0 at the other third and at the ends.
   static double first(double x) { return 13.5 * x * (1 - x) * (2.0 / 3 - x); }
   static double second(double x) { return 13.5 * x * (1 - x) * (x - 1.0 / 3); }
 
@@ -128,7 +128,7 @@ class PatchDisplacement {
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
   }
   // Returns the displacement inside a quad. Along a side, it is linear between the vertices that the neighbouring quad also
-  // has. So the displacement does not jump between neighbouring quads.
+  // has. The displacement therefore does not jump between neighbouring quads.
   Vec3 without_jumps(std::size_t i, std::size_t j, int column, int row) const;
 
  private:
@@ -144,7 +144,8 @@ class PatchDisplacement {
   RestInside rest_;  // for a patch without arcs
 };
 
-// The velocity of one image of a patch in space. It combines the displacements of the patch, the image and the placement.
+// The velocity of one image of a patch in space. This velocity combines the displacements of the patch, the image and the
+// placement.
 class ImageVelocity {
  public:
   ImageVelocity(const PatchImage &now, const PatchImage &before, const Placement &placement_now,

@@ -13,8 +13,8 @@
 namespace riis {
 namespace {
 
-// The joints of both curves of a patch of arcs, at the state of the surface and at another state. Those of the base come first
-// among equal ones, as in Bulge::joints.
+// The joints of both curves of a patch of arcs, at the state of the surface and at another state. Among equal joints, the joints
+// of the base come first, as in Bulge::joints.
 class MovedJoints {
  public:
   MovedJoints(const PatchSet &at, const PatchSet &state, std::size_t patch) {

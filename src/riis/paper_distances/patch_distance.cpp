@@ -18,8 +18,8 @@ namespace riis {
 namespace {
 
 // Distances by minimisation (paper, 4.1 "Minimization"): Powell's method minimises |S(u,v) - P|^2 on every patch, starting at
-// (0.5, 0.5). It ends in a local minimum. So the result is always the distance to some point of S, but not always to the
-// closest point (docs/theory/paper-distances.md).
+// (0.5, 0.5). Powell's method ends in a local minimum. The result is therefore always the distance to some point of S, but not
+// always to the closest point (docs/theory/paper-distances.md).
 // In: placed patches, the tolerance of the minimisation. Out: the least of all patches' local minima.
 
 class Minimizer final : public PatchDistance {

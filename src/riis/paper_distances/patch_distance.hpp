@@ -22,7 +22,7 @@ namespace riis {
 // Turns placed patches into functions S(u,v) that can be evaluated anywhere (paper, 3.3), for sampling and minimisation.
 // In: a valve's curves and patches, the allowed error, the placement. Out: a grid of quads for each image of a patch.
 
-// S(u,v) on a grid with placed points. It is bilinear in every quad.
+// S(u,v) on a grid with placed points. The placed patch is bilinear in every quad.
 struct PlacedPatch {
   QuadGrid grid;
   std::int32_t leaflet_id, patch_id;
@@ -128,8 +128,8 @@ struct SampleCounts {
 // parallelogram with the sides h_u S_u and h_v S_v, anywhere on S.
 double covering_radius(const QuadGrid &grid, double h_u, double h_v);
 
-// Returns the smallest numbers of steps that keep the covering radius within `radius`. Their ratio is the ratio of the
-// patch's width to its height. The result may exceed max_samples.
+// Returns the smallest numbers of steps that keep the covering radius within `radius`. The ratio of these two numbers is the
+// ratio of the patch's width to its height. The result may exceed max_samples.
 SampleCounts samples_within(const QuadGrid &grid, double radius);
 
 class SampleSet final : public PatchDistance {

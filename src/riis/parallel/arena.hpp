@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs work in an arena of the pool, with TBB's limit of threads adjusted for it. Embree's scenes and concurrent walks run in
-// such an arena. So TBB gives them the caller's n_threads threads instead of all threads of the process.
+// such an arena. TBB thus gives these tasks the caller's n_threads threads instead of all threads of the process.
 #pragma once
 
 #if !defined(RIIS_STD_THREADS)

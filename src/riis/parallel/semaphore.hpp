@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A semaphore for the threads of this process. Darwin has a call for POSIX's unnamed semaphores, but it fails with ENOSYS. Its
-// library for dispatching has semaphores of its own.
+// A semaphore for the threads of this process. Darwin has a call for POSIX's unnamed semaphores, but it fails with ENOSYS.
+// Darwin's library for dispatching has semaphores of its own.
 #pragma once
 
 #if defined(__APPLE__)

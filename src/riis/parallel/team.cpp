@@ -170,9 +170,8 @@ class Team {
   int n_workers_ = 0, n_processors_ = 1;
 };
 
-// The idle teams. They are not destroyed when the process ends, because their workers still wait. There are as many teams as
-// threads of the caller that were ever inside loops at once. The first few teams are static, so they take no memory of a
-// call.
+// The idle teams. The end of the process does not destroy idle teams, because their workers still wait. There are as many teams
+// as threads of the caller that were ever inside loops at once. The first few teams are static, so they take no memory of a call.
 constexpr std::size_t n_first_teams = 16;
 alignas(Team) unsigned char first_teams[n_first_teams][sizeof(Team)];
 std::mutex teams_mutex;

@@ -11,7 +11,7 @@ struct Range {
   std::int64_t begin, end;
 };
 
-// The number of threads of a call. It also records whether the caller or the library chose the number.
+// The number of threads of a call. The object also records whether the caller or the library chose this number.
 class Threads {
  public:
   // A number that the caller requested.

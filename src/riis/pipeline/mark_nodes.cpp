@@ -101,8 +101,8 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   }
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
-      // A moving valve is near its last position, so the walk starts at the nodes found last. These may be nodes of another mesh
-      // with as many nodes. A wrong start does no harm.
+      // A moving valve is near its last position, so the walk starts at the nodes found last. The nodes found last may be nodes
+      // of another mesh with as many nodes. A wrong start does no harm.
       const bool fits = marks.stats.n_nodes == request.mesh.nodes().n;
       return {search, search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch,
                                        marks.found)};
@@ -130,7 +130,7 @@ WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked
   return data;
 }
 
-// Copies the nodes in the band from a list with heights, with their fields. Both lists may be the same list.
+// Copies the nodes in the band from a list with heights, with their fields. The two lists may be the same list.
 void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &from, ListedNodes &to) {
   const std::int64_t n_from = from.nodes.size();
   const auto is_marked = [&](std::int64_t i) {

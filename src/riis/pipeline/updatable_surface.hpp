@@ -23,8 +23,8 @@ namespace riis {
 class CrossingWatch {
  public:
   // In each range of the opening, it examines the first surface of each shape, until it has warned about the shape. Without a
-  // log function it does nothing and allocates nothing. It never fails, because the surface itself is good. Without memory
-  // for the search there is no warning.
+  // log function it does nothing and allocates nothing. The search never fails, because the surface itself is good. Without
+  // memory for the search there is no warning.
   void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
 
  private:

@@ -67,8 +67,9 @@ std::vector<OpenEdge> edges_of_one_triangle(const TriangleSet &set, const std::v
   return open;
 }
 
-// Cancels open edges that lie on each other. A patch of triangles may have vertices inside the edges of its neighbour. Such an
-// edge and its opposite edges run between the same two vertices. So the search follows them from one end to the other.
+// Cancels open edges that lie on each other. A patch of triangles may have vertices inside the edges of its neighbour. A long
+// edge and its opposite edges run between the same two vertices. The search therefore follows the edges from one end to the
+// other.
 class Cancelling {
  public:
   Cancelling(const TriangleSet &set, std::vector<OpenEdge> edges) : set_(set), edges_(std::move(edges)) {

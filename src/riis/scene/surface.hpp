@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface that answers queries. It has triangles, their scene, the band around them, and optionally another method to measure
-// distances.
-// In: triangles. Out: closest triangles, sides.
+// A surface that answers queries. The surface has triangles, their scene and their band, and optionally another method to measure
+// distances. In: triangles. Out: closest triangles, sides.
 #pragma once
 
 #include <atomic>
@@ -50,7 +49,8 @@ class Surface {
   // Returns the patches that the triangles come from, or null for a surface from arrays.
   const PatchSet *patches() const { return patches_ ? &*patches_ : nullptr; }
 
-  // Adds a direction in which the patches change. Both of its states must have the ids of patches() (check_same_ids).
+  // Adds a direction in which the patches change. The two states of the direction must have the ids of patches()
+  // (check_same_ids).
   void add_direction(const Direction &direction, int n_threads);
   std::int64_t n_directions() const { return n_directions_; }
   // Returns the rates of the vertices in a direction, (3, n_vertices).

@@ -91,8 +91,8 @@ class TriangleScene {
 
   // Makes the groups from a copy of the corners, so the set need not be kept. A further call, for triangles that moved, reuses
   // the memory. After a failure the scene can only be destroyed. The first query builds Embree's tree, with n_threads threads,
-  // because a search over clusters never needs the tree. So a query fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY if
-  // Embree reports an error, and the next query tries once more.
+  // because a search over clusters never needs the tree. A query fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY if Embree
+  // reports an error. The next query tries once more.
   void make(const TriangleSet &set, int n_threads);
 
   // Builds Embree's tree, as the first query does. Several threads may call this function at once.

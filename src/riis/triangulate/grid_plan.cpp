@@ -198,8 +198,8 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
 // Needs are computed on narrow steps, but the error of a wide segment is bounded a little less closely. Lines are therefore
 // chosen for only this share of the allowed error.
 constexpr double most_of_allowed = 0.9;
-// The number of steps on which needs are computed is steps_per_segment times the largest number of segments of a curve. It stays
-// between least_steps and most_steps.
+// The number of steps on which needs are computed is steps_per_segment times the largest number of segments of a curve. The
+// number of steps stays between least_steps and most_steps.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
 // To save time, needs are computed only at every n-th state. Later the lines are checked at every state.
@@ -441,7 +441,7 @@ class Planner {
     return first;
   }
 
-  // At every opening, adds lines until base, edge and O are nearly linear between them. Then chooses the smallest
+  // At every opening, adds lines until base, edge and O are nearly linear between them. After that, chooses the smallest
   // sufficient number of parts for O.
   void plan_arcs(std::size_t patch) {
     PatchPlan &plan = plan_.patches[patch];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns patches into grids of quads (paper, 3.2 and 3.3).
-// In: curves and patches of a valve, the allowed error. Out: a grid for each patch. Its error leaves room for the error of
+// In: curves and patches of a valve, the allowed error. Out: a grid for each patch. The grid's error leaves room for the error of
 // the split into triangles.
 #pragma once
 

@@ -21,7 +21,7 @@ struct Grouping {
   Vector<std::int32_t> order, end;
 };
 
-// The vertices of a patch of a valve. They begin at `first` and end before the first vertex of the next patch.
+// The vertices of a patch of a valve. These vertices begin at `first` and end before the first vertex of the next patch.
 struct VerticesOfPatch {
   std::int32_t patch_id, leaflet_id;
   std::int64_t first;

@@ -25,8 +25,8 @@ struct PatchPlan {
 
   GridLines lines;  // the lines of a Coons patch
 
-  // A patch of arcs has lines in u, and joints of the base that the lines move with. Both are given at one of the openings.
-  // Between two joints, a line keeps its relative position. Without joints the lines do not move.
+  // A patch of arcs has lines in u, and joints of the base that the lines move with. Lines and joints are given at one of the
+  // openings. Between two joints, a line keeps its relative position. Without joints the lines do not move.
   Vector<double> u, joints;
   Vector<int> n_parts;  // the number of parts between two lines; O is evaluated at their ends
 };

@@ -302,7 +302,8 @@ Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, 
   return made;
 }
 
-// A leaflet first turns about its hinges, and then becomes straight. So lengths run behind: neighbours would otherwise meet.
+// A leaflet first turns about its hinges, and then becomes straight. Lengths therefore run behind the angle; with equal progress,
+// neighbours would meet.
 double behind(double share) { return share * share; }
 
 // A vector from a hinge swings from one state to another: the vector is blended, and so is its length.
@@ -319,8 +320,8 @@ double middle_length(const Leaflet &leaflet) {
          arc_length(meridian({0, 0, 0}, leaflet.start[middle], leaflet.turn[middle], on_line, on_edge));
 }
 
-// Returns the leaflet with every place at a share of its way. Each control point swings about its hinge. Then the leaflet is
-// stretched so that its middle has its length. The stretch decreases towards the commissures. At last bumps lift the leaflet
+// Returns the leaflet with every place at a share of its way. Each control point swings about its hinge. After that, the leaflet
+// is stretched so that its middle has its length. The stretch decreases towards the commissures. At last bumps lift the leaflet
 // along z, so that lifted leaflets keep as far apart as healthy ones, seen along z.
 Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double> &shares) {
   Leaflet made = closed;
@@ -604,7 +605,7 @@ std::array<Bezier, 4> saddle_annulus(const SaddleAnnulus &annulus) {
   return made;
 }
 
-// The kinds are made when they are first used, and they are never destroyed. So they can be used during the whole life of the
+// The kinds are made when they are first used, and they are never destroyed. The kinds thus serve during the whole life of the
 // process.
 const ValveKind &mitral_coapting_valve_kind() {
   static const ValveKind &kind = *new_kind<2, mitral_coapting_valve_kind>(

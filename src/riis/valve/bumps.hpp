@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bumps: disease at one place of a free edge (docs/theory/bumps.md). They change how far the place opens, and nothing else.
+// Bumps: disease at one place of a free edge (docs/theory/bumps.md). A bump changes how far the place opens, and nothing else.
 // In: the parameters of the bumps. Out: the states of any place between the valve's closed and open state.
 #pragma once
 
@@ -18,8 +18,8 @@ enum class BumpLift : bool { no, yes };
 // Appends the parameters of all bumps, and returns the position of the first. Only bumps with BumpLift::yes have "lift".
 std::size_t add_bump_specs(Vector<ParameterSpec> &specs, std::size_t n_leaflets, BumpLift lift);
 
-// Where a place of a free edge is when the valve is closed and when it is open. Both are shares of the way of a healthy place: 0
-// at its closed position, 1 at its open position. The closed position itself is lifted towards +z by `lift`.
+// Where a place of a free edge is when the valve is closed and when it is open. The two numbers are shares of the way of a
+// healthy place: 0 at its closed position, 1 at its open position. The closed position itself is lifted towards +z by `lift`.
 struct LocalOpening {
   double closed = 0, open = 1, lift = 0;
 };

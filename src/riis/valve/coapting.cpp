@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coapting valves. Their two to four cusps lie side by side in a coaptation zone, and their free edges keep their length
-// while the valve opens (docs/theory/coapting.md).
+// The coapting valves. The two to four cusps of a coapting valve lie side by side in a coaptation zone, and their free edges keep
+// their length while the valve opens (docs/theory/coapting.md).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -249,8 +249,8 @@ Vector<MovingHalf> moving_halves(const CuspNumbers &closed, const CuspNumbers &o
   return made;
 }
 
-// Refuses a cusp whose edge is too short to open or hangs too low, and one that folds. Both states are checked, because one set
-// of values defines both.
+// Refuses a cusp whose edge is too short to open or hangs too low, and one that folds. The closed and the open state are checked,
+// because one set of values defines both states.
 void check_cusp(const ValveValues &values, std::size_t k) {
   const CuspSizes sizes = values.sizes(k, values.has_equal_halves());
   const auto [closed, open] = end_states(sizes, sizes);
@@ -269,7 +269,8 @@ void check_cusp(const ValveValues &values, std::size_t k) {
          " long, too short to open so far: look at effective_height, commissure_height, open_radius_ratio, "
          "commissure_expansion");
   if (sizes.keeps_ratio && is_half) {
-    // The middle of the edge is at least as far from a commissure as the symmetry plane is. So it never hangs deeper than this.
+    // The middle of the edge is at least as far from a commissure as the symmetry plane is. The middle therefore never hangs
+    // deeper than this value.
     const double away = sizes.sector.sine * sizes.commissure_radius;
     const double low = values.of_commissure(k, height) - std::sqrt(edge_length * edge_length - away * away);
     if (!(low >= least_height * sizes.root_radius))
@@ -387,7 +388,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 }  // namespace
 
-// The kinds are made when they are first used, and they are never destroyed. So they can be used during the whole life of the
+// The kinds are made when they are first used, and they are never destroyed. The kinds thus serve during the whole life of the
 // process.
 const ValveKind &bicuspid_valve_kind() {
   static const ValveKind &kind = *new ValveKind(make_kind<2>("bicuspid", 0.1));

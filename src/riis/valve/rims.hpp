@@ -11,9 +11,9 @@
 
 namespace riis {
 
-// Bits of an entry of TriangleSet::rim_sides. The bit free_v1 marks a side v1 of only one patch of the leaflet. This side is a
-// part of the leaflet's free edge, even if closed leaflets meet in it. A skirt has no free edge. The bit `held` marks a patch
-// whose attached side belongs to no other patch, except perhaps to a skirt.
+// Bits of an entry of TriangleSet::rim_sides. The bit free_v1 marks a side v1 of only one patch of the leaflet. The marked side
+// is a part of the leaflet's free edge, even if closed leaflets meet in it. A skirt has no free edge. The bit `held` marks a
+// patch whose attached side belongs to no other patch, except perhaps to a skirt.
 enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8, free_v1 = 16, held = 32 };
 
 // Returns, for each patch_id, the sides on the rim. Two patches share a side if it is the same curve and their images put it at

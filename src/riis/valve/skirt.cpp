@@ -65,7 +65,8 @@ Vector<Step> steps_of_attachment(const PatchSet &set, const Vector<HeldSide> &si
     const Vector<Step> of_side = steps_of(along(set, held.side));
     for (const PatchImage &image : set.patches[held.patch].images) {
       const PatchImage turn = turn_of(image);
-      // Triangles are turned over in a mirror image, and in a patch that a warp made of one. There the sides run the other way.
+      // Triangles are turned over in a mirror image, and in a patch that a warp made of one. In such a patch the sides run the
+      // other way.
       const double sign = points_upstream(image) ? -1 : 1;
       for (const Step &step : of_side) steps.push_back({place(image, step.at), sign * place(turn, step.by)});
     }
@@ -81,7 +82,8 @@ AxisLine placed(const AxisLine &axis, const PatchImage &image) {
 bool are_equal(const AxisLine &a, const AxisLine &b) { return a.centre == b.centre && a.direction == b.direction; }
 
 // Returns the line that the map makes of an axis. The attachment's steps lie about the axis. A disc about the axis, at their mean
-// height and as wide as they are on average, becomes a warped disc. Its middle and its vector area give the line.
+// height and as wide as they are on average, becomes a warped disc. The middle and the vector area of the warped disc give the
+// line.
 AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const BlendedWarp &warp) {
   double whole = 0, height = 0, radius = 0;
   for (const Step &step : steps) {
@@ -229,7 +231,7 @@ class SkirtMaker {
     return Curve(std::move(spans));
   }
 
-  // Returns the material points of the outer side. They lie outwards of the inner side's points.
+  // Returns the material points of the outer side. The outer points lie outwards of the inner side's points.
   MaterialPoints material_of_outer(const Curve &inner, const Side &side, const Curve &outer) const {
     const MaterialPoints &given = *set_.material[side.curve];
     const MaterialPoints points = side.reversed ? given.reversed(inner.spans().size()) : given;
@@ -366,7 +368,7 @@ Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEn
   const Vec3 out = outwards(axis, 0.5 * (before.point + after.point)), onwards = cross(axis.direction, out);
   const double apart = length(across);
   if (!(apart > 0)) return out;
-  // Both skirts are turned towards the end that lies farther outwards.
+  // The skirts of both neighbours are turned towards the end that lies farther outwards.
   const double along_out = dot(across, out), past = -dot(across, onwards) / apart;
   double sine = past;
   if (past > most_past_in_line) sine = most_past_in_line * (1 - past) / (1 - most_past_in_line);

@@ -56,7 +56,8 @@ struct SideEnd {
 // on the points and the tangents.
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after);
 
-// The direction in which a skirt leads away from its attachment. It is outwards from the axis, except near neighbouring ends.
+// The direction in which a skirt leads away from its attachment. This direction is outwards from the axis, except near
+// neighbouring ends.
 class SkirtDirections {
  public:
   SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides);
@@ -85,7 +86,8 @@ inline constexpr double least_skirt = 1e-4, most_skirt = 10;
 // itself.
 inline constexpr double least_skirt_to_wall = 0.01;
 
-// Returns the unit vector from the axis through the point, perpendicular to the axis. It is 0 if the point is on the axis.
+// Returns the unit vector from the axis through the point, perpendicular to the axis. The vector is 0 if the point is on the
+// axis.
 Vec3 outwards(const AxisLine &axis, Vec3 point);
 
 // Adds the patches of a skirt. If `lengths` is empty, the length is `length`. The patches continue the leaflets outwards, and

@@ -73,17 +73,17 @@ struct ValveKind {
   bool opens_by_itself;  // one set of parameters defines both the closed and the open state
   // Refuses values that do not fit together. NULL if all values fit together.
   void (*check_values)(const ParameterValues &values);
-  // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. They are the
-  // same object if the valve was given no open state.
+  // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. The two states
+  // are the same object if the valve was given no open state.
   PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
   // Refuses another state whose curves or patches are not built like the valve's. The message calls that state by `name`, such
   // as "the open state". NULL if all states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
-  // True if leaflets meet only at common vertices of their triangles, such as at commissures. Otherwise leaflets may touch
+  // True if leaflets meet only at common vertices of their triangles, such as at commissures. If false, leaflets may touch
   // anywhere, and their triangles may then go through each other by as much as the triangles' error.
   bool has_exact_contacts = false;
-  // True if the orifice is seen along the valve's z axis. Otherwise it is seen along the vector area of the edges that are
-  // farthest from its middle. If cusps differ and their open edges reach beyond the attachment, that area would be oblique.
+  // True if the orifice is seen along the valve's z axis. If false, the orifice is seen along the vector area of the edges that
+  // are farthest from its middle. If cusps differ and their open edges reach beyond the attachment, that area would be oblique.
   bool is_seen_along_z = false;
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
@@ -190,7 +190,7 @@ class Valve {
   void check_open_values() const;
   static std::uint64_t next_revision();
 
-  // The cuts of a shape with its landmarks. They stay the same while the valve opens and the targets move, so they are kept.
+  // The cuts of a shape with its landmarks. Cuts stay the same while the valve opens and the targets move, so cuts are kept.
   struct KnownCuts {
     std::uint64_t shape_digest;
     LandmarkCuts cuts;

@@ -72,8 +72,8 @@ struct WarpQuality {
   std::int64_t least_landmark;
 };
 
-// Landmarks at rest. Their equations are reduced to a tridiagonal matrix once. A map for new targets then takes as many
-// operations as a few products of a matrix and a vector.
+// Landmarks at rest. The equations of these landmarks are reduced to a tridiagonal matrix once. A map for new targets then takes
+// as many operations as a few products of a matrix and a vector.
 class WarpLandmarks {
  public:
   // `noise` is the standard deviation of each coordinate of the targets. It is at least 0. Fails with RIIS_INVALID_ARGUMENT for

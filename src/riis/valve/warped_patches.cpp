@@ -24,9 +24,10 @@ constexpr double least_factor = 0.2, most_factor = 5, most_of_missing = 0.5;
 // A patch is searched for folds on a grid of this many cells each way.
 constexpr std::size_t n_fold_cells = 3;
 // The sine of the angle between the diagonals of a cell that has no side, because it is hardly wider than a line. Half opened,
-// leaflets of the coapting kind have such cells beside the attachment. There the chords of a curve are no guide to the surface.
-// In 20,000 states of valves with rough warps, cells with a sine up to 0.067 turned over although no triangle did. Triangles of
-// at most 0.6 mm^2 turned over without a wider cell. One cell of the default valve has the sine 0.041 at the opening 0.9.
+// leaflets of the coapting kind have such cells beside the attachment. In such cells the chords of a curve are no guide to the
+// surface. In 20,000 states of valves with rough warps, cells with a sine up to 0.067 turned over although no triangle did.
+// Triangles of at most 0.6 mm^2 turned over without a wider cell. One cell of the default valve has the sine 0.041 at the opening
+// 0.9.
 constexpr double sliver_sine = 0.07;
 
 Bezier raised_to_cubic(const Bezier &span) {
@@ -192,7 +193,7 @@ struct MaterialOfCurve {
   }
 };
 
-// Estimates the length of a span between two near parameters by Gauss's rule of 3 points. Both states take the same rule, so a
+// Estimates the length of a span between two near parameters by Gauss's rule of 3 points. The two states take the same rule, so a
 // slide of 0 is exact.
 double length_near(const Bezier &span, double from, double to) {
   const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * 0.77459666924148337704;

@@ -86,7 +86,7 @@ std::string ending_of(const std::string &path);
 // the reason.
 std::int64_t check_readable(const std::string &path);
 
-// The bytes of a file. They are readable while this object lives.
+// The bytes of a file. The bytes are readable while this object lives.
 class MappedFile {
  public:
   // Maps the file into memory. `size` must be the result of check_readable.
@@ -102,9 +102,9 @@ class MappedFile {
   void *bytes_;
 };
 
-// A file that is complete or does not exist. It is written under temporary(), a name in the same folder, and commit() moves it
-// to its final place. It gets the permissions of the file that it replaces. Without commit(), the destructor removes the
-// temporary file, and the final place stays unchanged.
+// A file that is complete or does not exist. The file is written under temporary(), a name in the same folder, and commit() moves
+// it to its final place. The new file gets the permissions of the file that it replaces. Without commit(), the destructor removes
+// the temporary file, and the final place stays unchanged.
 class ReplacingFile {
  public:
   // Makes the temporary file. Fails if the path cannot be written to: the folder or a permission is missing, the path is not a

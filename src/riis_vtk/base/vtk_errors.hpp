@@ -71,8 +71,8 @@ auto naming(const std::string &path, const Work &work) {
 }
 // Throws if `status` is an error of the core. Keeps the core's message.
 void check_core(riis_status status);
-// Fails unless the size is a multiple of 8 and lies between first_size and size_here, both included. These are the struct's sizes
-// in its first release and in this release.
+// Fails unless the size is a multiple of 8 and lies between first_size and size_here, both included. The limits are the struct's
+// sizes in its first release and in this release.
 void check_struct_size(std::int64_t size, std::int64_t first_size, std::int64_t size_here, const char *name);
 
 template <class T>
@@ -112,8 +112,8 @@ class CaughtOutput {
 };
 
 // While an object of this type lives, numbers have decimal points. After a caller's setlocale(LC_ALL, "de_DE.UTF-8"), VTK's
-// readers would read "1.5" as 1. Only this thread's locale changes. But VTK's legacy reader sets the locale of the process to
-// "C" and leaves it so. Therefore the destructor also restores the process's locale.
+// readers would read "1.5" as 1. Only this thread's locale changes. VTK's legacy reader, however, sets the locale of the whole
+// process to "C" for good. Therefore the destructor also restores the process's locale.
 class NumericLocale {
  public:
   NumericLocale() : callers_(setlocale(LC_ALL, nullptr)), points_(newlocale(LC_NUMERIC_MASK, "C", nullptr)) {

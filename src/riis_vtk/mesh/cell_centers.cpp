@@ -2,7 +2,7 @@
 // Centres of cells, and the pairs of cells that share a face, for solvers whose unknowns are at the centres. The centres equal
 // OpenFOAM's (primitiveMeshFaceCentresAndAreas.C, primitiveMeshCellCentresAndVols.C). A face is cut into triangles around the
 // mean of its nodes. A cell is cut into pyramids around the mean of its faces' centres. If a cell is not star-shaped,
-// OpenFOAM takes volumes of both signs. Here all volumes count as positive.
+// OpenFOAM takes volumes of both signs. In this file all volumes count as positive.
 #include <algorithm>
 #include <array>
 #include <cmath>

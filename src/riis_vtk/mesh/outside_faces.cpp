@@ -114,7 +114,7 @@ class Collected {
   vtkNew<vtkCellArray> polygons_;
 };
 
-// Reverses a face whose corners run clockwise, seen from outside its cell. Such faces come from inverted cells.
+// Reverses a face whose corners run clockwise, seen from outside its cell. Clockwise faces come from inverted cells.
 void turn_outwards(vtkUnstructuredGrid *grid, vtkIdType cell, Corners &corners) {
   vtkNew<vtkIdList> nodes;
   grid->GetCellPoints(cell, nodes);

@@ -231,8 +231,8 @@ vtkUnsignedCharArray *ghosts_of(vtkDataSetAttributes *data, const char *kind) {
 }
 
 // Finds the nodes that other pieces may share. A face that two cells of a piece share is inside the piece. Each node keeps the
-// combined bits of its faces. A face inside the piece is combined twice, and then leaves nothing. So it is known without a
-// list of faces whether all faces of a node are inside. For each node, the answer is wrong with a probability of 2^-64.
+// combined bits of its faces. A face inside the piece is combined twice, and then leaves nothing. Whether all faces of a node are
+// inside is thus known without a list of faces. For each node, the answer is wrong with a probability of 2^-64.
 class NodeRoles {
  public:
   explicit NodeRoles(vtkUnstructuredGrid *grid)

@@ -155,7 +155,7 @@ void add_wedge_lattice(const Orders &orders, std::vector<Edge> &edges) {
       }
 }
 
-// Returns the number of nodes of a lattice. It is a double, because the orders may be arbitrarily large.
+// Returns the number of nodes of a lattice. The number is a double, because the orders may be arbitrarily large.
 double n_lattice_nodes(int type, const Orders &orders) {
   const double n[3] = {orders[0] + 1.0, orders[1] + 1.0, orders[2] + 1.0};
   if (type == VTK_LAGRANGE_TETRAHEDRON || type == VTK_BEZIER_TETRAHEDRON) return n[0] * (n[0] + 1) * (n[0] + 2) / 6;
@@ -234,7 +234,8 @@ class CellEdges {
     return is_lattice(type) ? lattice_of(type, cell, n) : shape_of(type).edges;
   }
 
-  // Lists the edges of a polyhedron. Its stream of faces has the number of faces, and then the size and the nodes of each face.
+  // Lists the edges of a polyhedron. The polyhedron's stream of faces has the number of faces, and then the size and the nodes of
+  // each face.
   void list_polyhedron(vtkIdType cell) {
     edges_.clear();
     grid_->GetFaceStream(cell, faces_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the X display. This code has its own file, because X11's headers define macros with names that VTK's headers use.
+// Opens the X display. The code has its own file, because X11's headers define macros with names that VTK's headers use.
 #include <chrono>
 #include <cstdlib>
 #include <thread>

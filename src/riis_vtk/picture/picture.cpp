@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of riis_vtk.h. Draws a surface and a marked mesh, seen by one camera, into .png files. The caller's picture options
-// may have the size of any release. They are converted to this release's struct and checked. The message of a failure names the
-// field and its value.
+// may have the size of any release. The options are converted to this release's struct and checked. The message of a failure
+// names the field and its value.
 #include <riis/riis_vtk.h>
 
 #include <cmath>

@@ -196,8 +196,8 @@ void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
   counts_ = {grid->GetNumberOfPoints(), std::count(marked.begin(), marked.end(), 1),
              std::count(parts.begin(), parts.end(), whole_marked),
              std::count(parts.begin(), parts.end(), partly_marked)};
-  // Faces between wholly and partly marked cells are left out. They are never visible, because the partly marked cells surround
-  // the whole ones.
+  // Faces between wholly and partly marked cells are left out. Such faces are never visible, because partly marked cells surround
+  // wholly marked cells.
   std::vector<std::uint8_t> chosen(parts.size());
   std::transform(parts.begin(), parts.end(), chosen.begin(), [](std::uint8_t part) { return part == partly_marked; });
   const Outside partly = outside_of(grid, &parts, &chosen);

@@ -277,7 +277,7 @@ std::vector<PanelTexts> texts_of_columns(const std::vector<PanelTexts> &panels, 
 }
 
 // Returns a picture with transparency, from one picture on black and one on white. A pixel is opaque if it is the same in both,
-// and clear if it is black and white. This holds whatever was blended, and in whatever order.
+// and clear if it is black and white. The rule holds for any blended objects, in any order.
 vtkSmartPointer<vtkImageData> transparent_from(vtkImageData *on_black, vtkImageData *on_white) {
   int size[3];
   on_black->GetDimensions(size);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window of a picture. It has panels, and bands above and below them with captions, the key of colours, axes and a scale
-// bar. It can show several surfaces and marks one after another, each in any view.
+// The window of a picture. The window has panels, and bands above and below the panels with captions, the key of colours, axes
+// and a scale bar. It can show several surfaces and marks one after another, each in any view.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -101,8 +101,8 @@ class Layout {
   double column_left(int column) const { return width_ * static_cast<double>(column) / n_columns_; }
   double panel_width() const { return width_ / static_cast<double>(n_columns_); }
   double panel_height() const { return (height_ - top_ - bottom_) / n_rows_; }
-  // Both functions return the lower end of a line of text. The caption's lines are counted from the top of the picture. The key's
-  // lines are counted downwards from the panels.
+  // caption_line and key_line return the lower end of a line of text. The caption's lines are counted from the top of the
+  // picture. The key's lines are counted downwards from the panels.
   double caption_line(int line) const { return height_ - 1.6 * letter_ * (line + 1); }
   double key_line(int line) const { return bottom_ - 1.6 * letter_ * (line + 1); }
   double bottom() const { return bottom_; }

@@ -61,7 +61,7 @@ struct Sight {
 };
 
 // Returns a sight that contains the surface. Along an axis on which the mesh is not much larger, the sight also contains the
-// mesh. So pictures of a valve that moves in one mesh can be compared. Along other axes, the sight contains the surface's
+// mesh. Pictures of a valve that moves in one mesh can thus be compared. Along other axes, the sight contains the surface's
 // neighbourhood.
 //   mesh    NULL if there is none
 //   aspect  the panel's width divided by its height

@@ -47,8 +47,8 @@ const ElementType *find_type(std::int64_t gmsh_type) {
       {18, 15, VTK_QUADRATIC_WEDGE, {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10}},
       {13, 18, VTK_BIQUADRATIC_QUADRATIC_WEDGE, {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10, 16, 17, 15}},
       {19, 13, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
-      // VTK 9.1 has no pyramid with a node in the middle of its base. This node stays a node of the mesh, and the cell on the
-      // other side of the base has its edges.
+      // VTK 9.1 has no pyramid with a node in the middle of its base. The node in the middle stays a node of the mesh, and the
+      // cell on the other side of the base has the edges of this node.
       {14, 14, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
   };
   const auto found =

@@ -255,8 +255,8 @@ class FoamFile {
     expect(")");
   }
 
-  // Such a list is longer than its file, so it has a separate limit. The limit is the number of entries that a mesh of one
-  // block of cells could need.
+  // A list of equal entries is longer than its file, so such a list has a separate limit. The limit is the number of entries that
+  // a mesh of one block of cells could need.
   template <class ReadOne>
   void read_equal(std::int64_t n, const char *things, const ReadOne &read_one) {
     constexpr std::int64_t most = 1 << 20;
@@ -345,7 +345,7 @@ Corners sorted(Corners corners) {
   return corners;
 }
 
-// One of VTK's linear cells, which has a base. Its other nodes are one apex, or one node above each node of the base.
+// One of VTK's linear cells, which has a base. The other nodes of the cell are one apex, or one node above each node of the base.
 struct Shape {
   int vtk_type;
   std::int64_t n_faces, base_size, n_nodes;

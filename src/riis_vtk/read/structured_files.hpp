@@ -20,7 +20,7 @@ namespace riis::vtk {
 // The axes of a rectilinear grid. Each has two or more coordinates, which are finite and ascend. Nodes and cells have VTK's
 // order: the first index changes fastest.
 struct GridAxes {
-  // The form of an image. Its axes are origin + i * spacing, with i from `first` on.
+  // The form of an image. The image's axes are origin + i * spacing, with i from `first` on.
   struct Image {
     std::array<double, 3> origin, spacing;
     std::array<int, 3> first;

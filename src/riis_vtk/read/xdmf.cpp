@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // XDMF: an .xdmf file describes a mesh, and the numbers are in it, in HDF5 files or in plain binary files (xdmf.org, "XDMF Model
-// and Format"). It is read as FEniCS, dolfinx and meshio write it. The nodes of a cell have VTK's order, as in these programs.
+// and Format"). The reader knows XDMF as FEniCS, dolfinx and meshio write it. The nodes of a cell have VTK's order, as in these
+// programs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -485,7 +486,7 @@ class XdmfWriter {
     text_ += "</Topology>\n";
   }
 
-  // Returns the attribute with the array's unit. It is an attribute, because readers expect one element, the numbers.
+  // Returns the attribute with the array's unit. The unit is an attribute, because readers expect one element, the numbers.
   static std::string unit_of(vtkDataArray *array) {
     if (!array->HasInformation() || !array->GetInformation()->Has(vtkDataArray::UNITS_LABEL())) return "";
     return joined(" Unit=\"", in_xml(array->GetInformation()->Get(vtkDataArray::UNITS_LABEL())), "\"");
@@ -505,7 +506,7 @@ class XdmfWriter {
                       "\" Center=\"", center, "\"", unit_of(array), ">\n");
       std::string dataset = std::string(center) + "_" + name;
       std::replace(dataset.begin(), dataset.end(), '/', '_');
-      // Otherwise the names a/b and a_b would become one name.
+      // Without the ending, the names a/b and a_b would become one name.
       while (!datasets_.insert(dataset).second) dataset += '_';
       const std::int64_t n = array->GetNumberOfTuples();
       if (array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT) {

@@ -94,7 +94,7 @@ Frames frames_of_displacements(const std::string &path, const std::string &prefi
 Frames frames_of_text(const std::string &path, double time_step, const LeafletArray &leaflets,
                       const CaughtOutput &caught);
 
-// Appends the faces of another motion, as append_faces does. Both must have the same times.
+// Appends the faces of another motion, as append_faces does. The two motions must have the same times.
 void append_frames(Frames &frames, const Frames &other);
 
 }  // namespace riis::vtk
