@@ -4,8 +4,8 @@
 // IEEE 754 rounds in one way. Arguments are finite. Errors are in units of 2^-53 = 1.1e-16, and test_elementary checks them.
 //
 // The polynomials are in the square of the argument. The polynomials interpolate the functions at Chebyshev points, except the
-// one of sine_of_pi. That one is a fit by least squares, and its third coefficient is lowered by five units in its last place. So
-// no value exceeds 1.
+// one of sine_of_pi. The polynomial of sine_of_pi is a fit by least squares, whose third coefficient is five units lower in its
+// last place. So no value exceeds 1.
 #pragma once
 
 #include <cmath>

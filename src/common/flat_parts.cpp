@@ -24,7 +24,7 @@ constexpr double band_share = 0.5;
 constexpr std::size_t n_sectors = 12;
 // Flat parts that touch make each other unclear if their areas differ by less than this factor. Else only the small one is.
 constexpr double most_apart = 10;
-// A small part is an end if its rim has so many sides, and if the wall is as steep up to this share of the radius.
+// A small part is an end if its rim has at least this number of sides and the wall is as steep up to this share of the radius.
 constexpr std::int64_t least_sides = 12;
 constexpr double wide_band_share = 1.5;
 

@@ -266,8 +266,8 @@ scalar riisValve::conductance(const scalarField &K, const labelList &side, const
       const labelUList &cells = mesh_.boundary()[patch].faceCells();
       forAll(cells, i) diagonal[cells[i]] += equation.internalCoeffs()[patch][i];
     }
-    // setValues clears the coefficients between a fixed cell and other ranks. If the cell has no neighbour on its own rank, it
-    // then has no diagonal.
+    // setValues clears the coefficients between a fixed cell and other ranks. A cell without a neighbour on its own rank then has
+    // no diagonal.
     forAll(fixed, i) {
       const label cell = fixed[i];
       if (diagonal[cell] != 0) continue;

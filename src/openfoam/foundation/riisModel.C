@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines riisValve for the Foundation's OpenFOAM, as an fvModel: it adds a heart valve to the momentum equation, and a volume
-// source to the equation of p.
+// Defines riisValve for the Foundation's OpenFOAM, as an fvModel. The model adds a heart valve to the momentum equation, and a
+// volume source to the equation of p.
 //
 // The model moves the valve by a law in time, and marks the cells once in a step. The model adds K (U - U_valve) / rho to the
 // equation of a solver with kinematic pressure, such as the module incompressibleFluid. The source comes from ../riisNetSource.H.

@@ -18,7 +18,7 @@ struct AreaSamples {
   std::vector<std::int32_t> leaflet;
 };
 
-// Leaves out the skirt and the housing. Each triangle is cut into equal ones, with a point in each.
+// Leaves out the skirt and the housing. Each triangle is cut into equal triangles, with a point in each.
 AreaSamples area_samples(const riis_surface *surface);
 
 }  // namespace riis::program

@@ -17,8 +17,8 @@ bool make_pipe(int ends[2]);
 // Lets this process, a child by fork(), get the signal when its parent ends. A parent that has ended before is not noticed.
 void end_with_parent(int signal);
 
-// Returns the bytes that this process counts towards a limit of its memory (RLIMIT_AS), or nothing if the system does not say or
-// does not keep the limit.
+// Returns the bytes of this process that count towards the limit of its memory (RLIMIT_AS). Returns nothing if the system does
+// not say, or ignores the limit.
 std::optional<std::uintmax_t> limited_memory();
 
 }  // namespace riis::program

@@ -41,7 +41,7 @@ std::vector<std::string> split(const std::string &text, const char *marks);
 // Returns the parts with a text between them. one_of returns a list for a sentence, such as "m, cm or mm".
 std::string joined_by(const std::vector<std::string> &parts, const char *between);
 std::string one_of(const std::vector<std::string> &names);
-// Returns ", did you mean NAME?" with the name that is nearest to a word, between two marks, or "" if none is near.
+// Returns ", did you mean NAME?" with the name nearest to a word, between two marks, or "" if no name is near.
 std::string did_you_mean(const std::string &word, const std::vector<std::string> &names, const char *before = "",
                          const char *after = "");
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<Unit, 3> all_units = {Unit::metre, Unit::centimetre, Unit::millimetre};
 
-// The results are whole numbers, so that the quotient of two of them is the number that a user would write, such as 0.01.
+// The results are whole numbers, so that a quotient of two results is the number that a user would write, such as 0.01.
 double millimetres_of(Unit unit) { return unit == Unit::metre ? 1000 : unit == Unit::centimetre ? 10 : 1; }
 
 bool is_about(double a, double b) { return std::abs(a - b) <= 1e-9 * b; }
@@ -76,8 +76,8 @@ constexpr double longest_edge = 0.3;
 constexpr double usual_edge = 3;
 // Edges near the valve are seldom shorter than this number of half thicknesses.
 constexpr double shortest_edge = 0.3;
-// A mesh whose edges are longer than this number of half thicknesses, or this share of the valve's largest side, was made for
-// another valve.
+// A mesh with edges longer than this number of half thicknesses, or this share of the valve's largest side, was made for another
+// valve.
 constexpr double most_edge = 10, most_edge_of_valve = 0.4;
 // The least half thickness, as a share of the mesh's edge length. A thinner band falls between two layers of nodes and contains
 // few nodes.

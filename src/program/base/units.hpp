@@ -97,12 +97,12 @@ struct Sizes {
 // the largest side of its aortic valve.
 inline constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
 
-// is_too_large returns whether the half thickness is larger than a quarter of the surface. is_too_small returns whether it is so
-// small that the band falls between the mesh's nodes.
+// is_too_large returns whether the half thickness exceeds a quarter of the surface. is_too_small returns whether the band falls
+// between the mesh's nodes.
 bool is_too_large(double half_thickness, const Sizes &sizes);
 bool is_too_small(double half_thickness, const Sizes &sizes);
-// Returns a half thickness that fits: the present one times a power of ten. If none fits, returns the mesh's edge length, or 0 if
-// this length does not fit either.
+// Returns a half thickness that fits: the present one times a power of ten. If no usual value fits, returns the mesh's edge
+// length, or 0 if this length is also unfit.
 double better_half_thickness(const Sizes &sizes);
 
 // The judgement of the unit. A factor stands for a unit: it makes the mesh's lengths fit the surface's.
@@ -115,7 +115,7 @@ struct UnitJudgement {
 };
 
 // Judges the present unit, and each of `factors`. The factor 1 need not be among them. A coarse basin in centimetres and a vessel
-// in millimetres can have the same numbers, so the unit of a run without a unit stays possible beside a likelier one.
+// in millimetres can have the same numbers. The unit of a run without a unit therefore stays possible beside a likelier unit.
 UnitJudgement judge_units(const Sizes &sizes, const std::vector<double> &factors);
 // Returns whether the mesh is about as wide as the surface if the mesh's lengths are multiplied by the factor.
 bool is_as_wide(const Sizes &sizes, double factor);

@@ -119,7 +119,7 @@ void check_distance(const Command &command, const MarkOptions &options) {
     refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
 }
 
-// Refuses looks of pictures that nothing has, or that a movie or a picture without a mesh cannot have.
+// Refuses looks that no picture has, and looks that a movie or a picture without a mesh cannot have.
 void check_style(const Command &command, const MarkOptions &options) {
   const std::string &movie = options.series.movie;
   const PictureStyle &style = options.style;

@@ -21,8 +21,8 @@ riis_surface_options own_frame(const ValveOptions &options);
 // size at which the orifice has it. For areas in time, a cycle of openings.
 void run_from_area(const AreaOptions &options);
 
-// riis place. In: landmarks of a patient. Out: the sizes and the placement of the valve, as a report, as a file that every
-// command takes, and as text for OpenFOAM, C and Fortran.
+// riis place. In: landmarks of a patient. Prints the sizes and the placement of the valve as a report, as a file for every
+// command, and as text for OpenFOAM, C and Fortran.
 void run_place(const PlaceOptions &options);
 
 // riis patient. In: a patient's wall and landmarks. Out: a folder with the placed valve, a mesh with named boundaries, marks that

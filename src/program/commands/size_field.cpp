@@ -230,8 +230,8 @@ std::string text_of(const Grid &grid, const std::vector<double> &lengths) {
   return text;
 }
 
-// Returns the lines that load the field in a .geo file. gmsh takes the least length of all sources, so the other sources are
-// switched off.
+// Returns the lines that load the field in a .geo file. gmsh takes the least length of all sources, so the lines switch the other
+// sources off.
 std::string gmsh_lines(const SizeFieldOptions &options, double largest) {
   return "gmsh      Field[1] = Structured;\n"
          "          Field[1].FileName = \"" +

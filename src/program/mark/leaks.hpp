@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a marked mesh. Out: the number of its edges that cross the surface between unmarked nodes, and a half thickness that
+// In: a marked mesh. Out: the number of the mesh's edges that cross the surface between unmarked nodes, and a half thickness that
 // closes these leaks.
 #pragma once
 

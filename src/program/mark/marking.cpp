@@ -69,7 +69,7 @@ void report_leak(const MovingValve &valve, FlowReport &flow) {
   double leak = 0;
   check(riis_surface_get_leak(valve.surface(), &how, 1, &leak), "--resistance");
   if (flow.closed_area) leak = info_of(valve.surface()).half_thickness / *R * *flow.closed_area;
-  // The leak is per unit of the pressure as the user gives it, which is Pa if the unit of the mesh is known.
+  // The leak is per unit of the user's pressure, which is Pa if the unit of the mesh is known.
   const std::optional<Unit> &unit = valve.options().unit;
   flow.leak_per_drop = unit ? leak * factor_from_si(a_pressure, *unit) : leak;
   const std::optional<Amount> &drop = valve.options().given_drop;
@@ -200,7 +200,7 @@ ValveReport Marking::report_of(std::size_t i) {
 // Leaks matter where a valve is least open. An open valve is not meant to stop the flow.
 void Marking::move_to_least_openings() { move_to_first(times_, valves_, std::less<>()); }
 
-// The leaflets may reach beyond the wall where the valve is closed, and also where it is open.
+// The leaflets of both the closed and the open valve may reach beyond the wall.
 void Marking::take_states_for_outside() {
   for (std::size_t i = 0; i < valves_.size(); ++i) sums_[i].outside.emplace_back(valves_[i]);
   if (!all_.is_series()) return;

@@ -62,7 +62,7 @@ class Marking {
   };
 
   const MarkOptions &options() const { return all_.options; }
-  // A single time has no time before it, and thus no velocities.
+  // A single time has no earlier time, and thus no velocities.
   bool has_velocities() const { return times_.size() > 1; }
   std::int32_t fields() const;
   std::vector<std::string> names_of_arrays() const;
@@ -104,8 +104,8 @@ class Marking {
   PassageCheck passage_;
 };
 
-// The driver of riis mark, surface, check leaks and check crossings. A run is valves x times x pieces: a whole mesh is one piece,
-// one state is one time, and the valve of the command line is a case of one. Without a mesh there are no pieces.
+// The driver of riis mark, surface, check leaks and check crossings. A run is valves x times x pieces. A whole mesh is one piece,
+// one state is one time, and the valve of the command line is a case of one valve. Without a mesh there are no pieces.
 //     case -> surfaces -> pieces, read one by one -> marks, leaks, measures -> files -> report
 
 // Reads the case or the valve of the options, marks the mesh, writes the files and prints the report. Returns exit_none_marked if

@@ -363,7 +363,7 @@ Report mark_case(Case &all, const MeshPieces &mesh) {
 
 namespace {
 
-// Returns whether the checks leave no doubt that no flow passes the valves.
+// Returns whether the checks prove that no flow passes the valves.
 bool is_sealed(const Report &report) {
   if (report.passage) return report.passage->found.state == RIIS_PASSAGE_CLOSED && !report.passage->is_unknown;
   return std::all_of(report.valves.begin(), report.valves.end(), [](const ValveReport &valve) {

@@ -100,11 +100,11 @@ riis_passage passage_in(const Piece &piece, const MarkOptions &options, const ri
 
 // ---- The widest passage in pieces ----
 //
-// Each piece is reduced to the ways between its shared nodes. A node's distance is the half thickness that marks it, which is its
-// distance from the surface if the band has no offset. All nodes beyond a limit are open at first, and their connected
-// regions are labelled. After that, the nearer nodes open one by one, from far to near. A node that joins two sets, each with a
-// shared node or an end, is a link with the node's distance. Regions with a common node are joined. Links are then opened from
-// far to near, until both ends are joined. If the ends are joined before any link opens, the limit was too small.
+// Each piece is reduced to the ways between its shared nodes. A node's distance is the least half thickness that marks the node.
+// In a band without an offset, it is the distance from the surface. All nodes beyond a limit are open at first, and their
+// connected regions are labelled. After that, the nearer nodes open one by one, from far to near. A node that joins two sets,
+// each with a shared node or an end, is a link with the node's distance. Regions with a common node are joined. Links are then
+// opened from far to near, until both ends are joined. If the ends are joined before any link opens, the limit was too small.
 
 namespace {
 

@@ -51,8 +51,8 @@ struct PossibleUnit {
   double placement;  // the factor of the placement's lengths
 };
 
-// Returns the units that remain possible if the user named one of them, or none if no other is possible. The present unit comes
-// first. A run without a unit advises the same units.
+// Returns the other possible units of a run whose unit the user named, or none. The present unit comes first. A run without a
+// unit advises the same units.
 std::vector<PossibleUnit> units_left_open(const Situation &situation);
 
 // Prints the line on stderr, on the first rank.

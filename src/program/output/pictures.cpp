@@ -106,7 +106,7 @@ std::string fixed(double number, int decimals) {
 }
 
 // Returns a text such as ", orifice 2.10 cm2". Returns "" for a surface without an outline. Slits of a closed valve do not count.
-// Areas are in cm2 and the half thickness is in mm, as people give them, unless the unit of the mesh is not known.
+// If the unit of the mesh is known, areas are in cm2 and the half thickness is in mm, as people give them.
 std::string orifice_text(const riis_surface *surface, const std::optional<Unit> &unit) {
   const auto orifice = get<riis_orifice>(riis_surface_get_orifice, surface, nullptr);
   if (orifice.outline == RIIS_OUTLINE_NONE) return "";

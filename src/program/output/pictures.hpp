@@ -20,8 +20,8 @@
 
 namespace riis::program {
 
-// Refuses views by the valve's axes if there are several valves, or if the only one is a file of triangles without axes.
-// `valve` has the options of the first valve.
+// Refuses views by the valve's axes for several valves, and for a file of triangles, which has no axes. `valve` has the options
+// of the first valve.
 void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOptions &valve);
 
 // In: frames, which are files in a folder of their own. Out: a movie, made by the program ffmpeg.

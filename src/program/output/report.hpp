@@ -35,7 +35,7 @@ struct Seconds {
 struct PassageReport {
   riis_passage found{};
   bool is_end = false;                // true if the position is an end of the path, so that the passage may be wider
-  double closing_half_thickness = 0;  // for the user to type; 0 if none was found or if the passage is not open
+  double closing_half_thickness = 0;  // for the user to type; 0: none was found, or the passage is closed
   double closing_skirt = 0;           // likewise, for a surface from a file
   std::string place{};                // the position, as text
   bool is_unknown = false;  // true if the passage is closed along the known edges, but unknown edges may open it

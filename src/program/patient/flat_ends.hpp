@@ -48,10 +48,9 @@ PatientWall read_patient_wall(const std::string &path, const EndPoints &points =
 // Multiplies all lengths, such as by 0.001 from millimetres to metres.
 void scale_wall(PatientWall &wall, double factor);
 
-// Names the ends that have no name yet. The inlet is the end that blood comes from: of all ends it is the first on the way along
-// the wall from the place that the valve sees upstream. The others are outlet, outlet_2, ..., the largest first.
-// `centre` is the middle of the valve's annulus, and `flow` the direction of the blood through the open valve.
-// Refuses a centre outside the wall.
+// Names the ends that have no name yet. Blood comes from the inlet: the first end on the way along the wall from the place
+// upstream of the valve. The others are outlet, outlet_2, ..., the largest first. `centre` is the middle of the valve's annulus,
+// and `flow` the direction of the blood through the open valve. Refuses a centre outside the wall.
 void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std::array<double, 3> &flow);
 
 // Writes all triangles as a binary .stl file.

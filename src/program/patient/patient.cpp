@@ -46,7 +46,7 @@ constexpr double usual_resistance = 1e4;  // kg/(m s)
 constexpr double shorter_by = 0.9;
 // Flow solvers on one computer take meshes up to about this size.
 constexpr std::int64_t many_nodes = 40000;
-// The number of nodes grows with this power of the shortness of edges in the band, by meshes of a root and of a ventricle.
+// The number of nodes grows with this power of 1 / (edge length in the band), by meshes of a root and of a ventricle.
 constexpr double power_of_nodes = 2.5;
 constexpr int n_marked_openings = 11;
 

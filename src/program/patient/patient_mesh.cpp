@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 // An end of the new surface may differ by this share in area: the rim has longer edges than before.
 constexpr double most_area_change = 0.05;
-// The edge length in the middle of an end, as a share of its radius: the rim of the end then has at least sixteen edges.
+// The edge length in the middle of an end, as a share of the end's radius. The rim of the end then has at least sixteen edges.
 constexpr double end_edge_share = 0.35;
 // gmsh gets so many seconds, and so many for each triangle. A surface that it cannot make anew may keep it busy for hours.
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
@@ -390,7 +390,7 @@ class PatientMesher {
     return text.text();
   }
 
-  // gmsh gives its patches new numbers, and turns some. Each patch becomes a part of the boundary that it lies on.
+  // gmsh gives its patches new numbers, and turns some. Each patch becomes a part of the boundary under the patch.
   void name_patches() {
     std::map<std::int64_t, std::vector<std::size_t>> patches;
     for (std::size_t i = 0; i < surface_.triangles.size(); ++i) patches[surface_.triangles[i].first].push_back(i);

@@ -12,8 +12,8 @@
 
 namespace riis::program {
 
-// The folder of one run, which becomes the present folder of the process. While it is not finished, it has the file
-// UNFINISHED.txt, and only such a folder and one of an earlier run are taken over.
+// The folder of one run, which becomes the present folder of the process. An unfinished folder has the file UNFINISHED.txt. Only
+// such a folder, or the folder of an earlier run, is taken over.
 class PatientFolder {
  public:
   // Makes the folder, or takes an empty or an unfinished one, and with `replace` that of an earlier run. `inputs` are absolute

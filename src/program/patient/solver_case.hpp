@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a patient's mesh with named boundaries, and the valve that is placed in it. Out: a folder in which a flow solver runs as it
-// is. riis patient fills a SolverCase, and each solver has one function that writes its folder.
+// In: a patient's mesh with named boundaries, and the valve that is placed in it. Out: a folder in which a flow solver runs
+// without changes. riis patient fills a SolverCase, and each solver has one function that writes this folder.
 #pragma once
 
 #include <array>

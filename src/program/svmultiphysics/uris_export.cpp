@@ -105,7 +105,7 @@ std::vector<double> frames_of(const OpeningLaw &law, const TimeSpan &span, doubl
 
 LawWithSpans law_of_seconds(const ExportOptions &options) {
   auto times = defaults<riis_opening_times>();
-  // The opening ends at time 0, and the closing starts at time 0. With this choice, the times of both ends of both ramps are
+  // The opening ends at time 0, and the closing starts at time 0. This choice makes the times of the four ends of the two ramps
   // exact.
   times.opening_start = -*options.opening_duration;
   times.opening_duration = *options.opening_duration;

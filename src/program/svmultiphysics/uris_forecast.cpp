@@ -232,8 +232,9 @@ class Forecaster {
            text_of_finer_mesh(near, above);
   }
 
-  // Returns the edges that are as good as a half thickness that is larger by this factor, because the drop depends on the ratio
-  // of both. Elements become shorter by the same length everywhere, as with size fields of different edges in the band.
+  // Returns the edges that are as good as a half thickness larger by this factor, because the drop depends on the ratio of edge
+  // and half thickness. Elements become shorter by the same length everywhere, as with size fields of different edges in the
+  // band.
   std::string text_of_finer_mesh(const std::vector<double> &near, double factor) const {
     std::vector<double> lengths, volumes;
     const SolverElement &element = *mesh_.element;

@@ -85,8 +85,8 @@ class FinerTriangles {
 // coordinates is exact, even in a box about ten times as large.
 double uris_grid(double largest);
 
-// Three triangles, one along each axis. The middle of each is exactly the middle of a triangle of the valve, so the solver never
-// finds it nearer than the valve. The corners extend beyond the valve's box at both ends.
+// Three triangles, one along each axis. The middle of each added triangle is exactly the middle of a triangle of the valve, so
+// the solver never finds the added triangle nearer. The corners extend beyond the valve's box at both ends.
 class UrisBox {
  public:
   static constexpr std::int64_t n_nodes = 9;
@@ -105,8 +105,8 @@ class UrisBox {
   std::array<std::size_t, 3> chosen_{};
 };
 
-// The openings of the frames. The solver plays the first list when the valve begins to open, and the second when it begins to
-// close. Each time step plays one frame.
+// The openings of the frames. The solver plays the first list from the start of opening, and the second list from the start of
+// closing. Each time step plays one frame.
 struct UrisMotion {
   std::vector<double> opening, closing;
   bool starts_closed = true;
@@ -118,7 +118,7 @@ struct UrisLeaflet {
   std::vector<Corners> triangles;   // corners as numbers of the leaflet's own nodes, from 0
 };
 
-// Lengths are in the solver's unit, cm, unless the unit of the mesh is not known.
+// If the unit of the mesh is known, lengths are in the solver's unit, cm.
 class UrisLeaflets {
  public:
   // Evaluates all frames, and cuts the triangles as the options require.

@@ -313,7 +313,8 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
   const SolverElement &element = *mesh.element;
   const std::vector<ReferencePoint> &points = at_solver_points ? element.gauss : element.fine;
   const std::vector<ShapeFunctions> &functions = at_solver_points ? element.at_gauss : element.at_fine;
-  // Most points of the elements near the band lie outside it: their distance is at least that of a node, less the way to it.
+  // Most points of the elements near the band lie outside: their distance is at least a node's distance minus the way to this
+  // node.
   const double reach = (1 + 1e-6) * half_thickness + error;  // rounding changes less
   const auto excludes = [&](std::int64_t node, const Point &point) {
     const Point off = difference(point, mesh.point(node));

@@ -219,8 +219,8 @@ RIIS_INLINE int32_t first_node_of(const LeafTask &leaf) { return leaf.position *
 RIIS_INLINE uint32_t leaf_of(int32_t node) { return static_cast<uint32_t>(node) / nodes_per_leaf; }
 
 // Takes a leaf to the surface's frame. For every group and every node, computes the square of a lower bound on their distance.
-// Lists each node that may be within reach, with the group that has the least bound. If one side is wanted, a node counts only if
-// a group within reach does not leave it out.
+// Lists each node that may be within reach, with the group that has the least bound. For one side, a node counts only if a group
+// within reach keeps the node.
 template <bool is_one_sided>
 RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask &cluster, float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf), n_before = cluster.n_listed;
@@ -281,8 +281,8 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask 
   leaf.may_be_near = cluster.n_listed > n_before;
 }
 
-// Lists nodes of a leaf with groups other than their first, if the group may be as near as the best triangle so far. Begins with
-// the group cluster.next_group. Returns false if the list is full before the last group.
+// Lists nodes of a leaf with each group, except the first, that may be as near as the best triangle so far. Begins with the group
+// cluster.next_group. Returns false if the list is full before the last group.
 RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf);
   Floats limit[halves], first_group[halves];

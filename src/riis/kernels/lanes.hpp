@@ -61,8 +61,8 @@ struct ComparisonOf<DoubleRegister> {
   typedef LongRegister type;
 };
 
-// Returns a < b ? a : b. If a is NaN, b is therefore returned. NEON differs where b alone is NaN, or where both are zeros of
-// different signs. No result depends on this: b is NaN only where a is, and nothing reads the sign of a zero.
+// Returns a < b ? a : b. If a is NaN, b is therefore returned. NEON differs for a NaN in b alone, and for two zeros of different
+// signs. No result depends on this: b is NaN only where a is, and nothing reads the sign of a zero.
 RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_min_ps((__m512)a, (__m512)b);

@@ -274,8 +274,8 @@ struct HornHeights {
   double depth;             // between both ends
 };
 
-// Returns the cause of a fit that contradicts the landmarks. If one horn rises and the other falls, the annulus looks like one
-// that is turned, so the fitted valve leans, and the largest residual may be at a right landmark.
+// Returns the cause of a fit that contradicts the landmarks. An annulus whose one horn rises while the other falls looks turned.
+// The fitted valve then leans, and the largest residual may be at a right landmark.
 std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 normal, const HornHeights &heights) {
   const double degrees = lean_of(fit, normal);
   const double by_heights =
@@ -404,7 +404,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
         made.models[0]->sizes[horn_size].value *= -1;
     }
   }
-  // A few points with noise can hold the fit at a lean that is not the best one.
+  // A few points with noise can hold the fit at a wrong lean.
   const Pose upright = made.starts[0];
   for (const double lean : {-10.0, 10.0})
     made.starts.push_back({upright.rotation * rotation_about({1, 0, 0}, lean), upright.translation});

@@ -250,7 +250,8 @@ class CircleSizes {
     for (double &sector : own_) sector *= 360 / sum;
   }
 
-  // Sectors stay the template's if all are held, and take part in the fit if some are. Otherwise the landmarks decide.
+  // If all sectors are held, they stay the template's. If some are held, sectors take part in the fit. If none is held, the
+  // landmarks decide.
   std::vector<bool> fits_sectors() const {
     if (!has_sectors()) return {false};
     const std::size_t n_held = count_held([](std::size_t cusp) { return of_cusp(cusp, "sector"); });

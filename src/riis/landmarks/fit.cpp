@@ -13,14 +13,14 @@ namespace riis {
 namespace {
 
 // Landmarks determine a size if its standard error, at the stated noise, moves the valve by at most this share of its radius.
-// Residuals do not count here: they are large for a patient who differs from the model, but the best sizes are still well
+// Residuals do not count here. A patient who differs from the model has large residuals, but the best sizes are still well
 // defined.
 constexpr double determined_share = 1.0 / 15;
 
 // More sizes lower the residuals of noise alone. The sum of squares that they take away has chi-squared's distribution, with a
 // degree of freedom for each of them. The decrease counts if it exceeds the mean by this many standard deviations.
 constexpr double surely_more = 3;
-// Residuals below this share of the stated noise show that the landmarks have none.
+// Residuals below this share of the stated noise show landmarks without noise.
 constexpr double exact_share = 0.01;
 // Rounding of exact landmarks, as a share of the valve's radius.
 constexpr double rounding_share = 1e-9;

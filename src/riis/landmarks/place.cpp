@@ -135,8 +135,8 @@ struct OnAttachment {
   Vec3 point, tangent;
 };
 
-// Returns the point of the attachment that the map takes nearest to `wanted`. Only a named cusp counts. Returns nothing if the
-// cusp has no attachment, or if no distance is finite.
+// Returns the point of the attachment that the map takes nearest to `wanted`. Only a named cusp counts. Returns nothing for a
+// cusp without an attachment, or without a finite distance.
 std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, const WarpMap &map, Vec3 wanted,
                                        std::int32_t leaflet_id) {
   double least = std::numeric_limits<double>::infinity(), at = 0;

@@ -188,7 +188,7 @@ class TriangleFields {
     for (std::int64_t lane = 0; has(RIIS_FIELD_GRADIENT) && lane < n; ++lane)
       for (std::int64_t k = 0; k < n_directions(); ++k) {
         const std::int64_t at = n_directions() * (first + lane) + k;
-        // At an edge or a vertex the way from the closest point is the normal, unless rounding decides its direction.
+        // At an edge or a vertex the normal is the way from the closest point, unless rounding decides the direction of this way.
         const bool has_way = (eight.on.at_border >> lane & 1) != 0 && !is_on_rim[lane] && distance[lane] > least_way_;
         view(made_.height_gradient)[at] = has_way ? (height[lane] > 0 ? 1 : -1) * view(made_.distance_gradient)[at]
                                                   : height_rate(eight, lane, k, is_on_rim[lane] != 0);
@@ -230,7 +230,7 @@ class TriangleFields {
     }
   }
 
-  // Returns the first position from `tie` on where the ties of a node begin, or the number of all ties if there is none.
+  // Returns the first position from `tie` on that begins the ties of a node, or the number of all ties at the end.
   std::int64_t next_node(std::int64_t tie) const {
     while (tie > 0 && tie < ties_.size() && ties_[tie].point == ties_[tie - 1].point) ++tie;
     return tie;

@@ -26,8 +26,8 @@ struct CommonSegment {
 };
 
 // Finds the least overlap of two triangles over the directions that are passed to along(). A face of the Minkowski difference of
-// two triangles has the normal of one triangle, or an edge of each triangle spans the face. The least overlap over these normals
-// is the distance from the origin to the boundary of the difference. The distance to this boundary is the penetration depth.
+// two triangles either has the normal of one triangle or is spanned by an edge of each. The least overlap over these normals is
+// the distance from the origin to the boundary of the difference. The distance to this boundary is the penetration depth.
 class Overlap {
  public:
   Overlap(const Triangle &a, const Triangle &b, double limit) : a_(a), b_(b), limit_(limit) {}

@@ -164,7 +164,7 @@ class FarthestEdges {
     for (const Turn &turn : turns) add(turn);
   }
 
-  // Returns the parts, or nothing if no edge lies in directions over half a turn.
+  // Returns the parts, or nothing if directions over half a turn have no edge.
   std::vector<FarPart> parts() const {
     std::vector<FarPart> made;
     double gap = 0, widest = 0;
@@ -308,8 +308,8 @@ struct FoundView {
   double roundness;
 };
 
-// From a good first axis few turns suffice. More would do harm where a free edge reaches as far out as the attachment, because
-// the farthest edge may then change with each turn. Other first axes need many turns.
+// From a good first axis few turns suffice. More turns would do harm at a free edge that reaches as far out as the attachment,
+// because each turn may then change the farthest edge. Other first axes need many turns.
 constexpr int few_turns = 4, many_turns = 40;
 
 // Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline, at most n_turns
@@ -377,8 +377,8 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const B
 }
 
 // Returns the factor by which the pieces grow about their centroids until the first two neighbours meet. Beyond 1.05 the pieces
-// stand apart on purpose, so the factor falls back to 1, which it reaches at 1.1. A part of the outline that is nearer to a ray
-// from the centre than to a right angle with it is the end of a piece, and not held.
+// stand apart on purpose, so the factor falls back to 1, which it reaches at 1.1. A part of the outline at less than 45 degrees
+// to a ray from the centre is the end of a piece, and not held.
 double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
   struct Held {
     std::int64_t piece;

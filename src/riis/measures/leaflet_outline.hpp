@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The outline of the leaflets, which bounds the orifice: the farthest edges round a centre, seen along an axis that follows from
-// them (docs/theory/measures.md, "Outline").
-// In: triangles, of a valve or from arrays. Out: a polygon in a plane, and the axis along which it is seen.
+// The outline of the leaflets, which bounds the orifice. It consists of the farthest edges round a centre, seen along an axis
+// that follows from these edges (docs/theory/measures.md, "Outline"). In: triangles, of a valve or from arrays. Out: a polygon in
+// a plane, and the axis along which it is seen.
 #pragma once
 
 #include <cstdint>

@@ -38,7 +38,7 @@ struct NodeBalls {
   Range balls_of(std::int64_t large_ball) const;
 };
 
-// Makes the order. This function and the next fail with RIIS_INVALID_MESH for an unusable coordinate.
+// Makes the order. Two functions, this and the next, fail with RIIS_INVALID_MESH for an unusable coordinate.
 void sort_into_balls(const StridedPoints &nodes, const Bounds &bounds, int n_threads, NodeBalls &balls);
 
 // Makes the balls and the large balls from the order.

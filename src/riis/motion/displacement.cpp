@@ -83,7 +83,7 @@ Vector<double> SideMaterial::shares_before(const Vector<double> &shares) const {
 
 namespace {
 
-// Steps of u and v are nearly parallel if the square of the sine of their angle is at most this.
+// Steps of u and v are nearly parallel up to this square of the sine of their angle.
 constexpr double least_sine_sq = 0.01;
 
 bool has_points_inside(const MovedPatch &moved) {

@@ -83,8 +83,8 @@ struct PatchMaterial {
   SideMaterial v0, v1, u0, u1;
 };
 
-// The same for the offsets of a patch of arcs: how much farther the map moves them than the offsets of the warped
-// curves move. The polynomial is 0 for a patch without a warp.
+// The difference, for the offsets of a patch of arcs, between the motion by the map and the motion of the offsets of the warped
+// curves. The polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
 // The map adds this part to the displacement inside a warped Coons patch. This part is 0 at the sides. At the four inner points
@@ -111,10 +111,10 @@ class RestInside {
   std::array<Vec3, 4> rest_{};
 };
 
-// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
-// evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. Only (u,v) identifies
-// a point in both states, so the two states may have different triangles. SideMaterial matches the points of a warped side. The
-// result is exactly 0 if neither the sides nor the bulge changed.
+// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. The two states
+// are evaluated on the smooth patches: on the sides directly, and inside as the same combination of the sides. Only (u,v)
+// identifies a point in both states, so the two states may have different triangles. SideMaterial matches the points of a warped
+// side. The result is exactly 0 if neither the sides nor the bulge changed.
 class PatchDisplacement {
  public:
   // Computes the displacements at the grid's vertices. The grid must have kept its lines.

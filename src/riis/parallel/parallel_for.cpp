@@ -32,7 +32,7 @@ class Blocks {
     }
   }
 
-  // Runs blocks until none is left, or until has_to_stop() returns true before a block. Returns how many blocks it ran. Each
+  // Runs all blocks, or stops before the first block for which has_to_stop() returns true. Returns how many blocks it ran. Each
   // thread of the loop calls this once. The calling thread may also call it before the other threads begin.
   template <class HasToStop>
   std::int64_t run(int thread, const HasToStop &has_to_stop) {

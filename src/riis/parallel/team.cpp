@@ -72,7 +72,7 @@ struct State {
 class Team {
  public:
   // Starts workers until the team has n_workers of them. Returns the number of workers, which is less if the system refuses a
-  // thread. A team without semaphores has none.
+  // thread. A team without semaphores has no workers.
   int grow_to(int n_workers) {
     if (!may_start_.is_made() || !may_end_.is_made()) return 0;
     if (n_workers_ < n_workers) {

@@ -16,8 +16,8 @@ class Threads {
  public:
   // A number that the caller requested.
   Threads(int n) : n_(n) {}  // NOLINT(google-explicit-constructor): most callers pass a number
-  // The library's choice, if the caller requested no number: one thread, and one more for each `per_thread` items of the call's
-  // work, but at most `most`.
+  // The library's choice for a caller without a request: one thread, and one more for each `per_thread` items of the call's work,
+  // but at most `most`.
   static Threads by_default(std::int64_t n_items, std::int64_t per_thread, int most) {
     Threads made(static_cast<int>(std::min<std::int64_t>(1 + std::max<std::int64_t>(n_items, 0) / per_thread, most)));
     made.is_default_ = true;

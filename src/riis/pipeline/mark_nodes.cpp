@@ -12,8 +12,8 @@
 namespace riis {
 namespace {
 
-// Returns whether clusters are faster. If the limit leaves out most nodes, clusters pay only if they are used again, so not in
-// the first marking of a mesh.
+// Returns whether clusters are faster. For a limit that leaves out most nodes, clusters pay only from the second marking of a
+// mesh on.
 bool do_clusters_pay_off(const SearchRequest &request, bool is_first) {
   if (request.surface.other_distance()) return false;
   if (request.mesh.nodes().grid) return true;
@@ -46,8 +46,7 @@ struct SearchRun {
   SearchReport report;
 };
 
-// Searches over clusters. Searches exhaustively instead if the mesh has too many nodes for clusters or if single precision is
-// too coarse.
+// Searches over clusters. Searches exhaustively if the mesh has too many nodes for clusters or single precision is too coarse.
 SearchRun run_clusters(const SearchRequest &request, Marks &marks) {
   if (request.mesh.nodes().n <= max_clustered_nodes) {
     const Clusters &clusters = request.mesh.clusters(request.n_threads);

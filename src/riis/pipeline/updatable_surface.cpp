@@ -15,8 +15,8 @@
 namespace riis {
 namespace {
 
-// If the new surface has more triangles than this, the memory of the old surface is freed, because to keep so much would
-// cost more than to allocate it again. A triangle takes about 300 bytes.
+// Above this number of new triangles, the memory of the old surface is freed, because keeping so much memory would cost more than
+// a new allocation. A triangle takes about 300 bytes.
 constexpr std::int64_t max_triangles_kept = 1'000'000;
 
 }  // namespace

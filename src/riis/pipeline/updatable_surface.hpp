@@ -60,7 +60,7 @@ class UpdatableSurface {
   void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,
                              const SurfaceRequest &request);
 
-  // Lets the next updates search no crossings, for shapes that the caller did not choose.
+  // Switches the search for crossings off in the next updates, for shapes that the caller did not choose.
   void ignore_crossings() { ignores_crossings_ = true; }
 
   // Adds a direction to the surface of a valve, until the next update.

@@ -67,7 +67,7 @@ class Surface {
   // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
   double area() const;
 
-  // Tells whether the attachment is known. For arrays, the caller has to name it or to give them a skirt.
+  // Tells whether the attachment is known. For arrays, the caller has to name the attachment or to request a skirt.
   bool has_attachment() const { return triangles_.is_of_patches() || !triangles_.attached.empty(); }
   // Returns the sides at which leaflets are attached, or the attached edges of arrays. The first call makes them. Several threads
   // may call this function at once.

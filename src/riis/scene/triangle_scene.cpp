@@ -195,9 +195,9 @@ bool add_group(RTCPointQueryFunctionArguments *arguments) {
   return false;
 }
 
-// Bounds the rounding of a distance. The kernel computes a point of the triangle. Each of the point's coordinates is accurate to
-// a few units of rounding of the largest coordinate, and 16 units cover this amply. The distance from that point is accurate to
-// its own rounding.
+// Bounds the rounding of a distance. The kernel computes a point of the triangle. The point's coordinates are accurate to a few
+// units of rounding of the largest coordinate, and 16 units are ample. The distance from that point is accurate to its own
+// rounding.
 double rounding_of_distances(const Bounds &bounds) { return 0x1p-49 * bounds.largest_coordinate(); }
 
 }  // namespace

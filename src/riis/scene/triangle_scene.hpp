@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Triangles in an Embree scene, which answers queries for closest points. Only this file and its .cpp use Embree.
-// In: a triangle set, a point, a limit. Out: the closest triangle, as brute force with the same kernel finds it.
+// In: a triangle set, a point, a limit. Out: the closest triangle, the same triangle as by brute force with the same kernel.
 //
 // Embree works in single precision and only excludes triangles. Coordinates are recentred and scaled by a power of two to
 // the size of the surface. Boxes are rounded outwards, and radii are increased by more than Embree's rounding. Every candidate
@@ -45,8 +45,8 @@ struct Tie {
   ClosestTriangle triangle;
 };
 
-// The ties that one thread of a search finds. For each patch that ties, they contain its closest triangle, and perhaps
-// farther ones.
+// The ties that one thread of a search finds. The ties contain the closest triangle of each patch that ties, and perhaps farther
+// triangles.
 struct Ties {
   TieRule rule;
   std::vector<Tie> candidates;  // ties of points that may still get nearer triangles

@@ -145,7 +145,7 @@ class ClosestPoints {
         for (std::int64_t k = range.begin + block.begin; k < range.begin + block.end; ++k)
           if (const std::int64_t i = wanted_.id(k); wanted_.is_wanted(i)) write_far(i, request_.far_distance, to_);
       });
-    // Each thread fills, searches and writes the points of a region while they are in its cache.
+    // Each thread fills, searches and writes the points of one region after another, so that its cache holds these points.
     const std::int64_t n = view(batch.items).size();
     const std::int64_t share = n_threads == 1 ? n : n / (4 * n_threads);
     const std::int64_t per_part =

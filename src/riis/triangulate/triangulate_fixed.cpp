@@ -82,8 +82,8 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
   set.connectivity = number;
 }
 
-// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if a triangle has an area either
-// only here or only in the plan, or if some triangles are missed.
+// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if some triangles are missed, or a
+// triangle has an area either only here or only in the plan.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
   Tiles tiles(set, how, grids, triangles);

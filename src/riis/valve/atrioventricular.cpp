@@ -80,7 +80,7 @@ class Sizes {
     return saddle_annulus({of(width), of(depth), of(flatness), of(saddle_height),
                            n_leaflets_ == 2 ? FlatSide::at_positive_y : FlatSide::at_negative_y});
   }
-  // Returns where the leaflets begin, and where the last one ends, in laps from the middle of the flat side.
+  // Returns the starts of the leaflets and the end of the last leaflet, in laps from the middle of the flat side.
   Vector<double> commissures() const {
     const double half = 0.5 * of(flat_ratio);
     if (n_leaflets_ == 2) return {-half, half, 1 - half};

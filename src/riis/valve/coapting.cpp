@@ -35,8 +35,7 @@ enum OfCusp { sector, own_effective_height, own_coaptation_height, own_open_radi
 constexpr double most_of_edge = 0.998;
 // The free edge must stay this high above the root while the valve opens, times root_radius.
 constexpr double least_height = 0.05;
-// At these openings, the cusps of every set of values are checked for folds, because folds arise in the second half of the
-// motion.
+// Every set of values is checked for folds of the cusps at these openings, because folds arise in the second half of the motion.
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
 // At the root, the leaflet must rise by this share of the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;

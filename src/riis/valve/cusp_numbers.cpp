@@ -20,8 +20,8 @@ constexpr double open_sag = 1.0 / 3;
 constexpr double used_of_edge = 0.97;
 // The open edge leaves the commissure round, as an arc of a circle does, if it reaches this share of the arc's height.
 constexpr double round_from = 0.7;
-// Equal cusps of three are always round. The less the cosine of half a sector differs from theirs, the more round is the edge of
-// another cusp, up to this difference.
+// Equal cusps of three are always round. The edge of another cusp is the rounder, the less the cosine of its half sector differs
+// from an equal cusp's, up to this difference.
 constexpr double not_of_three = 0.22;
 // The attachment of a cusp with a wider sector, in degrees, has two pieces, because one cubic would leave the cylinder.
 constexpr double most_of_one_piece = 210;

@@ -158,7 +158,7 @@ struct PatchSet {
   // points. The list serves the first curves. The curves of a skirt come after these and have no entry.
   Vector<Vector<Bezier>> rates = {};
   // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. On these lines
-  // equal shares stand for the same points without it.
+  // equal shares stand for the same points without an entry.
   Vector<std::optional<MaterialPoints>> material = {};
   // Only warped patches have this list. For each patch, the list says to which places the map takes points inside the patch.
   Vector<MappedInside> mapped_inside = {};
@@ -179,7 +179,7 @@ inline Curve along(const PatchSet &set, const Side &side) {
   return side.reversed ? set.curve_of(side).reversed() : set.curve_of(side);
 }
 
-// Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. So the two patches at the side get the same bits.
+// Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. The two patches at the side thus get the same bits.
 inline Vec3 arc_offset(const PatchSet &set, const Side &side) { return arc_offset(set.curve_of(side).spans().front()); }
 
 }  // namespace riis

@@ -186,7 +186,7 @@ class SkirtMaker {
   }
 
   // For each step, returns the growth of the length at one of the shares. Between two shares, the length then stays between the
-  // lengths there, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
+  // lengths at the shares, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
   static double growth_at(const Vector<double> &lengths, std::size_t i) {
     const double before = i == 0 ? 0 : lengths[i] - lengths[i - 1];
     const double after = i + 1 == lengths.size() ? 0 : lengths[i + 1] - lengths[i];
@@ -476,8 +476,8 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
     const PatchImage &image = patch.images.front();
     const PatchImage turn = turn_of(image);
     patch.axis = {without_placement(turn, whole.centre - image.translation), without_placement(turn, whole.direction)};
-    // A plane of symmetry contains the line. Rounding must not move the line out of this plane, because the mirror images would
-    // then not meet.
+    // A plane of symmetry contains the line. Rounding must not move the line out of this plane, because mirror images meet only
+    // in the plane.
     for (const PatchImage &other : patch.images) {
       if (other.mirror == Mirror::in_x) patch.axis.centre.x = patch.axis.direction.x = 0;
       if (other.mirror == Mirror::in_y) patch.axis.centre.y = patch.axis.direction.y = 0;

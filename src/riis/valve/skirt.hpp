@@ -90,9 +90,9 @@ inline constexpr double least_skirt_to_wall = 0.01;
 // axis.
 Vec3 outwards(const AxisLine &axis, Vec3 point);
 
-// Adds the patches of a skirt. If `lengths` is empty, the length is `length`. The patches continue the leaflets outwards, and
-// have the leaflet_id of skirt_leaflet and the patch_id of the leaflet's patch plus the number of these ids. Fails with
-// RIIS_INVALID_PARAMETER if the attachment has no outward direction, and for a length that does not fit its size.
+// Adds the patches of a skirt. If `lengths` is empty, the length is `length`. The patches continue the leaflets outwards. Their
+// leaflet_id is skirt_leaflet, and their patch_id is the patch_id of the leaflet's patch plus the number of these ids. Fails with
+// RIIS_INVALID_PARAMETER for an attachment without an outward direction, and for a length that does not fit the attachment.
 void add_skirt(PatchSet &set, double length, const SkirtLengths &lengths);
 
 // Returns the leaflet_id that a skirt of these patches has.

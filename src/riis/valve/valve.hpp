@@ -62,7 +62,7 @@ struct AbsentName {
 struct ValveState {
   ParameterValues values;
   PatchSet patches;
-  Vector<char> is_set;  // for each value 1 if the caller set it, or 0 if it is the default or follows from a rule
+  Vector<char> is_set;  // for each value: 1 if the caller set the value, 0 for a default and for a value from a rule
 };
 
 // A kind of valve: its parameters, and the functions that make patches from them.
@@ -98,8 +98,8 @@ struct ValveKind {
 // Adds the parameter "skirt_length" to a kind.
 ValveKind with_skirt(ValveKind kind, SkirtAxis axis);
 
-// The kinds of valves that are defined by parameters. Each is in a file of its name. But valve/coapting.cpp has the kinds with
-// two to four coapting cusps, and valve/atrioventricular.cpp the kinds with coapting leaflets on an annulus.
+// The kinds of valves that are defined by parameters. Each kind is in a file of its name, except that valve/coapting.cpp has the
+// kinds with two to four coapting cusps, and valve/atrioventricular.cpp the kinds with coapting leaflets on an annulus.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bicuspid_valve_kind();
 const ValveKind &bileaflet_valve_kind();
@@ -121,7 +121,7 @@ class Valve {
   const ValveKind &kind() const { return *kind_; }
   const ParameterValues &values() const { return state_.values; }
 
-  // If the valve itself has no parameter of a name without a leaflet, the name sets the parameter of every leaflet that has one.
+  // A name without a leaflet that is no parameter of the valve itself sets the parameter of every leaflet that has the name.
   void set(std::string_view name, std::int64_t n_values, const double *new_values);
   void get(std::string_view name, std::int64_t n_values, double *out) const;
   // Returns the least and the largest value of the one parameter of that name.

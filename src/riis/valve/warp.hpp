@@ -132,8 +132,8 @@ PatchSet without_images(const PatchSet &set);
 
 // Returns the same patches with warped curves. Curves are cut at landmarks first. Each warped part has the warped ends and the
 // directions of the warped end tangents. The lengths of these tangents make it the nearest to the warped points of the part, by
-// least squares. Arcs are bent anew between warped curves. Unless `check` is no, fails with RIIS_INVALID_PARAMETER if the warp
-// folds at a patch or turns a part of it over. The message names the place and the value.
+// least squares. Arcs are bent anew between warped curves. With `check`, fails with RIIS_INVALID_PARAMETER for a warp that folds
+// at a patch or turns a part of the patch over. The message names the place and the value.
 enum class FoldCheck { no, yes };
 PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts &cuts,
                 FoldCheck check = FoldCheck::yes);

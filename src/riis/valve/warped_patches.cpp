@@ -306,7 +306,8 @@ struct CellNormal {
   bool is_sliver;
 };
 
-// Maps the inner points of the grid. `image` places the patch before the warp. If `check` is yes, fails if the warp folds there.
+// Maps the inner points of the grid. `image` places the patch before the warp. With `check` yes, a warp that folds there makes
+// the function fail.
 void map_inner_points(const LabelGrid &before, const PatchImage &image, const BlendedWarp &warp, FoldCheck check,
                       MappedGrid &mapped) {
   for (std::size_t j = 1; j < n_fold_cells; ++j)

@@ -43,8 +43,8 @@ std::string printable(std::string text) {
   return text;
 }
 
-// Thrown if memory runs out while a file is read or written. The exception contains the text itself, because there may be no
-// memory for a string.
+// Thrown if memory runs out during the reading or writing of a file. The exception contains the text itself, because there may be
+// no memory for a string.
 struct OutOfMemory {
   char text[longest_path + 32];
 };

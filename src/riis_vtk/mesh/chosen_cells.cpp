@@ -134,8 +134,8 @@ bool may_tell_domains(const std::string &array_name) {
 
 constexpr std::size_t most_regions = 16;
 
-// Returns the values of volume cells, if they are few whole numbers, and two of them are of cells of one type with a common node.
-// Otherwise returns none. A domain of several types of cells often has a block for each of them, as Exodus needs.
+// Returns the values of volume cells if the values are few whole numbers, and two cells of one type with a common node have two
+// values. Otherwise returns none. A domain of several types of cells often has a block for each of them, as Exodus needs.
 std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *array) {
   std::set<double> values;
   // The value and the type of the first cell at each node.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mesh handle holds a grid.
-// In: a grid whose cells are checked. Out: the edges of its cells, their typical length, and its linear volume cells as plain
-// arrays for riis_adjacency_create_from_cells.
+// In: a grid whose cells are checked. Out: the edges of the mesh's cells, the typical length of these edges, and the mesh's
+// linear volume cells as plain arrays for riis_adjacency_create_from_cells.
 #pragma once
 
 #include <riis/riis_vtk.h>

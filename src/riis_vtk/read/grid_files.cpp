@@ -80,8 +80,7 @@ void check_faces(const std::string &path, vtkCellArray *faces, vtkIdType first_i
   }
 }
 
-// Returns the number of points for each type of cell. The number is 0 if it depends on the cell, and -1 if the type does not
-// exist.
+// Returns the number of points for each type of cell. The number is 0 for a type whose cells differ, and -1 for an unknown type.
 std::array<int, 256> points_of_cell_types() {
   std::array<int, 256> n_points{};
   for (int type = 0; type < 256; ++type) {

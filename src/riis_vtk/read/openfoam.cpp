@@ -374,7 +374,7 @@ vtkIdType node_above(const Faces &faces, const std::vector<CellFace> &cell, cons
   return above;
 }
 
-// Returns the cell's nodes in VTK's order if it has this shape, otherwise none.
+// Returns the nodes of a cell of this shape in VTK's order, and no nodes for another cell.
 Corners nodes_as(const Shape &shape, const Faces &faces, const std::vector<CellFace> &cell) {
   if (static_cast<std::int64_t>(cell.size()) != shape.n_faces) return {};
   const auto base_face =

@@ -103,7 +103,7 @@ Sizes sizes_of(DataSet *data) {
   return {sizes[0], sizes[1], sizes[2]};
 }
 
-// Returns the axes, unless an axis has one node or does not strictly ascend.
+// Returns the axes if each axis strictly ascends and has two or more nodes.
 std::unique_ptr<const GridAxes> usable(GridAxes axes) {
   for (const std::vector<double> &axis : axes.of) {
     const bool ascends =

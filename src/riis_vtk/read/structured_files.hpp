@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a .vti, .vtr or .vts file, or a legacy file of these kinds. Out: axes and arrays, or an unstructured grid if the nodes are
-// not those of ascending axes.
+// In: a .vti, .vtr or .vts file, or a legacy file of these kinds. Out: axes and arrays, or an unstructured grid if no ascending
+// axes give the nodes.
 #pragma once
 
 #include <array>
@@ -33,8 +33,8 @@ struct GridAxes {
   std::int64_t n_cells() const { return (size(0) - 1) * (size(1) - 1) * (size(2) - 1); }
 };
 
-// Adds the cells of a structured grid with n nodes along each axis to the grid of its points: hexahedra, or quads, lines or a
-// vertex if some axes have one node.
+// Adds the cells of a structured grid with n nodes along each axis to the grid of its points. The cells are hexahedra, or quads,
+// lines or a vertex for axes with one node.
 void add_structured_cells(vtkUnstructuredGrid *grid, const std::array<std::int64_t, 3> &n);
 
 // Lets a data set have the arrays of another one, on points, cells and the whole.

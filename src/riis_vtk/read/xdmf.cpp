@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// XDMF: an .xdmf file describes a mesh, and the numbers are in it, in HDF5 files or in plain binary files (xdmf.org, "XDMF Model
-// and Format"). The reader knows XDMF as FEniCS, dolfinx and meshio write it. The nodes of a cell have VTK's order, as in these
-// programs.
+// XDMF: an .xdmf file describes a mesh, and the numbers are in this file, in HDF5 files or in plain binary files (xdmf.org, "XDMF
+// Model and Format"). The reader knows XDMF as FEniCS, dolfinx and meshio write it. The nodes of a cell have VTK's order, as in
+// these programs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -128,8 +128,8 @@ class XdmfFile {
     return pointer.substr(first, pointer.find(pointer[first - 1], first) - first);
   }
 
-  // Returns the first grid that itself has a part of a mesh, and that has the given name or is in a grid of this name. The
-  // name "" stands for any name. Returns NULL if there is no such grid.
+  // Returns the first grid with its own part of a mesh and with the given name, on itself or on a grid around it. The name ""
+  // stands for any name. Returns NULL if there is no such grid.
   static const XmlElement *grid_with(const XmlElement &parent, const char *part, const std::string &name) {
     for (const XmlElement &child : parent.children) {
       if (child.name != "Grid") continue;

@@ -214,8 +214,8 @@ std::vector<std::uint64_t> XmlSizes::words(const ArrayData &data, int size, bool
 }
 
 // Returns the number of bytes of values that a block of binary data claims. An uncompressed block begins with this number. A
-// compressed block begins with the number of its parts, the size of a part, the size of a smaller last part, and the compressed
-// sizes. In base64, these numbers are encoded separately from the data.
+// compressed block begins with four entries: number of parts, size of a part, size of a smaller last part, and compressed sizes.
+// In base64, these numbers are encoded separately from the data.
 std::uint64_t XmlSizes::n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *element, const ArrayData &data) const {
   vtkXMLDataElement *root = parser->GetRootElement();
   const char *header_type = root->GetAttribute("header_type"), *byte_order = root->GetAttribute("byte_order");

@@ -77,9 +77,9 @@ struct Frames {
   std::vector<double> xyz;    // (3, n_vertices, n_keys)
 };
 
-// Reads a file for each time. Fails if a file has other cells than the first file, or if a coordinate is not finite. In .stl
-// files, corners at the same position in the first file become one vertex. In each other file, these corners must also share one
-// position.
+// Reads a file for each time. Fails for a file whose cells differ from the first file's, and for a coordinate that is not finite.
+// In .stl files, corners at the same position in the first file become one vertex. In each other file, these corners must also
+// share one position.
 Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
                        const CaughtOutput &caught);
 
