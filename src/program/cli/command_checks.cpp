@@ -206,7 +206,7 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
     options.series.all_cells = true;  // centres have no parts
   }
   if (options.n_steps > 0 && (has_case || !options.series.times.empty()))
-    refuse_usage("--steps has no effect with --times and --case: it moves one valve by itself, step by step");
+    refuse_usage("--steps has no effect with --times and --case, because --steps itself moves one valve");
   if (has_case) return options;
   apply_amounts(options);
   if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
@@ -254,7 +254,7 @@ AreaOptions finish_from_area(const Command &command, AreaOptions options) {
   if (!options.given_area && options.areas.empty()) refuse_usage("nothing to do: --area or --areas is needed");
   if (!options.areas.empty() && options.output.empty()) refuse_usage("--areas needs --output, the file of the cycle");
   if (options.solve == "opening" && sets_opening(options))
-    refuse_usage("an opening has no effect, because it is found; --solve scale or NAME finds a size at that opening");
+    refuse_usage("an opening has no effect: --solve opening finds it; --solve scale or NAME finds a size");
   finish_valve(command, options);
   finish_areas(options);
   return options;

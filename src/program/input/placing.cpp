@@ -134,7 +134,7 @@ void adapt(LandmarkFile &landmarks, const PlaceRequest &request) {
     if (request.axes != "LPS" && request.axes != "RAS")
       refuse_usage(axes + " is " + quoted(request.axes) + "; it must be LPS or RAS");
     if (landmarks.axes == Axes::mesh)
-      refuse_usage(axes + ": " + landmarks.path + " states the axes mesh, so it is not known how to turn it");
+      refuse_usage(axes + ": " + landmarks.path + " states the axes mesh, so its turn into other axes is not known");
     landmarks.convert(request.axes == "LPS" ? Axes::LPS : Axes::RAS);
   }
   if (request.noise) landmarks.noise = *request.noise;

@@ -63,8 +63,8 @@ void warn_of_passage(const MarkOptions &options, const PassageReport &report, co
     warn(text + "wide everywhere: no place on it is nearer to " + surface + " than its end at " + report.place + ", " +
          (has_offset ? "which a half thickness of " + shown(found.distance) + " marks"
                      : shown(found.distance) + " from it") +
-         ". Either the points are beside " + surface +
-         ", or it does not stand in their way: give points on both sides of it, farther away");
+         ". Either the points are beside " + surface + ", or " + surface +
+         " does not stand between the points: give points on both sides, farther away");
   else if (report.closing_half_thickness > 0 && opening == 0)
     warn({{Cause::leaks, text + "at " + report.place,
            ", and --half-thickness " + shortest(report.closing_half_thickness) +

@@ -436,7 +436,7 @@ UrisExport write_uris(const ExportOptions &options, const std::string &named_fol
   stage.reset();
   if (leaflets.n_left_out() > 0) {
     warn(counted(leaflets.n_left_out(), "triangle") +
-         " left out, because the area is 0 in some frames and svMultiPhysics would divide by it");
+         " left out: the area is 0 in some frames, and svMultiPhysics would divide by 0");
   }
   check_shape(options, leaflets.valve(), !options.params_open.empty());
   const UrisForecast forecast = options.mesh.empty() ? UrisForecast{} : forecast_of(options, motion, leaflets);

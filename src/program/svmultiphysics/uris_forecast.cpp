@@ -203,7 +203,7 @@ class Forecaster {
   std::string text_of_stiffness() const {
     const double stiffness = options_.resistance * options_.time_step / (options_.density * half_thickness_);
     return "With --resistance " + shown(options_.resistance) + ", R dt/(rho eps) is " + shown(stiffness) +
-           ", and in blood flows it is about 1 to 1,000: look at the unit of --resistance";
+           ", but about 1 to 1,000 in flows of blood: look at the unit of --resistance";
   }
 
   // Finds the half thickness by steps of a quarter, and then by halving the last step twice.

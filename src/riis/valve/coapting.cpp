@@ -113,7 +113,7 @@ ValveKind make_kind(const char *name, double default_stretch) {
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const std::string owner = "commissure_" + std::to_string(k) + ".";
     add_own(specs, owner, "height", commissure_height);
-    specs.push_back({owner + "fusion", number, "share of the meeting line over which both cusps are one", 1, {0}, 0, 0.6});
+    specs.push_back({owner + "fusion", number, "share of the meeting line over which the two cusps are fused", 1, {0}, 0, 0.6});
   }
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const std::string owner = "cusp_" + std::to_string(k) + ".";
