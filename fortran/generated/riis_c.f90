@@ -590,9 +590,9 @@ module riis_c
     integer(c_int64_t) :: n_triangles !< the number of its triangles with an area above 0
     real(c_double) :: area            !< the area of its triangles
     real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 that only one of its patches has.
-                                      !! A surface from arrays has no patches: there the free edge is all open edges
-                                      !! except their longest closed line. An open edge belongs to only one triangle. 0
-                                      !! for a skirt
+                                      !! A surface from arrays has no patches: its free edge is all open edges except
+                                      !! the longest closed line of open edges. An open edge belongs to only one
+                                      !! triangle. 0 for a skirt
     integer(c_int32_t) :: leaflet_id  !< as in riis_triangles
     integer(c_int32_t) :: reserved    !< 0
   end type riis_leaflet

@@ -22,10 +22,9 @@ extern "C" {
  *                   surface's options
  * The first call makes direction 0, the next call direction 1. An update removes all directions. A marking with
  * RIIS_FIELD_GRADIENT gives the derivatives of distances and of K in all directions (docs/theory/gradients.md).
- * Each vertex moves by the difference between both states, on the triangles of the surface, divided by dp. The error of the
- * derivative is of second order in dp if the surface is midway between the states, otherwise of first order. A dp of 1e-5 of
- * the parameter's size suits most parameters. The limits of a fixed triangulation hold for the surface only, not for the two
- * states.
+ * Each vertex moves by the difference between the two states, on the triangles of the surface, divided by dp. The error of the
+ * derivative is of second order in dp if the surface is midway between the states, otherwise of first order. A dp of 1e-5 of the
+ * parameter's size suits most parameters. The limits of a fixed triangulation hold for the surface only, not for the two states.
  * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for a dp out of range; RIIS_INVALID_PARAMETER for a state of
  * another kind or with other patches, and for parameters that do not fit together; RIIS_LIMIT_EXCEEDED for more than 1000
  * directions. */

@@ -17,8 +17,8 @@ extern "C" {
 /* These rules hold for all laws:
  * - The functions are pure: the same arguments give the same bits, and the library keeps nothing.
  * - Times, pressures and flows have the solver's units.
- * - The pressure difference is the upstream pressure minus the downstream pressure. Flow is positive downstream. So
- *   positive values open a valve.
+ * - The pressure difference is the upstream pressure minus the downstream pressure. Flow is positive downstream. Positive
+ *   pressure differences thus open a valve.
  * - `rate` is the time derivative of the opening.
  * - A state has no pointers. A solver that restores a state from a restart file continues with the same bits.
  * - `now` may be the struct `before` itself. `now` gets the struct_size of `before`. To repeat a step, start from `before`

@@ -38,7 +38,7 @@ enum {
                                  times as large as the surface or as far away */
 };
 
-/* The processor's instructions that a marking uses. All of them give the same bits. */
+/* The processor's instructions that a marking uses. All instruction sets give the same bits. */
 enum {
   RIIS_INSTRUCTIONS_AUTO = 0,     /* the best available */
   RIIS_INSTRUCTIONS_BASELINE = 1, /* available on every processor that the library was built for: SSE2 on x86-64, NEON
@@ -105,9 +105,9 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
  * The distance that the list reports decides, in double precision. With an offset, the nodes in the band are marked
  * (riis_surface_create).
  *   marks  its content is replaced
- * The log warns if the units of mesh and surface seem to differ. Units seem to differ if the largest sides of both boxes differ
- * by more than a factor of 50, or if one of these sides is less than the half thickness. The log warns once per surface and mesh,
- * at most eight times per mesh, and never for fewer than 1000 nodes.
+ * The log warns if the units of mesh and surface seem to differ. Units seem to differ if the two boxes' largest sides differ by
+ * more than a factor of 50, or one of these sides is less than the half thickness. The log warns once per surface and mesh, at
+ * most eight times per mesh, and never for fewer than 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);

@@ -20,8 +20,8 @@ typedef struct riis_leaflet {
   int64_t n_triangles; /* the number of its triangles with an area above 0 */
   double area;         /* the area of its triangles */
   double free_edge;    /* the length of its free edge: the sides v = 1 that only one of its patches has. A surface from arrays has
-                          no patches: there the free edge is all open edges except their longest closed line. An open edge belongs
-                          to only one triangle. 0 for a skirt */
+                          no patches: its free edge is all open edges except the longest closed line of open edges. An open edge
+                          belongs to only one triangle. 0 for a skirt */
   int32_t leaflet_id;  /* as in riis_triangles */
   int32_t reserved;    /* 0 */
 } riis_leaflet;

@@ -90,7 +90,7 @@ typedef struct riis_csr {
 RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size); /* the defaults */
 
 /* Gives the mesh the adjacency that the neighbour search walks along, and checks it once.
- *   csr  its arrays are borrowed: they must stay in place, unchanged, until the handle is destroyed or gets another
+ *   csr the struct's arrays are borrowed: they must stay in place, unchanged, until the handle is destroyed or gets another
  *        adjacency. NULL removes the adjacency, as riis_mesh_update with another n_nodes does
  * Errors: RIIS_INVALID_MESH naming the row and its value. */
 RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);

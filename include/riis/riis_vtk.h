@@ -8,8 +8,8 @@
  * - VTK keeps process-wide state: call these functions from one thread at a time.
  * - Messages that VTK would print are caught, and become the message of the error.
  * - A file is refused if it is of another kind, or if its end is missing. A file is also refused if it claims more points, cells,
- *   values or bytes than it holds. VTK's own readers can still crash on a .vtu file whose bytes were damaged. So read files that
- *   you do not trust in a separate process.
+ *   values or bytes than it holds. VTK's own readers can still crash on a .vtu file whose bytes were damaged. Read files that you
+ *   do not trust in a separate process.
  * - RIIS_OUT_OF_MEMORY names the file that was read or written.
  * - If a path cannot be read or written, the status is RIIS_FILE_ERROR, and the message names the file.
  * - A written file is complete or does not exist: it is written under a temporary name and then moved. The new file gets the
@@ -273,8 +273,8 @@ RIIS_API riis_status riis_vtk_mesh_get_boundary(const riis_vtk_mesh *mesh, riis_
  * an .stl file. Arrays that the surface gave before become invalid. */
 RIIS_API riis_status riis_vtk_surface_number_pieces(riis_vtk_surface *surface);
 /* Adds the faces of another surface, for a valve with one file for each leaflet. The first surface becomes
- * leaflet 0, and each added surface the next leaflet. Other leaflet ids are lost. If only one of both surfaces has quads, its
- * quads are cut. `other` stays. Arrays that the surface gave before become invalid. */
+ * leaflet 0, and each added surface the next leaflet. Other leaflet ids are lost. If only one of the two surfaces has quads,
+ * these quads are cut. `other` stays. Arrays that the surface gave before become invalid. */
 RIIS_API riis_status riis_vtk_surface_append(riis_vtk_surface *surface, const riis_vtk_surface *other);
 /* Destroys the surface. Its arrays become invalid. Surfaces made from it stay. */
 RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
@@ -303,8 +303,8 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
  *   order. Polygons and quads are cut as in the first file.
  * - Leaflets and riis_attached come from the first file. `leaflets` names their cell array, as in riis_vtk_surface_read.
  * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly the same
- *   position in the first file become one vertex. In each of the other files such corners must also share one position. If
- *   leaflets touch at corners in the first file and separate later, use .vtp files, which number points.
+ *   position in the first file become one vertex. In every other file such corners must also share one position. If leaflets
+ *   touch at corners in the first file and separate later, use .vtp files, which number points.
  * - Times ascend strictly, and coordinates are finite, as in riis_keyframe_arrays.
  * Errors: RIIS_FILE_ERROR naming the file and the difference, with its value. */
 typedef struct riis_vtk_motion riis_vtk_motion;

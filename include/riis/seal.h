@@ -47,7 +47,7 @@ typedef struct riis_leak_list {
   const double *distance;     /* (n_edges): the least half thickness that closes the edge. Without an offset this is the distance
                                  of the edge's nearer node */
   double half_thickness;      /* the smallest half thickness that gives each edge a marked node, for these triangles */
-  int64_t longest_node_id[2]; /* the nodes of the longest edge, ascending. If edges are equally long, it is the first one */
+  int64_t longest_node_id[2]; /* the nodes of the longest edge, ascending. Of equally long edges, the first edge counts */
   double longest_length;      /* the length of this edge */
   double longest_middle[3];   /* the middle of this edge */
   double seconds;             /* wall time of riis_find_leaks */

@@ -27,7 +27,7 @@ typedef struct riis_valve riis_valve;
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. The caller destroys both valves. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
-/* Destroys the valve. Surfaces made from this valve do not change, nor do valves with it as their open state. */
+/* Destroys the valve. Surfaces made from this valve do not change, and valves whose open state is this valve do not change. */
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by its name in the paper. riis_surface_create checks whether all values fit together.
@@ -74,9 +74,9 @@ RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);
 RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t *is_set);
 
 /* Gives the valve a second state. At opening 0 the valve then has its own state, and at opening 1 the state of the valve `open`.
- *   open  a valve of the same kind, which is copied. Its opening, leaflet ids and open state are ignored. Two valves from patches
- *         must have the same curves, sides and degrees (1 may stand for 2). Two bileaflet valves must both have a ring, or both
- *         lack it
+ *   open  a valve of the same kind, which is copied. The opening, leaflet ids and open state of the second valve are ignored. Two
+ *         valves from patches must have the same curves, sides and degrees (1 may stand for 2). Two bileaflet valves must both
+ *         have a ring, or both lack it
  * A second call replaces the open state. No call removes an open state. Control points are blended linearly between the states
  * (docs/theory/openings.md). A bileaflet valve blends lengths and angles instead. The middle of a coapting cusp's free edge hangs
  * as deep as the edge's length requires. All kinds but aortic and bileaflet take the closed shape from their own parameters, and

@@ -15,7 +15,8 @@ namespace {
 
 // Distances from the plane, as shares of the wall's size: within a flat part, and within a part that the user points at.
 constexpr double flat_share = 5e-4, pointed_share = 5e-3;
-// Triangles of a flat part may lean by this much against its plane, in degrees. Triangles of little height lean more by rounding.
+// The largest angle between a triangle of a flat part and the part's plane, in degrees. Triangles of little height lean more by
+// rounding.
 constexpr double most_lean = 25;
 // A flat part has at least so many triangles.
 constexpr std::int64_t least_triangles = 4;

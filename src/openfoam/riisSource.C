@@ -4,7 +4,7 @@
 // The band imposes the velocity of the leaflets. On the mesh this velocity has divergence for three reasons: it points through
 // walls, leaflets stretch, and it jumps between leaflets. If all faces of a cell are resisted, blood can pass them only under a
 // very large pressure. The solver riisSource adds a source to the right-hand side of the pressure equation, and then calls the
-// linearSolver of its dictionary. README.md says how to switch it on, and riisNetSource.H says what it adds.
+// linearSolver of its dictionary. README.md shows how to switch the source on, and riisNetSource.H describes the source.
 #include "addToRunTimeSelectionTable.H"
 #include "fvOptions.H"
 #include "lduMatrix.H"

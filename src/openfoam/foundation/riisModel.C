@@ -97,7 +97,7 @@ riisModel::riisModel(const word &name, const word &modelType, const fvMesh &mesh
 
 void riisModel::readAll(const dictionary &whole) {
   // OpenFOAM reads the keys from a part of the entry, if the entry has such a part. If the entry has a subdictionary for the
-  // keys, OpenFOAM reads them from there.
+  // keys, OpenFOAM reads the keys from it.
   const word part = type() + "Coeffs";
   if (whole.found(part)) refuseOthers(whole, {"type", "libs", part.c_str()});
   const dictionary &dict = whole.optionalSubDict(part);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a surface. Out: points on it that stand for equal shares of its area, as nearly as its triangles allow.
+// In: a surface. Out: points on the surface that stand for equal shares of its area, as nearly as its triangles allow.
 #pragma once
 
 #include <riis/riis.h>

@@ -47,7 +47,7 @@ class Files {
   posix_spawn_file_actions_t actions_;
 };
 
-// Waits for the end of a program. Returns its exit status, or -1 if a signal ended it.
+// Waits for the end of a program. Returns the exit status, or -1 if a signal ended the program.
 int status_of(pid_t process) {
   int status = 0;
   while (waitpid(process, &status, 0) < 0)

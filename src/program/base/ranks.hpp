@@ -54,7 +54,7 @@ void agree(const Refusal *failure = nullptr);
 
 // Bytes of all ranks in the order of ranks.
 std::vector<std::byte> gather_bytes(const void *own, std::size_t n_bytes, std::size_t element_size);
-// Sends element i of the outer list to rank i. Returns what all ranks sent here.
+// Sends element i of the outer list to rank i. Returns the data that all ranks sent to this rank.
 std::vector<std::byte> exchange_bytes(const void *sent, const std::vector<std::size_t> &n_for_rank,
                                       std::size_t element_size);
 

@@ -14,7 +14,7 @@ std::string path_of_this_program();
 // Makes a pipe whose ends no other program inherits. Returns whether it did; otherwise errno says why.
 bool make_pipe(int ends[2]);
 
-// Lets this process, a child by fork(), get the signal when its parent ends. A parent that has ended before is not noticed.
+// The end of the parent sends the signal to this process, a child by fork(). A parent that has ended before is not noticed.
 void end_with_parent(int signal);
 
 // Returns the bytes of this process that count towards the limit of its memory (RLIMIT_AS). Returns nothing if the system does

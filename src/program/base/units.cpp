@@ -84,7 +84,7 @@ constexpr double most_edge = 10, most_edge_of_valve = 0.4;
 constexpr double smallest_half_thickness = 0.3;
 // A vessel that is too narrow or too wide by more than these ratios is impossible. The valve may stand in a wide basin.
 constexpr double most_too_narrow = 1.5, most_too_wide = 10;
-// A unit is possible if it is at most this much odder than the likeliest one. Oddities are logarithms of ratios.
+// A unit is possible if it is at most this much odder than the likeliest unit. Oddities are logarithms of ratios.
 constexpr double most_odd = 1;
 // The present unit of a wide basin is right if each other unit is odder by at least this much.
 constexpr double surely_odder = 0.3;
@@ -101,7 +101,7 @@ double wideness_at(double factor, const Sizes &s) {
 }
 
 // Returns how odd the sizes are if the mesh's lengths are multiplied by the factor. The default half thickness has the valve's
-// unit, so it says how long and how short the mesh's edges may be.
+// unit, and thus limits the mesh's edges from above and below.
 double oddity_at(double factor, const Sizes &s, double edge) {
   double oddity = narrowness_at(factor, s) + wideness_at(factor, s) +
                   excess(factor * edge / (longest_edge * s.surface.largest_side()));

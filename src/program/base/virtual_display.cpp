@@ -175,7 +175,7 @@ std::string reason_of(int messages) {
 struct Server {
   pid_t process = -1;
   std::string display{};  // its number, or "" if the process has ended
-  int error = 0;          // why it could not be started, as errno has it, or 0
+  int error = 0;          // the errno of the failed start, or 0
 };
 
 // Starts Xvfb with more options, and waits until it is ready. Xvfb finds a free number for its display by itself.

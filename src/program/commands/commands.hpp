@@ -35,7 +35,7 @@ void export_uris(const ExportOptions &options);
 // The files of an export, written. The block names them in `named_folder`, the folder as the solver sees it.
 struct UrisExport {
   std::string block;
-  std::string failure;  // why the drop was not found; "": it was, or there is no mesh
+  std::string failure;  // why the drop was not found; "" if it was found, or without a mesh
 };
 UrisExport write_uris(const ExportOptions &options, const std::string &named_folder);
 

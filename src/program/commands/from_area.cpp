@@ -39,7 +39,7 @@ struct Solution {
 
 std::string words_of(const AreaOptions &options) { return options.is_effective ? "effective area" : "area"; }
 
-// Returns a number with more digits than a summary has, so that it gives the area again.
+// Returns a number with more digits than a summary has, so that the number gives the area again.
 std::string exact(double number) { return printed("%.9g", number); }
 
 std::string text_of_range(const AreaOptions &options, const riis_area_range &range) {

@@ -368,7 +368,8 @@ std::string summary_of(const States &states, const StatesOptions &options) {
 
 riis_surface_options own_frame(const ValveOptions &options) {
   // The orifice of the triangles differs from that of the smooth surface. At the program's usual tolerance, the difference is up
-  // to 0.3 % for the prosthesis. At this tolerance it is at most about 0.1 % for the prosthesis and for the aortic valve.
+  // to 0.3 % for the prosthesis. At this tolerance the difference is at most about 0.1 % for the prosthesis and for the aortic
+  // valve.
   constexpr double fine_tolerance = 0.01;
   riis_surface_options own = options.surface_options;
   if (!options.has_tolerance) own.tolerance = fine_tolerance;

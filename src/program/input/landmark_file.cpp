@@ -241,7 +241,7 @@ Unit slicer_unit(const std::string &path, const Json &list, const std::string &w
   return stated_unit(path, unit.get<std::string>());
 }
 
-// A file of 3D Slicer has many keys, which change from version to version. Only those needed here are read.
+// A file of 3D Slicer has many keys, which change from version to version. Only the keys needed here are read.
 void read_slicer(const Json &root, LandmarkFile &file) {
   const std::string &path = file.path;
   const Json &lists = root["markups"];

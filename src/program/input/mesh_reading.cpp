@@ -47,8 +47,8 @@ class PassingFolder {
   const TemporaryFolder folder_;
 };
 
-// Limits the memory of this process, because damaged files may claim any size. Sound files need a few times their size, and
-// compressed ones up to a thousand times. The address sanitizer reserves terabytes, so there is no limit under it.
+// Limits the memory of this process, because damaged files may claim any size. A sound file needs a few times its size in memory,
+// and a compressed file up to a thousand times. The address sanitizer reserves terabytes, so its builds have no limit.
 void limit_memory([[maybe_unused]] const std::string &path) {
 #ifndef __SANITIZE_ADDRESS__
   std::error_code error;

@@ -52,7 +52,7 @@ LandmarkFile landmarks_of_json(const std::string &subject, const Json &root);
 // Who reads a message. Options are written like --unit mm for the program, and like unit='mm' for Python.
 enum class Reader { program, python };
 
-// What the user says of the landmarks besides their file.
+// The user's statements about the landmarks, besides the file.
 struct PlaceRequest {
   Reader reader = Reader::program;
   std::optional<Unit> unit;     // to which lengths are converted

@@ -22,12 +22,12 @@ namespace {
 
 // The openings at which the wall must be within reach.
 constexpr std::int32_t n_openings = 11;
-// The gap is measured at other points than the skirt's length, so it may exceed the longest skirt by this share.
+// Gap and skirt are measured at different points, so the gap may exceed the longest skirt by this share.
 constexpr double most_beyond = 0.01;
 // An open line of the wall is a hole if it is shorter than this share of the attachment. The end of a vessel is longer.
 constexpr double longest_hole = 0.3;
 
-// How a wall differs from the file's: a factor of its lengths, and half a turn about z, by which the axes LPS and RAS differ.
+// The difference between a wall and the file's wall: a factor of lengths, and the half turn about z between the axes LPS and RAS.
 struct Change {
   const char *factor;
   bool is_turned;

@@ -31,7 +31,7 @@ KeyedEdge edge_between(NodeKey p, NodeKey q, double length);
 // Returns the edges of all ranks in order, each once.
 std::vector<KeyedEdge> gathered(const std::vector<KeyedEdge> &own);
 
-// Returns the half thickness that the surface needs, or nothing if the given one closes it.
+// Returns the half thickness that the surface needs, or nothing if the given half thickness closes the surface.
 using Left = std::function<std::optional<double>(double half_thickness)>;
 // Returns a half thickness that closes the surface, or 0 if none is found. `valve` is null for a surface from a file.
 double closing_half_thickness(const riis_valve *valve, double half_thickness, const Left &left);

@@ -29,7 +29,7 @@ class Marking {
   // Makes the surfaces of the valves. The case and the mesh must outlive this object.
   Marking(Case &all, const MeshPieces &mesh);
 
-  // Marks a piece by all valves at all times, and notes what the report needs. Without a series, the piece gets its arrays.
+  // Marks a piece by all valves at all times, and notes the numbers for the report. Without a series, the piece gets its arrays.
   void measure(Piece &piece);
   // Completes the report, except for times and files, and warns. All ranks must have measured their pieces.
   void judge();
@@ -50,7 +50,7 @@ class Marking {
   const Box &swept() const { return swept_; }
 
  private:
-  // What one valve needs of all pieces.
+  // The numbers of one valve from all pieces.
   struct ValveSums {
     MeshLeaks leaks;
     riis_mark_stats marks = no_stats();
@@ -82,7 +82,7 @@ class Marking {
   void report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts);
   void warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts);
   void report_outside(std::size_t i, const MeshCounts &counts);
-  // Prints how many nodes each unit marks that remains possible, for a valve at its present position.
+  // Prints the number of marked nodes for each possible unit, with the valve at its present position.
   void compare_units(std::size_t i, const std::vector<PossibleUnit> &units) const;
   void report_orifices();
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a mesh, one file or several pieces. Out: its pieces, read one by one, and the nodes that a piece shares with others. A mesh
-// of one file is one piece. Each node has a key, and nodes of two pieces are the same node if their keys are equal.
+// In: a mesh, one file or several pieces. Out: the mesh's pieces, read one by one, and the nodes that a piece shares with other
+// pieces. A mesh of one file is one piece. Each node has a key, and nodes of two pieces are the same node if their keys are
+// equal.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -160,7 +161,7 @@ class JoinedSets {
 // A node that several pieces may have, in one of them.
 struct SharedNode {
   NodeKey key;
-  std::int32_t region;  // its open region, numbered within the piece; -1 if it is in none
+  std::int32_t region;  // the node's open region, numbered within the piece, or -1
   std::int32_t piece;
 };
 

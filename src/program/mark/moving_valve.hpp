@@ -54,7 +54,7 @@ class MovingValve {
 };
 
 // Makes the valves of a case, at the first time, and looks for crossings in their shapes. Tries each valve's options on a single
-// node, so that bad ones are refused early.
+// node, so that bad options are refused early.
 std::vector<MovingValve> moving_valves(Case &all);
 
 // Triangles of several surfaces, or of one at several times.

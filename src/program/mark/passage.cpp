@@ -133,7 +133,7 @@ struct Link {
   PassageNode node;
 };
 
-// The place of an end, and its node if it is within the limit.
+// The place of an end, and the node of an end within the limit.
 struct PlacedEnd {
   std::int64_t end;
   Place place;
@@ -297,7 +297,7 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
 PassageReport find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
                            const PieceEnd (&ends)[2]) {
   const riis_surface_info info = info_of(surface);
-  // A path comes at least as near to the surface as its ends, which are marked by a half thickness below this.
+  // A path comes at least as near to the surface as its ends, and a half thickness below this marks the ends.
   double farthest = 0;
   for (const PieceEnd &end : ends)
     for (int k = 0; k < 3; ++k)
@@ -383,7 +383,7 @@ void PassageCheck::judge(const riis_surface *surface, const riis_valve *valve, c
   }
   PassageReport passage = find(surface);
   const riis_passage &found = passage.found;
-  // Unknown edges cannot close an open path, but may make one where the known edges have none.
+  // Unknown edges cannot close an open path, but may make a path where the known edges make none.
   passage.is_unknown = found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
   if (found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty()) {
     passage.closing_half_thickness = closing_half_thickness(valve, found.distance, [&](double wanted) {

@@ -292,8 +292,8 @@ std::string place_text(const ValveOptions &options, const double *point, double 
 
 namespace {
 
-// Differences below this share of the outline's area come from the triangles. What the bands leave of both valves has a smaller
-// error, because it is mostly 0.
+// Differences below this share of the outline's area come from the triangles. The area that both valves' bands leave has a
+// smaller error, because this area is mostly 0.
 constexpr double least_share = 1e-3, least_share_left = 1e-5;
 // The width of a gap is found to this share of the bridge.
 constexpr int n_halvings = 10;
@@ -322,7 +322,7 @@ Surface closed_surface(const ValveOptions &options, riis_valve *valve) {
   return surface_at(valve, 0, how);
 }
 
-// Returns the orifice, and as effective area what is left of it after its edge along the leaflets has moved inwards.
+// Returns the orifice. The effective area is the rest of the orifice after its edge along the leaflets has moved inwards.
 riis_orifice orifice_of(const riis_surface *surface, double moved, double rim_reach) {
   auto resistance = defaults<riis_resistance>();
   resistance.half_thickness = moved / rim_reach;

@@ -65,7 +65,7 @@ class SeriesFiles {
 
 class SeriesLists {
  public:
-  // `write` must write all lists. The object's thread calls it with false, and end() calls it with true.
+  // `write` must write all lists. The object's thread calls the function with false, and end() calls it with true.
   explicit SeriesLists(std::function<void(bool is_last)> write);
   ~SeriesLists();
   SeriesLists(const SeriesLists &) = delete;
@@ -97,7 +97,7 @@ class MarkedFiles {
   bool is_wanted() const { return !path_.empty(); }
   // Returns whether the files of a series are in a list.
   bool has_list() const { return is_wanted() && is_series_ && !is_foam_case_; }
-  // Finds the files that an earlier run left, if this one writes a series.
+  // For a series, finds the files that an earlier run left.
   void find_earlier();
   // Makes the folder of the files, if there is more than one file.
   void make_folder() const;
@@ -108,7 +108,7 @@ class MarkedFiles {
   void list_pieces();
   void write_list() const;
   const std::string &folder() const { return steps_.folder(); }
-  // Adds what is written to the report.
+  // Adds the written files to the report.
   void report(Report &report) const;
 
  private:

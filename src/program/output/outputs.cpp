@@ -231,7 +231,7 @@ void check_files(const NamedFiles &outputs) {
 }  // namespace
 
 OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs) {
-  // The ranks of a run share their outputs. The first one checks and locks these.
+  // The ranks of a run share their outputs. The first object checks and locks the files.
   if (!ranks::is_first()) return OutputLocks({});
   const KnownFiles inputs = known(inputs_of(options, more_inputs));
   const NamedFiles outputs = outputs_of(options);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program's outputs. Before any long work, the program checks that it can write them. A text is written completely or not at
-// all.
+// The program's outputs. Before any long work, the program checks that the outputs can be written. A text is written completely
+// or not at all.
 #pragma once
 
 #include <csignal>
@@ -15,7 +15,7 @@ namespace riis::program {
 // Names a file of this process and its folder. Signals that end the process remove both. Empty names stand for none.
 void remove_if_ended(const std::string &folder, const std::string &file);
 
-// A folder among the temporary files. The destructor removes it with its content.
+// A folder among the temporary files. The destructor removes the folder with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -29,7 +29,7 @@ class TemporaryFolder {
   std::string path_;
 };
 
-// Locks on the program's outputs. If two runs would replace the same file, only the first one continues.
+// Locks on the program's outputs. Of two runs that would replace the same file, only the first run continues.
 
 // For each output NAME, holds an empty file .riis-NAME.lock next to it, locked by flock. When the process ends for any reason,
 // the kernel releases the lock. The destructor removes the file, and so do the handlers of SIGINT, SIGTERM and SIGHUP. A killed

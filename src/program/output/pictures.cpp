@@ -244,8 +244,8 @@ void RunPictures::draw_pictures(const std::vector<MovingValve> &valves, const st
   const UnbrokenWrite unbroken;
   riis_vtk_picture_options options = how(valves);
   options.title = title.c_str();
-  // Draws the leaking edges of a single valve in red. If there are none, and the edges of all cells are known, the picture says
-  // so.
+  // Draws the leaking edges of a single valve in red. If no edge leaks, and the edges of all cells are known, the picture states
+  // that there is no leak.
   static constexpr int64_t none = 0;
   const LeakReport &leaks = report.valves[0].leaks;
   if (valves.size() == 1 && mesh_ && !all_.is_series()) {

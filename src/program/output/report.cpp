@@ -407,7 +407,7 @@ std::string json_of(const Report &report) {
   return json.dump(2) + "\n";
 }
 
-// For a series, each valve has a line about its times; for one state, it has lines about surface and marks.
+// A series has a line about its times for each valve. One state has lines about surface and marks.
 std::string table_of(const Report &report) {
   std::ostringstream out = table_stream();
   const bool is_series = !report.times.empty(), has_mesh = !report.mesh_name.empty();

@@ -87,7 +87,7 @@ struct OutsideReport {
 // Returns a text such as "12.3 MB".
 std::string bytes_text(double n);
 
-// Returns whether an orifice has an area but hardly a perimeter, because slits have none, and the text about them.
+// Returns whether an orifice has an area but hardly a perimeter, because slits have no perimeter, and the text about slits.
 bool has_slits(const riis_orifice &orifice);
 inline constexpr const char *slits_text =
     ", where slits narrower than a fifth of the half thickness do not count: they are in the open area only";

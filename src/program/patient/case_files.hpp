@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the writers of cases share: checks of a SolverCase, the folder, and texts with names such as @NAME@.
+// The common parts of the writers of cases: checks of a SolverCase, the folder, and texts with names such as @NAME@.
 #pragma once
 
 #include <map>
@@ -34,7 +34,7 @@ std::string filled(std::string text, const std::map<std::string, std::string> &n
 std::string duration_text(double seconds);
 
 // The texts of beat_table.py and of the files in the folders fenicsx, openfoam and svmultiphysics, by names such as
-// "openfoam/Allrun". CMake writes them into the program, so the program needs no path to them.
+// "openfoam/Allrun". CMake writes the texts into the program, so the program needs no path to the texts.
 const std::map<std::string, std::string> &case_texts();
 
 }  // namespace riis::program

@@ -33,16 +33,16 @@ struct PatientWall {
   std::vector<std::string> remarks;   // what was changed in the surface, a line each, such as "... are turned outwards"
 };
 
-// The points of --inlet and --outlet, in the unit of the wall's file. Each chooses the flat part that is nearest.
+// The points of --inlet and --outlet, in the unit of the wall's file. Each point chooses the nearest flat part.
 struct EndPoints {
   std::optional<std::array<double, 3>> inlet{};
   std::vector<std::array<double, 3>> outlets{};  // if there are some, no other flat part is an outlet
 };
 
-// Reads a wall from a surface's file or from a volume mesh, whose boundary then is the wall. Finds its flat ends by plane: any
-// number of them, in any direction. Closes flat holes at its ends. Turns triangles outwards.
-// Refuses a surface with other holes, with several pieces or with edges of more than two triangles. If the ends are not clear, it
-// refuses the wall with the list of flat parts and the options that choose among them.
+// Reads a wall from a surface's file or from a volume mesh, whose boundary then is the wall. Finds the wall's flat ends by plane:
+// any number of ends, in any direction. Closes flat holes at its ends. Turns triangles outwards. Refuses a surface with other
+// holes, with several pieces or with edges of more than two triangles. If the ends are not clear, it refuses the wall with the
+// list of flat parts and the options that choose among them.
 PatientWall read_patient_wall(const std::string &path, const EndPoints &points = {});
 
 // Multiplies all lengths, such as by 0.001 from millimetres to metres.

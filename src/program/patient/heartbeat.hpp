@@ -14,7 +14,7 @@ inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and i
 inline constexpr double dwell_seconds = motion_seconds;
 inline constexpr double opening_pressure = 50;  // Pa; above it, rounding cannot open a valve between equal pressures
 inline constexpr double closing_flow_of_mitral =
-    1e-4;  // m3/s; below it a mitral valve closes, so that less blood returns
+    1e-4;  // m3/s; below this flow a mitral valve closes, so that less blood returns
 
 // A pressure in time, linear between its keys. It repeats after beat_period.
 struct PressureCurve {

@@ -478,7 +478,7 @@ class PatientRun {
     }
   }
 
-  // Runs a command that also draws. If it cannot draw here, says so, and runs the command that does not draw.
+  // Runs a command that also draws. If the program cannot draw here, prints this, and runs the command that does not draw.
   void run_with_picture(const std::string &name, const Words &with_picture, const Words &words,
                         const std::string &output, const std::string &picture) {
     StepEnd end = steps_.run(name, with_picture);

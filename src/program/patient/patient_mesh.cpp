@@ -34,7 +34,8 @@ namespace fs = std::filesystem;
 constexpr double most_area_change = 0.05;
 // The edge length in the middle of an end, as a share of the end's radius. The rim of the end then has at least sixteen edges.
 constexpr double end_edge_share = 0.35;
-// gmsh gets so many seconds, and so many for each triangle. A surface that it cannot make anew may keep it busy for hours.
+// gmsh gets this time, and this time for each triangle, in seconds. A surface that gmsh cannot make anew may keep gmsh busy for
+// hours.
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
 // The wall goes through itself if triangles overlap by more than this share of its size.
 constexpr double least_crossing_share = 1e-5;
@@ -288,7 +289,7 @@ class PatientMesher {
            "Mesh.MeshSizeFromCurvature = 0;\n";
   }
 
-  // Runs gmsh on a .geo file. Refuses with its last error if it does not write the mesh. `cure` follows that error.
+  // Runs gmsh on a .geo file. Without a written mesh, refuses with gmsh's last error. `cure` follows that error.
   GmshMesh run_gmsh(double seconds, const std::string &dimension, const std::string &geo, const std::string &mesh,
                     const std::string &cure) {
     const std::string log = in_gmsh(fs::path(geo).stem().string() + ".log");

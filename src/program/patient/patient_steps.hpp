@@ -38,12 +38,12 @@ struct StepEnd {
   std::string reason() const { return messages.empty() ? "" : messages.back(); }
 };
 
-// Runs commands of riis in the present folder, prints them, and keeps what they print in the folder `logs`.
+// Runs commands of riis in the present folder, prints the commands, and keeps their output in the folder `logs`.
 class PatientSteps {
  public:
   explicit PatientSteps(bool quiet);
 
-  // Prints a line: a label and what was found. With `seconds` the line ends with the time.
+  // Prints a line: a label and a result. With `seconds` the line ends with the time.
   void say(const std::string &label, const std::string &text, double seconds = -1);
   // Prints a command that is about to run.
   void announce(const std::string &command);

@@ -125,7 +125,7 @@ class WallRepair {
     renumber(number);
   }
 
-  // Joins vertices of open sides that are so near that only rounding parts them.
+  // Joins vertices of open sides whose distance is only rounding.
   void join_near_points() {
     std::vector<std::int64_t> open;
     for_each_edge(sorted_sides(corners()), [&](const TriangleSide *side, std::size_t n) {

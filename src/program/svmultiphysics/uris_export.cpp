@@ -176,7 +176,7 @@ void check_whole_folder(const std::string &given, const std::string &option) {
   check_writable(option, path, path);
 }
 
-// A folder that receives its files only when all of them are written. Until then the files are in a folder inside it whose name
+// A folder that receives its files only when all files are written. Until then the files are in a folder inside it whose name
 // begins with a dot. If take_place() was not called, the destructor removes everything.
 class WholeFolder {
  public:
@@ -350,7 +350,7 @@ std::string as_name(std::string text) {
   return text;
 }
 
-// Returns the name of the valve in the solver's input. The solver also uses it in names of arrays and files, so two valves of one
+// Returns the name of the valve in the solver's input. The solver also uses the name for arrays and files, so two valves of one
 // run need two names. The folders of the valves differ, so the name is the folder's path.
 std::string block_name(const ExportOptions &options) {
   if (!options.name.empty()) return options.name;

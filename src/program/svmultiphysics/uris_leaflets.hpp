@@ -53,8 +53,8 @@ class FinerTriangles {
   void append_middles(std::vector<double> &xyz) const;
   // Measures all edges. `xyz` has all vertices at one time. The length of an edge is the largest one over all times.
   void measure(const std::vector<double> &xyz);
-  // Halves once each edge whose measured length exceeds `length`. Returns true if there was one. Triangles that share an edge
-  // also share its middle, so no gap opens between them.
+  // Halves once each edge whose measured length exceeds `length`. Returns true if there was such an edge. Triangles that share an
+  // edge also share its middle, so no gap opens between them.
   bool halve_longer(double length);
 
  private:

@@ -321,7 +321,7 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
     const double beyond = view(near)[node] - reach;
     return beyond > 0 && beyond < infinity && product(off, off) < beyond * beyond;
   };
-  // A linear element lies between its nodes, so a node that excludes all of them excludes the element.
+  // A linear element lies between its nodes, so a node that excludes all other nodes excludes the element.
   const bool is_linear = element.n_nodes == element.n_corners;
   std::vector<double> xyz, weights;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What svMultiPhysics computes from exported leaflets in a mesh, by the rules of its own sources (docs/export.md).
+// The numbers that svMultiPhysics computes from exported leaflets in a mesh, by the rules of its own sources (docs/export.md).
 // In: a mesh, and the leaflets of a frame. Out: the solver's distances at nodes, its delta at Gauss points, and its bands.
 #pragma once
 

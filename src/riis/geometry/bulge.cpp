@@ -18,7 +18,7 @@ namespace riis {
 namespace {
 
 // Ball arithmetic: bounds a vector or a number on a range by a middle value and the largest distance from it.
-// In: ranges. Out: ranges that hold every value. Rounding of the bounds is ignored, because it is far smaller than they are.
+// In: ranges. Out: ranges that hold every value. Rounding of the bounds is ignored, because it is far smaller than the bounds.
 
 // All numbers within `radius` of `middle`.
 struct Interval {
@@ -128,7 +128,7 @@ std::optional<Along> along_span(const Bezier &span, double speed) {
   if (!(speed > 0)) return Along{};
   const Derivatives d(span);
   const bool is_cubic = d.n == 3;
-  // In the middle, B' is this vector. From there B'' changes it for half of the range of t, to either side.
+  // In the middle, B' is this vector. From the middle, B'' changes B' for half of the range of t, to either side.
   const Vec3 middle = is_cubic ? 0.25 * (d.first[0] + 2 * d.first[1] + d.first[2]) : 0.5 * (d.first[0] + d.first[1]);
   const double size = length(middle);
   if (!(size > 0)) return std::nullopt;

@@ -17,8 +17,8 @@ struct PatchSides {
   const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
 };
 
-// A line of the grid. If the parameters of two vertices on opposite sides nearly agree, they share a line, so no sliver quads
-// arise. Neither vertex moves. Neighbouring patches fit without cracks, because each vertex of a shared curve keeps its place.
+// A line of the grid. Two vertices on opposite sides whose parameters nearly agree share a line, so no sliver quads arise.
+// Neither vertex moves. Neighbouring patches fit without cracks, because each vertex of a shared curve keeps its place.
 struct GridLine {
   double t0, t1;                                // the line's parameters on the first and the second of its two sides
   double middle;                                // the mean of both, which is the line's u (or v) in the grid

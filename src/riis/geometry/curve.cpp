@@ -12,7 +12,7 @@
 namespace riis {
 namespace {
 
-// A curve has at most 2^20 parts. A request with so many parts would make more triangles than this library can hold.
+// A curve has at most 2^20 parts. A request with more parts than this would make more triangles than the library can hold.
 constexpr int max_depth = 20;
 // The velocity does not halve parts narrower than this. If a curve nearly turns on the spot, such halving would not
 // end.

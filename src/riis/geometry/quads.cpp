@@ -72,7 +72,7 @@ Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double m
   if (!(error <= left)) {
     double shortest = 0;
     const Quad merged = without_shortest_edge(quad, shortest);
-    // The quad and the merged quad are at most half the shortest edge apart, and so are their triangles. The sum therefore
+    // The quad and the merged quad, and also their triangles, are at most half the shortest edge apart. The sum therefore
     // includes the whole edge.
     error = std::min(split_error_at(quad, level, infinity), split_error_at(merged, level, infinity) + shortest);
   }

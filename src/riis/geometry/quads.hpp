@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quads of grids, and how often they are halved before they are split into triangles (docs/theory/triangles.md).
-// In: grids, the allowed error. Out: the level of each quad, and a bound on the error of its triangles.
+// Quads of grids, and the number of halvings before quads are split into triangles (docs/theory/triangles.md). In: grids, the
+// allowed error. Out: the level of each quad, and a bound on the error of its triangles.
 #pragma once
 
 #include <cstddef>

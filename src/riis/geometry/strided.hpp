@@ -61,8 +61,8 @@ void check_pointers(const StridedReals<Real> &points, const char *what, const ch
 template <class Real>
 void check_point(const StridedReals<Real> &points, std::int64_t i, const char *what, riis_status bad_coordinate);
 
-// Returns point i of points that were checked when the caller passed them. The caller may have changed them since then, so
-// the coordinates are checked again. Fails as check_points does.
+// Returns point i of points that were checked when the caller passed them. The caller may have changed the coordinates since
+// then, so they are checked again. Fails as check_points does.
 inline Vec3 checked_point(const StridedPoints &points, std::int64_t i, const char *what, riis_status bad_coordinate) {
   const Vec3 p = points[i];
   if (!is_usable(p)) check_points(points, what, bad_coordinate);

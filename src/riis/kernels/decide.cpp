@@ -69,7 +69,7 @@ RIIS_INLINE Doubles root(Doubles a) {
 }
 
 // Returns 1 / sqrt(a) with an error of a few units in the last place. `a` must be a normal positive number. The last bits depend
-// on the instruction set, so no result that a caller sees may depend on them.
+// on the instruction set, so no result for a caller may depend on these bits.
 RIIS_INLINE Doubles inverse_root(Doubles a) {
 #if defined(__AVX512F__)
   // Newton's method doubles the 14 right bits of the estimate twice. This method takes less time than a root and a division.

@@ -382,7 +382,7 @@ void begin_cluster(const FilterTask &task, ClusterTask &cluster) {
   task.one_side.end_of_band ? begin_leaves<true>(task, cluster) : begin_leaves<false>(task, cluster);
 }
 
-// Leaves a node out if all triangles that may be its closest leave it out of the band. All groups near the node must be in the
+// Leaves a node out if all its possible closest triangles leave the node out of the band. All groups near the node must be in the
 // list, so only the first n_leaves leaves count.
 RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   uint32_t stays[leaves_per_cluster] = {};

@@ -112,8 +112,8 @@ struct LeafTask {
   uint32_t found;    // after the last call of filter_cluster, a bit for each node that had pairs in any call
 };
 
-// Cache lines for the decision. The filter requests some of them after every few distances. If it requested all at once, they
-// would fill the processor's queue, and other loads would wait.
+// Cache lines for the decision. The filter requests some of them after every few distances. Requests for all lines at once would
+// fill the processor's queue, and other loads would wait.
 struct LinesAhead {
   int32_t n;
   const char *line[256];
@@ -127,7 +127,7 @@ struct ClusterTask {
   LeafTask leaf[leaves_per_cluster];
   float *lower_bounds;  // room for nodes_per_leaf bounds for each near group of each leaf, aligned
   LinesAhead ahead;     // filter_cluster empties it
-  bool is_done;         // filter_cluster sets it in its last call
+  bool is_done;         // the last call of filter_cluster sets this
 
   // The next members belong to the filter. The arrays have room for whole registers. A node is given by its position in the
   // cluster.
@@ -234,8 +234,8 @@ struct DecisionKernels {
   // least and the greatest coordinates.
   void (*take_corners)(const double *vertices, const int64_t *vertex_id, int64_t n, double *corners, double *lower,
                        double *upper);
-  // Checks up to eight triangles, given by the ids of their vertices. Returns false if one may have no area, now or after its
-  // corners move by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 + |ac|^2)^2 + shift^2
+  // Checks up to eight triangles, given by the ids of their vertices. Returns false if a triangle may have no area, now or after
+  // its corners move by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 + |ac|^2)^2 + shift^2
   // (|ab|^2 + |ac|^2).
   bool (*have_area)(const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
   // Places n points (3, n). The results have the bits of place(placement, place(image, p)).

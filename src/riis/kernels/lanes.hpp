@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes with sixteen floats or eight doubles at once, in the registers of the instruction set that the including file is
 // compiled for. Everything has internal linkage. Files for different instruction sets must not share a function, because the
-// linker could take it from the wrong file. For the same reason, this file includes no header whose inline functions the
-// compiler may emit as separate functions.
+// linker could take it from the wrong file. This file also includes no header whose inline functions the compiler may emit as
+// separate functions.
 #pragma once
 
 // RIIS_PORTABLE_LANES selects the code for processors without SSE2 or NEON. Tests run that code on other processors.

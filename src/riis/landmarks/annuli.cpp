@@ -297,7 +297,7 @@ std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 no
 void check_depth(const LandmarkModel &fitted, const Landmarks &landmarks, const ShownDepth &shown,
                  const std::string &advice) {
   const FittedSize &ap = fitted.sizes[MitralModel::ap];
-  // Noise alone moves the horns, and so their distance.
+  // Noise alone moves the horns, and thus changes the horns' distance.
   const double most_apart = std::max(shown.depth / 12, 5 * landmarks.noise);
   if (ap.held || std::abs(ap.value - shown.depth) <= most_apart) return;
   fail(RIIS_INVALID_ARGUMENT, "AP_diameter of the fitted valve is ", rounded(landmarks.scale * ap.value, 3),

@@ -328,7 +328,7 @@ class CircleSizes {
     model.derived.push_back(mean);
   }
 
-  // The last sector that is not held has what the others leave of 360 degrees.
+  // The last sector that is not held is 360 degrees minus the other sectors.
   void add_sectors(CirclesModel &model, double commissure_radius) const {
     const std::vector<double> shown = shown_sectors(landmarks_, axes_);
     const double reach = 0.5 * commissure_radius * (pi / 180);  // a sector grows on both sides of its cusp's middle

@@ -12,13 +12,14 @@
 namespace riis {
 namespace {
 
-// Landmarks determine a size if its standard error, at the stated noise, moves the valve by at most this share of its radius.
-// Residuals do not count here. A patient who differs from the model has large residuals, but the best sizes are still well
-// defined.
+// Landmarks determine a size whose standard error, at the stated noise, moves the valve by at most this share of the valve's
+// radius. Residuals do not count here. A patient who differs from the model has large residuals, but the best sizes are still
+// well defined.
 constexpr double determined_share = 1.0 / 15;
 
-// More sizes lower the residuals of noise alone. The sum of squares that they take away has chi-squared's distribution, with a
-// degree of freedom for each of them. The decrease counts if it exceeds the mean by this many standard deviations.
+// More sizes lower the residuals of noise alone. The decrease of the sum of squares by these unknowns has chi-squared's
+// distribution, with a degree of freedom for each unknown. The decrease counts if it exceeds the mean by this many standard
+// deviations.
 constexpr double surely_more = 3;
 // Residuals below this share of the stated noise show landmarks without noise.
 constexpr double exact_share = 0.01;

@@ -109,8 +109,8 @@ class LandmarkModel {
     std::size_t landmark;
     Vec3 vector;
   };
-  // Writes the offsets of landmarks whose coordinates in the valve's frame are `local`. Each call writes the same number, in the
-  // same order. `values` contains the values of the sizes.
+  // Writes the offsets of landmarks whose coordinates in the valve's frame are `local`. Each call writes the same number of
+  // offsets, in the same order. `values` contains the values of the sizes.
   virtual void offsets(const std::vector<double> &values, const std::vector<Vec3> &local,
                        std::vector<Offset> &out) const = 0;
   // Returns the number of independent equations that the landmarks give.

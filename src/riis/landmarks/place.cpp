@@ -165,7 +165,7 @@ std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, cons
 // Two landmarks are in one place if they are at most this share of the valve's radius apart.
 constexpr double one_place_share = 0.02;
 
-// Landmarks that are in places of their own, as a warp takes them.
+// Landmarks in separate places, as a warp needs them.
 struct WarpPairs {
   WarpPairs(const Landmarks &landmarks, const std::vector<Vec3> &local, double radius, bool with_attachment,
             const std::vector<Vec3> &places) {
@@ -193,7 +193,7 @@ struct WarpPairs {
 void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                             const std::vector<Vec3> &local, double radius, std::vector<Vec3> &places) {
   constexpr int most_slides = 8;
-  constexpr double most_of_gap = 0.3;  // a place moves at most so far towards its neighbour at once
+  constexpr double most_of_gap = 0.3;  // the largest move of a place towards its neighbour at once
   for (int round = 0; round < most_slides; ++round) {
     const WarpPairs pairs(landmarks, local, radius, true, places);
     WarpLandmarks warp(pairs.sources, 0, "landmarks");
@@ -213,7 +213,8 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
       const auto here = nearest_on(parts, {}, pairs.sources[i], landmark.leaflet_ids[0]);
       if (here) sliding.push_back({i, here->tangent, map.at(pairs.sources[i]).along(here->tangent)});
     }
-    // A place that moves changes the displacement of its landmark. The bending is least where no such change lowers it further.
+    // A place that moves changes the displacement of its landmark. The bending is least where no such change lowers the bending
+    // further.
     const std::size_t n = sliding.size();
     std::vector<double> matrix(n * n), steps(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -238,7 +239,7 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
   }
 }
 
-// Moves places apart that are one place although their landmarks are not, such as beside a commissure that is off the valve's.
+// Moves equal places of different landmarks apart, such as beside a commissure that is off the valve's commissure.
 void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landmarks, const std::vector<Vec3> &local,
                      double radius, std::vector<Vec3> &places) {
   const double one_place = one_place_share * radius;
@@ -293,8 +294,8 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
     }
 }
 
-// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because the others
-// follow from them.
+// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because other sizes
+// follow from these.
 void check_sizes(const Valve &valve, const LandmarkModel &model) {
   try {
     valve.make_patches();

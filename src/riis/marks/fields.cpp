@@ -349,8 +349,8 @@ void FieldScratch::prepare(const SearchRequest &request, std::int32_t fields, co
   const auto is_one_leaflet = [&](const Tie &a, const Tie &b) {
     return rule.leaflet_id[a.triangle.triangle] == rule.leaflet_id[b.triangle.triangle];
   };
-  // Keeps the closest triangle of each leaflet. On each other patch of the leaflet, it also keeps a triangle that ties with
-  // the closest one.
+  // Keeps the closest triangle of each leaflet. On each other patch of the leaflet, the list also keeps a triangle that ties with
+  // the closest triangle.
   auto closest = ties.begin(), end = ties.begin();
   for (const Tie &tie : ties) {
     const bool is_first = end == ties.begin() || tie.point != closest->point || !is_one_leaflet(*closest, tie);

@@ -21,8 +21,8 @@ namespace riis {
 
 // The arrays that a caller gets from a marking. The arrays have one entry for each node, in ascending order.
 
-// Makes room for n elements. If it has to reserve memory, it reserves half as much again as needed. Without this reserve, a
-// moving valve would need new memory at each new maximum of its number of nodes.
+// Makes room for n elements. A new reserve is 1.5 times the needed memory. Without this reserve, a moving valve would need new
+// memory at each new maximum of its number of nodes.
 template <class Array>
 void reserve_amply(Array &array, std::int64_t n) {
   const auto needed = static_cast<std::size_t>(n);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inverse of an area that depends on one number, such as the orifice of a valve by its opening. The area may jump by a
-// little, may grow in one part and fall in another, and has no derivative.
+// The inverse of an area that depends on one number, such as a valve's orifice that depends on its opening. The area may jump by
+// a little, may grow in one part and fall in another, and has no derivative.
 // In: a function and a range. Out: numbers at which the area has given values.
 #pragma once
 

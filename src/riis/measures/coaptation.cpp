@@ -16,7 +16,7 @@
 namespace riis {
 namespace {
 
-// Returns the triangles of all leaflets except one leaflet and the omitted ones.
+// Returns the triangles of all leaflets except one leaflet and the omitted leaflets.
 TriangleSet others(const TriangleSet &set, std::int32_t leaflet_id, const std::vector<std::int32_t> &omitted) {
   TriangleSet made;
   made.xyz = set.xyz;

@@ -112,8 +112,8 @@ CommonSegment common_segment(const Triangle &a, const Triangle &b) {
 
 constexpr float nowhere = std::numeric_limits<float>::infinity();
 
-// A box in the groups' frame, in single precision. Rounding is monotone, so boxes with a common point still have one after
-// rounding.
+// A box in the groups' frame, in single precision. Rounding is monotone, so boxes with a common point still have a common point
+// after rounding.
 struct Box {
   float lower[3]{nowhere, nowhere, nowhere}, upper[3]{-nowhere, -nowhere, -nowhere};
 

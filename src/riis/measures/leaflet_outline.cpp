@@ -302,7 +302,7 @@ double roundness_of(const std::vector<PlanePoint> &corners) {
   return whole > 0 ? 4 * pi * area / (whole * whole) : 0;
 }
 
-// A view along the vector area of the farthest edges, and how round their outline is: 1 for a circle.
+// A view along the vector area of the farthest edges, and the roundness of their outline: 1 for a circle.
 struct FoundView {
   SeenParts parts;
   double roundness;
@@ -377,8 +377,8 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const B
 }
 
 // Returns the factor by which the pieces grow about their centroids until the first two neighbours meet. Beyond 1.05 the pieces
-// stand apart on purpose, so the factor falls back to 1, which it reaches at 1.1. A part of the outline at less than 45 degrees
-// to a ray from the centre is the end of a piece, and not held.
+// stand apart on purpose, so the factor falls back to 1 at 1.1. A part of the outline at less than 45 degrees to a ray from the
+// centre is the end of a piece, and not held.
 double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
   struct Held {
     std::int64_t piece;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes of a grid in leaves, clusters and regions, as the search over clusters needs them. All are bricks of nodes, so their
-// boxes are read off the axes. A thread fills the leaves of one cluster at a time.
-// In: a grid, the box of its nodes near a surface. Out: boxes, and the leaves near triangles.
+// The nodes of a grid in leaves, clusters and regions, as the search over clusters needs them. Leaves, clusters and regions are
+// bricks of nodes, so the axes give their boxes. A thread fills the leaves of one cluster at a time. In: a grid, the box of its
+// nodes near a surface. Out: boxes, and the leaves near triangles.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The caller's nodes and adjacency, which are checked and normally borrowed. The mesh also owns data about its nodes that
-// searches need: balls, clusters and blocks of edges. Each is made when it is first needed.
+// searches need: balls, clusters and blocks of edges. Each structure is made when it is first needed.
 #pragma once
 
 #include <array>
@@ -57,8 +57,8 @@ struct EdgeBlocks {
   double longest = 0;  // the length of the mesh's longest edge
 };
 
-// Checks whether a mesh and a surface with its half thickness can have the same unit.
-// In: boxes that are already known. Out: a warning to the caller's log function, once for each pair of a mesh and a surface.
+// Checks whether a mesh and a surface with a half thickness can have the same unit. In: boxes that are already known. Out: a
+// warning to the caller's log function, once for each pair of a mesh and a surface.
 
 // The surfaces that were reported as misfits for a mesh. Several threads may call both functions at once.
 class WarnedSurfaces {

@@ -318,7 +318,7 @@ class NodeSorter {
     for (int quarter = 0; quarter < n_quarters; ++quarter) view(to)[quarter] += view(numbers)[quarter];
   }
 
-  // Moves items until the items of each new part are together. Within a stream they keep their order, for any number of
+  // Moves items until the items of each new part are together. Within a stream the items keep their order, for any number of
   // blocks. Returns where the part was cut.
   template <class Blocks>
   Cutting sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) const {

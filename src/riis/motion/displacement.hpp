@@ -178,7 +178,7 @@ Vector<double> joints_of(const PatchSet &set, const Side &side);
 // Moves each line with the two joints beside it. If the number of joints changed, no line moves.
 Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to);
 
-// Returns whether patch i of one state has the images of patch i of the other.
+// Returns whether patch i has the same images in the two states.
 bool have_same_build(const PatchSet &now, const PatchSet &before);
 // Gives each image of a state a patch of its own, in the order of the images of `like`, which has the same ids. Two states of
 // one valve may differ in their build: equal cusps are images of one half, and unequal cusps have patches of their own.

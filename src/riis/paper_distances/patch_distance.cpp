@@ -43,7 +43,7 @@ class Minimizer final : public PatchDistance {
   double lower_bound(const Bounds &box, Vec3 p) const;
 
   double enough_;
-  double rounding_ = 0;               // how far a computed point S(u,v) may lie outside of its patch's box
+  double rounding_ = 0;               // the largest distance of a computed point S(u,v) from its patch's box
   std::vector<PatchExtent> extents_;  // one for each patch
   Bounds box_;                        // the box of all patches together
 };

@@ -149,8 +149,7 @@ class SampleSet final : public PatchDistance {
  private:
   static constexpr std::int64_t samples_per_leaf = 64;
 
-  // A box around the samples of a leaf, or around two other nodes of the tree. In the array, the first of these two nodes
-  // follows this node.
+  // A box around the samples of a leaf, or around two other nodes of the tree. In the array, the first child follows its parent.
   struct Node {
     Bounds box;
     std::int32_t second = -1;  // the position of the second node, or -1 in a leaf

@@ -60,8 +60,8 @@ struct TimesOfCaller {
 // runs the loop, `of_caller` gets the times of the calling thread. It may be null.
 int openmp_for(std::int64_t n_blocks, int n_threads, LoopBody body, TimesOfCaller *of_caller = nullptr);
 
-// Does the same on a team (team.hpp), so it does not wait for a thread that another process delays. The calling thread first
-// works alone for as long as `choice` says. If the loop ends within that time, the result is still n_threads.
+// Does the same on a team (team.hpp), without waiting for a thread that another process delays. The calling thread first works
+// alone for as long as `choice` says. If the loop ends within that time, the result is still n_threads.
 int team_for(std::int64_t n_blocks, int n_threads, LoopBody body, LoopChoice &choice);
 
 // Does the same on the threads that loop_choice chooses. The threads are always OpenMP's in two cases: inside a caller's

@@ -148,8 +148,8 @@ void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &fr
   to.fields.resize(fields, n);
 }
 
-// Gives both lists room for their new entries. If one list lacks room, both are replaced, but only after all memory for the
-// new lists was reserved.
+// Gives both lists room for their new entries. If one list lacks room, new lists replace both lists, but only after all memory
+// for the new lists was reserved.
 void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &marks) {
   if (!marks.within.has_room(data, n.n_within) || !marks.marked.has_room(data, n.n_marked)) {
     ListedNodes within, marked;

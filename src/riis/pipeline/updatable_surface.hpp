@@ -35,7 +35,7 @@ class CrossingWatch {
   };
   Shape &remembered(std::uint64_t digest);
 
-  // The number of shapes that are remembered. If a caller alternates between no more shapes than this, it gets one warning for
+  // The number of shapes that are remembered. A caller that alternates between at most this number of shapes gets one warning for
   // each shape.
   static constexpr std::size_t n_remembered = 8;
 

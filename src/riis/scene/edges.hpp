@@ -52,8 +52,8 @@ std::vector<SideLine> boundary_sides(const TriangleSet &set, std::int32_t skirt)
 // The edges of all attached sides. The edges are in the order of the patches. The edges of one side follow each other along the
 // side. Edges of length 0 are left out.
 struct Attachment {
-  std::vector<double> edges;     // (3, 2, n_edges)
-  std::vector<double> outwards;  // (3, 2, n_edges): the direction of a skirt at both ends, of length 1, or 0 for none
+  std::vector<double> edges;             // (3, 2, n_edges)
+  std::vector<double> outwards;          // (3, 2, n_edges): a skirt's unit direction at both ends of the edge, or 0
   std::vector<std::int64_t> vertex_id;   // (2, n_edges)
   std::vector<std::int32_t> leaflet_id;  // (n_edges)
   std::vector<std::int32_t> patch_id;    // (n_edges)

@@ -50,7 +50,7 @@ class Pseudonormals {
   // Returns the normal and the rim for a point that may be on an edge or a vertex.
   Feature at_border(std::int64_t triangle, Vec3 barycentric) const;
 
-  // Returns two triangles that run along a shared edge in the same direction, or -1 for both if no two do.
+  // Returns two triangles that run along a shared edge in the same direction, or -1 and -1.
   const std::array<std::int64_t, 2> &disagreeing() const { return disagreeing_; }
 
   // The rates of the sums of normals while the vertices move. Each edge of the rim and each vertex has such a sum.

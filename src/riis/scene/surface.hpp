@@ -80,7 +80,7 @@ class Surface {
     return leaflets_.get([this](std::vector<riis_leaflet> &made) { made = leaflets_of(triangles_); });
   }
 
-  // Returns the other method that measures distances, or null if the triangles' scene measures them.
+  // Returns the other method for distances, or null if the triangles' scene measures distances.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
   // Bounds by how much the distance to the triangles exceeds a distance that the method returns.
   double triangle_error() const { return triangle_error_; }
@@ -97,7 +97,8 @@ class Surface {
   TriangleScene scene_;
   Band band_;
   std::vector<std::int32_t> leaflet_ids_;
-  // The area is computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
+  // The area is computed on demand, because marking never needs it. Threads that compute the value at the same time get the same
+  // bits.
   mutable std::atomic<double> area_{not_known};
   std::optional<SourceValve> source_valve_;
   std::optional<PatchSet> patches_;

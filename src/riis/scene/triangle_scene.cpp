@@ -220,8 +220,8 @@ void TriangleScene::Implementation::build(Scene &made) {
     made = std::move(of_geometry);
     geometry = std::move(of_groups);
   } else {
-    // A moving scene is built more often, and each build serves fewer queries. If the groups are the same, their tree is kept
-    // and gets new boxes.
+    // A moving scene is built more often, and each build serves fewer queries. The tree of unchanged groups is kept and gets new
+    // boxes.
     rtcSetSceneFlags(made.get(), RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(made.get(), RTC_BUILD_QUALITY_LOW);
     rtcSetGeometryBuildQuality(geometry.get(), tree_fits ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);

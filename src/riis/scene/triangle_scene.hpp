@@ -58,7 +58,7 @@ struct Ties {
   void compare(std::int64_t point, const ClosestTriangle &closest, const ClosestTriangle &other) {
     if (other.triangle < 0 || !rule.is_tie(closest, other)) return;
     if (!candidates.empty()) {
-      // Triangles around a vertex are often compared one after another. If they are on one patch, only the nearest of them
+      // Triangles around a vertex are often compared one after another. Of several candidates on one patch, only the nearest
       // stays a candidate.
       Tie &last = candidates.back();
       if (last.point == point && rule.are_of_one_patch(last.triangle, other)) {

@@ -117,7 +117,7 @@ class ClosestPoints {
     });
   }
 
-  // Writes the points of a range. If memory runs out, all of them are queried one by one.
+  // Writes the points of a range. Without memory, all points are queried one by one.
   void write_batch(const Range &range, int n_threads, Batch &batch) const {
     try {
       if (search(range, n_threads, batch)) return;

@@ -60,7 +60,7 @@ ClosestTriangle closer_of(const ClosestTriangle &a, const ClosestTriangle &b) {
 }
 #endif
 
-// Nodes whose clusters are stored. GridClusters has the same functions, and its clusters are made when they are needed.
+// Nodes whose clusters are stored. GridClusters has the same functions, and makes its clusters when they are needed.
 class StoredClusters {
  public:
   typedef GridClusters::Room Room;  // is not used
@@ -617,7 +617,7 @@ class ClusterSearch {
     const auto request = [&](const void *from, std::size_t size) {
       for_each_line(from, size, [&](const char *line) { task.ahead.line[task.ahead.n++] = line; });
     };
-    // Many leaves near the surface have no pairs, so only here are points and node numbers prefetched.
+    // Many leaves near the surface have no pairs, so points and node numbers are prefetched only here.
     for (std::int32_t i = 0; i < task.n_leaves; ++i) {
       const LeafTask &leaf = task.leaf[i];
       if (!leaf.may_be_near) continue;

@@ -233,7 +233,7 @@ class Planner {
     for (std::size_t i = 0; i < set_.patches.size(); ++i)
       plan_.patches[i].has_arcs =
           std::any_of(states_.begin(), states_.end(), [&](const PatchSet &set) { return set.patches[i].bulge != 0; });
-    // A skirt at a patch of arcs takes the patch's lines, so both have the same vertices along their common side.
+    // A skirt at a patch of arcs takes the patch's lines, so skirt and patch have the same vertices along their common side.
     for (std::size_t i = 0; i < set_.patches.size(); ++i)
       if (patch_of_strip(i) != no_patch) plan_.patches[i].has_arcs = plan_.patches[patch_of_strip(i)].has_arcs;
     plan_families();
@@ -428,8 +428,8 @@ class Planner {
     return made;
   }
 
-  // Returns the joints at the first opening, if the lines can move with them. For that, the base must have the same number of
-  // joints at every opening, and none near an end.
+  // Returns the joints at the first opening, if the lines can move with them. The base must therefore have the same number of
+  // joints at every opening, and no joint near an end.
   Vector<double> joints(std::size_t patch) const {
     constexpr double near_end = 0.01;
     const Vector<double> first = joints_of(set_, set_.patches[patch].v0);

@@ -65,8 +65,8 @@ class GridMaker {
         });
       for (std::size_t i = first; i < end; ++i) check_count(n_at_least += n_triangles(i, 1), max_error_);
     }
-    // Two patches of arcs may meet along an arc, and both divide it into rows. All patches of arcs therefore have the same number
-    // of rows.
+    // Two patches of arcs may meet along an arc, and each patch divides this arc into rows. All patches of arcs therefore have
+    // the same number of rows.
     double offset = 0;
     for (const ArcLines &lines : lines_) offset = std::max(offset, lines.largest_offset());
     const double n_rows = rows_for(offset, max_error_);

@@ -88,7 +88,7 @@ bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const
                             const Connectivity &planned, TriangleSet &triangles) {
   Tiles tiles(set, how, grids, triangles);
   // The images of a patch are congruent. If all images have the same triangles, the areas of one image are checked, with a margin
-  // for rounding. An image with a seam is checked by itself, because it takes points of another image.
+  // for rounding. An image with a seam is checked separately, because it takes points of another image.
   std::atomic<bool> all_have_area{true};
   tiles.place_vertices([&](std::int64_t i) {
     const Tile &tile = view(tiles.all())[i];
@@ -241,7 +241,7 @@ TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked
   // Plans with less than the whole error, because the remainder is for openings between the given ones.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;
-  // If a curve is shared at only one opening, it has two numbers at the others. The state with most curves therefore gives the
+  // A curve that is shared at only one opening has two numbers at other openings. The state with most curves therefore gives the
   // numbering.
   const PatchSet &widest = *std::max_element(given.begin(), given.end(), [](const PatchSet &a, const PatchSet &b) {
     return a.curves.size() < b.curves.size();

@@ -63,7 +63,7 @@ constexpr double table[n_cusps][n_of_cusp] = {{0.24, 1.365, 61.0, 1.58, 0.40, 1.
 
 // The rules of exponents that were not set. With an exponent above the bound, the free edge reaches beyond the plane through the
 // axis and its commissure, into the next cusp. The paper's right and left exponents are above this bound, and keep their ratio to
-// it.
+// the bound.
 double power_bound(double radius_in, double radius_out, double angle) {
   const double x = radius_out * sine_cosine_degrees(angle).cosine;
   return x > radius_in ? x / (x - radius_in) : std::numeric_limits<double>::infinity();

@@ -23,7 +23,7 @@ namespace riis {
 namespace {
 
 // A leaflet has this many places of equal distance along the annulus, from one commissure to the next. From each place hangs a
-// meridian. A free edge and a coaptation line are two cubics each, so they have as many control points.
+// meridian. A free edge and a coaptation line are two cubics each, and thus have equal numbers of control points.
 constexpr std::size_t n_places = 7, middle = 3, n_cells = n_places - 1;
 template <class Value>
 struct AtPlaces {
@@ -34,7 +34,8 @@ struct AtPlaces {
 };
 constexpr double u_of(std::size_t place) { return static_cast<double>(place) / n_cells; }
 
-// The coaptation zone is at least this share of a leaflet. A leaflet that is too short for it stays back from its neighbours.
+// The coaptation zone is at least this share of a leaflet. A leaflet that is too short for this part stays back from its
+// neighbours.
 constexpr double least_coaptation = 0.05;
 // A closed meridian's first inner control point lies below the annulus by this share of the drop to the coaptation line.
 constexpr double first_drop = 0.2;
@@ -42,12 +43,12 @@ constexpr double first_drop = 0.2;
 constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
 // A bump's lift acts on a meridian's first inner control point by this share.
 constexpr double lift_of_start = 0.3;
-// A leaflet that is too short moves back in steps until less than this share of it lacks.
+// A leaflet that is too short moves back in steps until it lacks less than this share of its length.
 constexpr int most_steps = 60;
 constexpr double rounding = 1e-12, rounding_of_zone = 1e-6;
-// A leaflet has at least this share of the annulus, and its way to the meeting point this share of the annulus' depth.
+// A leaflet has at least this share of the annulus. Its way to the meeting point has at least this share of the annulus' depth.
 constexpr double least_ratio = 0.05, least_way = 0.12;
-// A commissure takes at most this share of the way to the meeting point, and the zone this share of a leaflet.
+// A commissure takes at most this share of the way to the meeting point, and the zone at most this share of a leaflet.
 constexpr double most_of_way = 0.8, most_coaptation = 0.7;
 // The rates of the control points are differences over this step of the opening. The rates only determine where vertices are
 // dense.
@@ -124,8 +125,8 @@ class Annulus {
     leaflets_.back()[n_cells].hinge = leaflets_.front()[0].hinge;
   }
 
-  // Sets the point where all leaflets meet, seen along z. Commissures then lead towards it, so that neighbours stay on their
-  // sides of one plane.
+  // Sets the point where all leaflets meet, seen along z. Commissures then lead towards this point, so that neighbours stay on
+  // their sides of one plane.
   void set_meeting(Vec3 at) {
     meeting_ = at;
     for (AtPlaces<Place> &leaflet : leaflets_)

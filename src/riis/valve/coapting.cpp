@@ -31,7 +31,7 @@ enum OfCommissure { height, fusion, n_of_commissure };
 enum OfCusp { sector, own_effective_height, own_coaptation_height, own_open_radius_ratio, n_of_cusp };
 // clang-format on
 
-// If an open free edge does not hang, it must be shorter than this share of the closed free edge.
+// An open free edge that does not hang must be shorter than this share of the closed free edge.
 constexpr double most_of_edge = 0.998;
 // The free edge must stay this high above the root while the valve opens, times root_radius.
 constexpr double least_height = 0.05;

@@ -127,8 +127,8 @@ Bezier moved(Bezier curve, Vec3 by) {
 }
 
 // Returns the curve between the free and the fused part below the coaptation line, a mixture of the symmetry curve and the
-// attachment. The curve arrives in the direction of the zone's edge S, so that the leaflet has no crease at the end. The narrower
-// the fused part, the less the curve is turned: otherwise it would leave this part and cross the attachment.
+// attachment. The curve arrives in the direction of the zone's edge S, so that the leaflet has no crease at the end. The curve
+// turns less in a narrower fused part: a larger turn would lead out of this part and across the attachment.
 Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double share, const Bezier &S) {
   const Vec3 first = half.symmetry_below.first(), last = S.first();
   const Vec3 off = last - mix(half.symmetry_below.last(), attachment.last(), share);
@@ -230,7 +230,7 @@ Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double 
 double rise_at_root(const Vector<HalfCusp> &parts) {
   const double least = rise_of_part(parts.front());
   if (parts.size() == 1) return least;
-  // The curve between both parts rises less than the symmetry curve, because it is nearer to the commissure.
+  // The curve between the free and the fused part rises less than the symmetry curve, because it is nearer to the commissure.
   const double free = arc_length(parts[0].leaflet), fused = arc_length(parts[1].leaflet);
   const double expected = fused / (free + fused) * arc_length(parts[0].symmetry_below);
   return std::min(least, rise_of_part(parts[1]) * arc_length(parts[1].symmetry_below) / expected);

@@ -15,7 +15,7 @@ namespace riis {
 Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double low);
 
 // Returns the least rise of the leaflet at the root, as a share of the rise of a leaflet that has everywhere the length of the
-// symmetry curve and no sag. If it is negative somewhere, the leaflet dips below its attachment and folds.
+// symmetry curve and no sag. With a negative rise, the leaflet dips below its attachment and folds.
 double rise_at_root(const Vector<HalfCusp> &parts);
 
 }  // namespace riis

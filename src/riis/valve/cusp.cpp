@@ -114,7 +114,7 @@ void begin_at(HalfCusp &half, const HalfCusp &other) {
   half.bending.control[0] = other.bending.first();
 }
 
-// Ends the curves at the commissure in this point, from which they differ by rounding only.
+// Ends the curves at the commissure in this point. Their ends differ from the point by rounding only.
 void end_at(HalfCusp &half, Vec3 commissure) {
   for (Bezier HalfCusp::*curve : {&HalfCusp::leaflet, &HalfCusp::bending, &HalfCusp::sinus_below})
     view((half.*curve).control)[(half.*curve).degree] = commissure;

@@ -90,7 +90,7 @@ using CuspNumbers = Vector<HalfNumbers>;
 // Blends the numbers of two states.
 CuspNumbers blend(const CuspNumbers &a, const CuspNumbers &b, double opening);
 
-// The length of half a free edge as a function of how far its middle hangs below its end. A fixed quadrature rule computes it, so
+// The length of half a free edge as a function of the depth of its middle below its end. A fixed quadrature rule computes it, so
 // that it is a smooth function of the cusp.
 class EdgeLength {
  public:
@@ -114,7 +114,7 @@ class EdgeLength {
 // Returns how far the middle of the free edge hangs below the end of the first half, so that all halves together have their
 // length. The halves must be at least as long as at depth 0.
 double edge_depth(const CuspNumbers &cusp);
-// Returns the length of the free edge if its middle is no lower than the lower one of its ends.
+// Returns the length of the free edge whose middle is as high as its lower end.
 double least_edge_length(const CuspNumbers &cusp);
 
 // Returns the area between the free edge and the axis, seen along the axis, of all halves.

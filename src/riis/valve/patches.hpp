@@ -20,7 +20,7 @@ enum class Mirror { none, in_x, in_y };
 
 inline constexpr std::size_t no_patch = static_cast<std::size_t>(-1);
 
-// The placement of a patch. The patch may be mirrored, then it is turned, and then it is moved. All images of a patch come from
+// The placement of a patch. The patch may first be mirrored; after that it is turned and moved. All images of a patch come from
 // the same operations on the same points. A patch and its mirror image therefore meet in the mirror's plane to the last bit.
 struct PatchImage {
   Mirror mirror;
@@ -135,8 +135,8 @@ struct AttachedEnd {
   bool is_last;
 };
 // Two such ends of different leaflets that are neighbours but are not joined. Round the axis of the attachment, one side ends
-// and the next one begins. Some valves have skirts that are turned at such ends only after a warp. Such valves have the turns, in
-// radians, by which their skirts would be turned at both ends before the warp.
+// where the next side begins. Some valves have skirts that are turned at such ends only after a warp. Such valves have the turns,
+// in radians, by which their skirts would be turned at both ends before the warp.
 struct NeighbourEnds {
   AttachedEnd before, after;
   std::optional<std::array<double, 2>> turns_at_rest = {};

@@ -28,7 +28,7 @@ constexpr double least_sine_to_axis = 0.2;
 // A side whose rise has at least this sine leans as its tangent does. A flatter side leans less, and a side perpendicular
 // to the axis does not lean.
 constexpr double least_rise = 0.5;
-// A skirt that is turned at rest keeps its place there, as long as the warp turns it by less than this. In between it goes over.
+// A skirt that is turned at rest keeps its place, up to this turn by the warp. In between it goes over.
 constexpr double most_turn_as_at_rest = pi / 4;
 // A disc about the axis has this many corners when it is warped.
 constexpr int n_corners = 24;
@@ -81,9 +81,9 @@ AxisLine placed(const AxisLine &axis, const PatchImage &image) {
 
 bool are_equal(const AxisLine &a, const AxisLine &b) { return a.centre == b.centre && a.direction == b.direction; }
 
-// Returns the line that the map makes of an axis. The attachment's steps lie about the axis. A disc about the axis, at their mean
-// height and as wide as they are on average, becomes a warped disc. The middle and the vector area of the warped disc give the
-// line.
+// Returns the line that the map makes of an axis. The attachment's steps lie about the axis. A disc about the axis, at the
+// points' mean height and as wide as the points on average, becomes a warped disc. The middle and the vector area of the warped
+// disc give the line.
 AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const BlendedWarp &warp) {
   double whole = 0, height = 0, radius = 0;
   for (const Step &step : steps) {
@@ -486,7 +486,7 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
 }
 
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp) {
-  // Sides about one line keep one line, so that strips meet. Cusps with lines of their own get lines of their own.
+  // Sides about one line keep one line, so that strips meet. Cusps with own lines at rest get own lines after the warp.
   struct Group {
     AxisLine axis;
     Vector<Step> steps;

@@ -52,8 +52,8 @@ struct SideEnd {
 };
 
 // Returns the direction in which the skirts at two neighbouring ends lead. Two parallel planes contain these ends of the skirts,
-// and each skirt is on its own side of them. The planes lean as the two sides do on average. The direction depends continuously
-// on the points and the tangents.
+// and each skirt is on its own side of the planes. The planes lean as the two sides do on average. The direction depends
+// continuously on the points and the tangents.
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after);
 
 // The direction in which a skirt leads away from its attachment. This direction is outwards from the axis, except near
@@ -81,8 +81,8 @@ class SkirtDirections {
 double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides);
 // The least and the largest length of a skirt, in such distances.
 inline constexpr double least_skirt = 1e-4, most_skirt = 10;
-// The least length of a skirt to a wall, in such distances. The vertices of its outer edge are at even shares of the edge's
-// length, so they are not exactly beside the attachment's vertices. A thinner strip along a round attachment would go through
+// The least length of a skirt to a wall, in such distances. The vertices of the outer edge are at even shares of the edge's
+// length, and thus not exactly beside the attachment's vertices. A thinner strip along a round attachment would go through
 // itself.
 inline constexpr double least_skirt_to_wall = 0.01;
 

@@ -151,7 +151,7 @@ class Valve {
 
   // Returns whether make_patches adds a skirt.
   bool has_skirt() const { return kind_->skirt_axis != SkirtAxis::none && state_.values[kind_->skirt_length][0] != 0; }
-  // Replaces the skirt by one with these lengths (valve/skirt.hpp). The parameter "skirt_length" becomes the largest of them.
+  // Replaces the skirt by a skirt with these lengths (valve/skirt.hpp). The parameter "skirt_length" becomes the largest of them.
   // Setting that parameter removes the lengths.
   void set_skirt_lengths(SkirtLengths lengths);
 
@@ -203,7 +203,7 @@ class Valve {
   };
 
   const ValveKind *kind_;
-  // The positions of the parameters that define the disc. Each time step needs them, and a search by name is slow.
+  // The positions of the parameters that define the disc. Each time step needs these positions, and a search by name is slow.
   std::optional<std::size_t> radius_;
   Vector<std::size_t> translations_;
   ValveState state_;

@@ -62,7 +62,7 @@ class BlendedWarp {
   double opening_;
 };
 
-// The quality of a map, which says how well it meets its targets.
+// The quality of a map: its distances from the targets, its smoothing and its least determinant.
 struct WarpQuality {
   double rms_residual, largest_residual;  // distances of mapped sources from their targets
   std::int64_t largest_landmark;
@@ -138,7 +138,7 @@ enum class FoldCheck { no, yes };
 PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts &cuts,
                 FoldCheck check = FoldCheck::yes);
 
-// Writes the points of the warped curve and the shares of its length, where `points` says which points they are.
+// Writes the points of the warped curve and the shares of its length. `points` states which points.
 void locate_on_curve(const Curve &curve, MaterialPoints &points);
 
 }  // namespace riis

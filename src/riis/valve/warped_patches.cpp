@@ -19,7 +19,7 @@ namespace {
 
 // The warped points of a curve are taken at this many even steps of its parameter.
 constexpr int n_curve_steps = 6;
-// A tangent's length may change by this factor at most, in addition to the warp's own stretch there.
+// A tangent's length may change by this factor at most, in addition to the warp's stretch at the tangent.
 constexpr double least_factor = 0.2, most_factor = 5, most_of_missing = 0.5;
 // A patch is searched for folds on a grid of this many cells each way.
 constexpr std::size_t n_fold_cells = 3;
@@ -430,7 +430,7 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts
   bend_arcs(made);
   for (std::size_t i = 0; i < material.size(); ++i) locate_on_curve(made.curves[i], *material[i]);
   made.material = std::move(material);
-  // Only kinds without rates have arcs. An arc may be straight at an opening, so all their patches count.
+  // Only kinds without rates have arcs. An arc may be straight at an opening, so all patches of arcs count.
   const bool has_arcs = set.rates.empty();
   const auto at_rest = [&](std::size_t curve) -> const std::array<PointOnSpan, n_material> & {
     return of_curves[curve]->on_curve;

@@ -75,7 +75,7 @@ using XmlAttributes = const char **;
 std::optional<std::string> value_of(XmlAttributes attributes, const char *name);
 
 // Calls visit(way, attributes) for each element that lies at most three elements deep. `way` has the names of the elements around
-// it, beginning with the outermost, and then its own name. Fails if the file is not XML.
+// an element, from the outermost on, and then the element's own name. Fails if the file is not XML.
 using VisitElement = std::function<void(const std::vector<std::string> &way, XmlAttributes attributes)>;
 void for_each_element(const std::string &path, const CaughtOutput &caught, const VisitElement &visit);
 

@@ -89,9 +89,8 @@ void destroy(Object **object) {
   *object = nullptr;
 }
 
-// While an object of this type exists, it replaces VTK's process-wide output window, and silences VTK's log on stderr, which
-// repeats every error. VTK tells only the highest level of all its logs, so the destructor gives this level to the log
-// on stderr.
+// While it exists, an object of this type replaces VTK's process-wide output window. It also silences VTK's log on stderr, which
+// repeats every error. VTK tells only the highest level of all its logs, so the destructor gives this level to the log on stderr.
 class CaughtOutput {
  public:
   CaughtOutput();

@@ -71,8 +71,8 @@ Vector3 center_of_cell(vtkCell *cell) {
   return volume > 0 ? 1 / volume * moment : mean;
 }
 
-// A face, given by its nodes, and a cell to which it belongs. Different faces may have three nodes in common if these lie on
-// one edge. The other nodes therefore count too, by their number and a hash.
+// A face, given by its nodes, and a cell to which it belongs. Different faces may have three common nodes, on one edge. The other
+// nodes therefore count too, by their number and a hash.
 struct FaceOfCell {
   std::array<vtkIdType, 3> smallest;
   std::uint64_t others;

@@ -121,7 +121,7 @@ void choose_cells(riis_vtk_mesh &mesh, const Where &where, std::int64_t *n_chose
 
 // ---- Regions ----
 
-// Arrays with such words in their names tell something else of a cell than its domain.
+// Arrays with such words in their names do not name domains of cells.
 bool may_tell_domains(const std::string &array_name) {
   std::string name = array_name;
   for (char &c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -163,8 +163,8 @@ std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *arr
   return {values.begin(), values.end()};
 }
 
-// As touching_values, for the cells of axes. Two of these with different values touch somewhere, because each cell is beside the
-// next one.
+// As touching_values, for the cells of axes. Two cells with different values touch somewhere, because each cell is beside the
+// next cell.
 std::vector<double> values_on_axes(vtkDataArray *array) {
   std::set<double> values;
   for (vtkIdType cell = 0; cell < array->GetNumberOfTuples(); ++cell) {

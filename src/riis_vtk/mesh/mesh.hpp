@@ -48,7 +48,7 @@ struct riis_vtk_mesh {
   std::unique_ptr<const riis::vtk::GridAxes> axes = {};
   std::string notes = {};      // the notes that riis_vtk_mesh_get_notes gives
   std::string foam_case = {};  // the folder of the case that the mesh was read from, or ""
-  // If there are centres, they are the mesh's nodes, and data of nodes is data of cells.
+  // Centres, if any, are the mesh's nodes, and data of nodes is then data of cells.
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
   std::vector<riis::vtk::RegionName> region_names = {};  // of gmsh's physical groups of volumes
   riis::vtk::Regions regions = {};                       // as riis_vtk_mesh_find_regions found them

@@ -118,8 +118,8 @@ std::unique_ptr<riis_vtk_pieces> read_pieces(const std::string &path, const Caug
   });
   check_declared(path, made->point_arrays);
   check_declared(path, made->cell_arrays);
-  // dolfinx numbers the nodes of all ranks in this array. A file of functions gives a shared node other coordinates on each
-  // rank, in their last bits, so it is refused. Filters of VTK number the nodes of each piece, and VTK's writer states the order
+  // dolfinx numbers the nodes of all ranks in this array. A file of functions is refused, because its coordinates of a shared
+  // node differ between ranks in the last bits. Filters of VTK number the nodes of each piece, and VTK's writer states the order
   // of bytes.
   made->has_ids_of_dolfinx = !has_byte_order && std::any_of(made->point_arrays.begin(), made->point_arrays.end(),
                                                             [](const Declared &a) { return a.name == ids_of_dolfinx; });

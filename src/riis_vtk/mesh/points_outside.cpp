@@ -99,7 +99,7 @@ class PointGrid {
 };
 
 // The volume cells of a mesh as tetrahedra and triangles. A cell is cut around its middle, and a face with more than three
-// corners around its own. Two neighbours thus cut their common face in the same way.
+// corners around the face's middle. Two neighbours thus cut their common face in the same way.
 class SolidCells {
  public:
   explicit SolidCells(vtkUnstructuredGrid *grid)

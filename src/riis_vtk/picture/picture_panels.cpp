@@ -204,8 +204,8 @@ void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
   colour_faces(partly.faces, leaflets_of(grid, partly.cell_id), pale);
   partly_length_ = mean_edge_length(partly.faces);
   partly_ = coloured_actor(partly.faces);
-  // Faces that look towards the eye would hide the whole cells, so they are not drawn. The other faces are visible around whole
-  // cells and in gaps between them.
+  // Faces that look towards the eye are not drawn, because they would hide the whole cells. The other faces are visible around
+  // whole cells and in gaps between them.
   partly_->GetProperty()->SetFrontfaceCulling(partly.of_volumes);
   partly_->GetProperty()->SetAmbient(0.6);
   partly_->GetProperty()->SetDiffuse(0.45);

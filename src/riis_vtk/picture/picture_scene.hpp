@@ -175,7 +175,7 @@ class Scene {
   SurfacePanel surface_;
   std::optional<MarksPanel> marks_;      // not set without a mesh, and if the picture shows only the surface
   vtkSmartPointer<vtkPointSet> around_;  // the grid, or the wall of the options; NULL if there is neither
-  std::optional<Shell> shell_;           // set if there is one of them
+  std::optional<Shell> shell_;           // set if there is a grid or a wall
   std::vector<PanelTexts> texts_;
   vtkNew<vtkCamera> camera_;
   vtkNew<vtkRenderWindow> window_;

@@ -70,7 +70,7 @@ Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, doubl
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);
 
-// Returns planes for the mapper of the mesh. There are none if the whole mesh is in sight.
+// Returns planes for the mapper of the mesh. A mesh that is wholly in sight has no planes.
 std::vector<vtkSmartPointer<vtkPlane>> cutting_planes(const View &view, const Sight &sight);
 
 // Returns dashed lines where the planes cut the boundary. The lines are nearer to the eye than everything else.

@@ -197,7 +197,7 @@ class GmshFile {
     expect_end_of(section);
   }
 
-  // Reads the names of groups of volumes: lines DIMENSION NUMBER "NAME", also in a binary file. Skips what is no such line.
+  // Reads the names of groups of volumes: lines DIMENSION NUMBER "NAME", also in a binary file. Skips other lines.
   void read_names() {
     const std::size_t end = in_.rest().find("$EndPhysicalNames");
     if (end == std::string_view::npos) fail_file(path_, "is truncated: it ends before $EndPhysicalNames");

@@ -17,7 +17,7 @@
 
 namespace riis::vtk {
 
-// The axes of a rectilinear grid. Each has two or more coordinates, which are finite and ascend. Nodes and cells have VTK's
+// The axes of a rectilinear grid. Each axis has two or more coordinates, which are finite and ascend. Nodes and cells have VTK's
 // order: the first index changes fastest.
 struct GridAxes {
   // The form of an image. The image's axes are origin + i * spacing, with i from `first` on.
@@ -44,7 +44,7 @@ void share_arrays(vtkDataSet *from, vtkDataSet *to);
 bool is_structured(const std::string &path);
 
 struct StructuredFile {
-  vtkSmartPointer<vtkUnstructuredGrid> data;  // if there are axes, it has only arrays
+  vtkSmartPointer<vtkUnstructuredGrid> data;  // with axes, the grid has only arrays
   std::unique_ptr<const GridAxes> axes;
 };
 StructuredFile read_structured(const std::string &path, const CaughtOutput &caught);

@@ -27,7 +27,7 @@ namespace riis::vtk {
   fail_file(path, "cell ", cell, " has broken polyhedron faces");
 }
 
-// Runs steps in callbacks from VTK. Exceptions must not pass through VTK, so the first one is kept, and rethrow() throws it
+// Runs steps in callbacks from VTK. Exceptions must not pass through VTK, so the first exception is kept, and rethrow() throws it
 // later.
 class Steps {
  public:

@@ -119,7 +119,7 @@ class XdmfFile {
     fail_file(path_, "has a Grid without a Topology or without a Geometry");
   }
 
-  // Returns the name in a pointer such as //Grid[@Name="mesh"]/..., or "" if it names none.
+  // Returns the name in a pointer such as //Grid[@Name="mesh"]/..., or "" for a pointer without a name.
   static std::string named_in(const std::string &pointer) {
     const std::string begin = "@Name=";
     const std::size_t at = pointer.find(begin);
@@ -387,7 +387,7 @@ const Topology *topology_of(vtkUnstructuredGrid *grid, vtkIdType cell) {
   int vtk_type = grid->GetCellType(cell);
   if (vtk_type == VTK_LINE) vtk_type = VTK_POLY_LINE;
   if (vtk_type == VTK_VERTEX) vtk_type = VTK_POLY_VERTEX;
-  // A Lagrange cell has its order by the number of its nodes.
+  // The number of nodes of a Lagrange cell tells its order.
   const vtkIdType n_nodes = grid->GetCells()->GetCellSize(cell);
   const auto *const found = std::find_if(std::begin(topologies), std::end(topologies), [&](const Topology &t) {
     return t.vtk_type == vtk_type && (t.number != 0 || t.n_nodes == n_nodes);

@@ -48,7 +48,7 @@ struct LeafletArray {
 Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted);
 
 // Appends the faces of another surface with their vertices. Each of the joined surfaces becomes a leaflet. Quads are cut if only
-// one of the two has quads. The attachment is lost if only one of the two has it.
+// one of the two has quads. The attachment is lost if only one of the two surfaces has an attachment.
 void append_faces(Faces &faces, const Faces &other);
 
 // Returns a number for each vertex, from 0 to the number of vertices minus 1. Two vertices have the same number if and only if
