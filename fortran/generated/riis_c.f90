@@ -589,7 +589,7 @@ module riis_c
   type, bind(c) :: riis_leaflet
     integer(c_int64_t) :: n_triangles !< the number of its triangles with an area above 0
     real(c_double) :: area            !< the area of its triangles
-    real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 that only one of its patches has.
+    real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 of only one patch of the leaflet.
                                       !! A surface from arrays has no patches: its free edge is all open edges except
                                       !! the longest closed line of open edges. An open edge belongs to only one
                                       !! triangle. 0 for a skirt

@@ -5097,8 +5097,8 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   integer(int32), intent(in) :: leaflet_num               !< 1 to n_leaflets, ascending by leaflet_id.
   integer(int32), intent(inout) :: leaflet_id             !< From 0.
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
-  real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 that only one of its
-                                                          !! patches has. A surface from arrays has no patches: its free edge
+  real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 of only one patch of
+                                                          !! the leaflet. A surface from arrays has no patches: its free edge
                                                           !! is all open edges except the longest closed line of open edges. An
                                                           !! open edge belongs to only one triangle. 0 for a skirt.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.

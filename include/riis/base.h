@@ -20,7 +20,7 @@ extern "C" {
 
 /* ---- Status, errors, log, version ---------------------------------------------------------------------- */
 
-/* The result of a call. Its values never change. New values are appended at either end. */
+/* The result of a call. Its values never change. A release may add new values at either end of the list. */
 typedef int32_t riis_status;
 /* Values of riis_status. */
 enum {

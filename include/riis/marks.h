@@ -102,7 +102,7 @@ typedef struct riis_mark_options {
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size); /* the defaults */
 
 /* Finds every node near the surface: the nodes within the half thickness (marked), and within the distance limit.
- * The distance that the list reports decides, in double precision. With an offset, the nodes in the band are marked
+ * The reported distance, in double precision, decides which nodes are near. With an offset, the nodes in the band are marked
  * (riis_surface_create).
  *   marks  its content is replaced
  * The log warns if the units of mesh and surface seem to differ. Units seem to differ if the two boxes' largest sides differ by

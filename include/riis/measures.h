@@ -19,7 +19,7 @@ extern "C" {
 typedef struct riis_leaflet {
   int64_t n_triangles; /* the number of its triangles with an area above 0 */
   double area;         /* the area of its triangles */
-  double free_edge;    /* the length of its free edge: the sides v = 1 that only one of its patches has. A surface from arrays has
+  double free_edge;    /* the length of its free edge: the sides v = 1 of only one patch of the leaflet. A surface from arrays has
                           no patches: its free edge is all open edges except the longest closed line of open edges. An open edge
                           belongs to only one triangle. 0 for a skirt */
   int32_t leaflet_id;  /* as in riis_triangles */
@@ -143,9 +143,8 @@ typedef struct riis_coaptation {
  *   reach       1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness
  *   leaflet_id  as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from
  *               both sides
- * The error of an area is at most 1e-3 times the contact's outline times reach (docs/theory/measures.md). The extent of
- * a surface is the diagonal of its box. A reach below 1/250 of the extent loses details below 1/2000 of the
- * extent.
+ * The error of an area is at most 1e-3 reach times the length of the contact's outline (docs/theory/measures.md). The extent of a
+ * surface is the diagonal of its box. A reach below 1/250 of the extent loses details below 1/2000 of the extent.
  * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
 RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
                                                  riis_coaptation *coaptation, int64_t struct_size);

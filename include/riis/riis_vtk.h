@@ -153,8 +153,8 @@ RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, do
  *   n_chosen  the number of cells with such a value; only volume cells count if the mesh has some. NULL refuses none
  * Errors: RIIS_INVALID_ARGUMENT if there is no such array or name; the mesh is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_choose_cells(riis_vtk_mesh *mesh, const char *where, int64_t *n_chosen);
-/* Gives a cell array that probably numbers domains. Volume cells have 2 to 16 whole numbers in it, and two cells of
- * one type with a common node have different numbers. Arrays named for something else, such as "rank", do not count.
+/* Gives a cell array that probably numbers domains. Volume cells have 2 to 16 whole numbers in this array, and two cells of one
+ * type with a common node have different numbers. Arrays named for something else, such as "rank", do not count.
  *   array     its name, until the next call or the mesh's destruction. "" if there is none
  *   n_values  the number of its values; 0 if there is none
  *   values    (n_values), ascending. NULL if they are not wanted */
@@ -187,8 +187,8 @@ RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int6
  *         axes are evenly spaced, as in an image; neither format stores cells. The numbers of NAME.xdmf are in NAME.h5 beside it,
  *         or in NAME.xdmf itself if riis was built without HDF5. Polyhedra and text have no place in an .xdmf. If the mesh was
  *         read from a case of OpenFOAM, with nodes at centres, the path may also be a time folder of the case, such as CASE/0.
- *         The arrays of cells become its fields, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface becomes Ku.
- *         Such a folder may be written in part if an error occurs */
+ *         The arrays of cells become the folder's fields, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface
+ *         becomes Ku. Such a folder may be written in part if an error occurs */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
 
 /* ---- Meshes in pieces ---------------------------------------------------------------------------------- */
@@ -301,7 +301,7 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
  * All reading functions share these rules:
  * - Files are as for riis_vtk_surface_read, at most 1,000,000. They have the same points and cells in the same
  *   order. Polygons and quads are cut as in the first file.
- * - Leaflets and riis_attached come from the first file. `leaflets` names their cell array, as in riis_vtk_surface_read.
+ * - Leaflets and riis_attached come from the first file. `leaflets` names the files' cell array, as in riis_vtk_surface_read.
  * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly the same
  *   position in the first file become one vertex. In every other file such corners must also share one position. If leaflets
  *   touch at corners in the first file and separate later, use .vtp files, which number points.

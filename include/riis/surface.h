@@ -20,8 +20,8 @@ typedef struct riis_surface riis_surface;
 
 /* The leaflets of the parametric valves, as leaflet_id reports them. */
 enum {
-  RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters;
-                                   other cusps: on the x axis. Others follow counter-clockwise, seen from +z */
+  RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters; other kinds: the cusp on the x
+                                   axis. More cusps follow counter-clockwise, seen from +z */
   RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; other cusps: the second one */
   RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; other cusps: the third one. The fourth one has the id 3 */
   RIIS_LEAFLET_ANTERIOR = 0,    /* mitral, mitral_coapting, tricuspid: the anterior leaflet */

@@ -33,7 +33,7 @@ ProgramEnd run_program(
 // Returns the path of the program with that name on the PATH, or "" if there is none.
 std::string program_on_path(const std::string &name);
 
-// Returns the Python that the program starts: `python3`, or the one that the environment variable RIIS_PYTHON names.
+// Returns the Python that the program starts: `python3`, or the value of the environment variable RIIS_PYTHON.
 std::string python_of_user();
 
 // Implements `riis view`: replaces this process by `python3 -m riis view` with the same words. Returns only by a Refusal, which

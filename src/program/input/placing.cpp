@@ -24,8 +24,8 @@ std::string option_text(Reader reader, const char *name, const std::string &valu
   return reader == Reader::program ? "--" + (name + (" " + value)) : name + ("='" + value + "'");
 }
 
-// Returns the names of the parameters that keep their values, by the options or by the landmarks' file. The library
-// refuses names that are not a parameter's.
+// Returns the names of the parameters that keep their values, by the options or by the landmarks' file. The library refuses names
+// of no parameter.
 std::string held_names(std::vector<std::string> given, const LandmarkFile &landmarks, const riis_valve *valve) {
   if (landmarks.parameters.is_object())
     for (const auto &[name, value] : landmarks.parameters.items()) {

@@ -37,7 +37,7 @@ struct LandmarkFile {
   std::optional<double> noise;
   std::optional<std::array<double, 3>> flow;
   std::vector<double> flow_ends;  // (3, 2), flow_from and flow_to; empty if they are not given
-  Json parameters;                // an object of sizes that are known, in centimetres; null if there are none
+  Json parameters;                // an object of known sizes, in centimetres; null without known sizes
 
   // Changes lengths to another unit, and coordinates to other axes.
   void convert(Unit to);

@@ -41,8 +41,8 @@ struct EndPoints {
 
 // Reads a wall from a surface's file or from a volume mesh, whose boundary then is the wall. Finds the wall's flat ends by plane:
 // any number of ends, in any direction. Closes flat holes at its ends. Turns triangles outwards. Refuses a surface with other
-// holes, with several pieces or with edges of more than two triangles. If the ends are not clear, it refuses the wall with the
-// list of flat parts and the options that choose among them.
+// holes, with several pieces or with edges of more than two triangles. Refuses a wall with unclear ends, with the list of flat
+// parts and the options that choose among the parts.
 PatientWall read_patient_wall(const std::string &path, const EndPoints &points = {});
 
 // Multiplies all lengths, such as by 0.001 from millimetres to metres.

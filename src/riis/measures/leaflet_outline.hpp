@@ -61,7 +61,7 @@ struct SeenOutline {
   Outline outline;
 };
 
-// The direction in which a valve looks before its outline is known.
+// The directions of a valve before its outline is known.
 struct ValveDirections {
   Vec3 axis, sideways;  // its z axis, warped and placed, and its x axis, placed
   bool keeps_axis;      // the outline is seen along `axis`, and not along the vector area of its edges

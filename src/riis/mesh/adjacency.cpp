@@ -134,7 +134,7 @@ class RowMaker {
 
   // The memory of one thread while it makes rows.
   struct Scratch {
-    std::vector<std::uint8_t> is_seen;  // for each node, whether the row already has it
+    std::vector<std::uint8_t> is_seen;  // for each node, whether the row already has this node
     UnfilledVector<Column> columns;     // columns of one block
   };
 

@@ -78,7 +78,8 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
                             const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface);
 SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,
                             const SurfaceRequest &request, Surface &surface);
-// Adds a direction to the surface of a valve. Fails with RIIS_INVALID_PARAMETER if a state has another build than that valve.
+// Adds a direction to the surface of a valve. Fails with RIIS_INVALID_PARAMETER if the patches of a state do not correspond to
+// the valve's patches.
 void add_direction(const ValveDirection &direction, int n_threads, Surface &surface);
 
 }  // namespace riis

@@ -82,7 +82,7 @@ class Surface {
 
   // Returns the other method for distances, or null if the triangles' scene measures distances.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
-  // Bounds by how much the distance to the triangles exceeds a distance that the method returns.
+  // Bounds the excess of the distance to the triangles over the distance that the method returns.
   double triangle_error() const { return triangle_error_; }
 
   // Returns the normals for sides and rims. The first call makes them. Several threads may call this function at once.

@@ -39,7 +39,8 @@ constexpr double u_of(std::size_t place) { return static_cast<double>(place) / n
 constexpr double least_coaptation = 0.05;
 // A closed meridian's first inner control point lies below the annulus by this share of the drop to the coaptation line.
 constexpr double first_drop = 0.2;
-// The heights of a closed free edge's control points from the middle to a commissure, as shares of the rise between these.
+// The heights of a closed free edge's control points from the middle to a commissure, as shares of the rise from the middle to
+// the commissure.
 constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
 // A bump's lift acts on a meridian's first inner control point by this share.
 constexpr double lift_of_start = 0.3;

@@ -14,8 +14,8 @@ namespace riis {
 // part.
 Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double low);
 
-// Returns the least rise of the leaflet at the root, as a share of the rise of a leaflet that has everywhere the length of the
-// symmetry curve and no sag. With a negative rise, the leaflet dips below its attachment and folds.
+// Returns the least rise of the leaflet at the root. The unit is the rise of a leaflet without sag that has everywhere the length
+// of the symmetry curve. With a negative rise, the leaflet dips below its attachment and folds.
 double rise_at_root(const Vector<HalfCusp> &parts);
 
 }  // namespace riis

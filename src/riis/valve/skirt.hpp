@@ -62,7 +62,7 @@ class SkirtDirections {
  public:
   SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides);
 
-  // Returns the unit vector at a share of the length of a side, where the side has this point.
+  // Returns the unit vector at a share of the length of a side. `point` is the side's point at this share.
   Vec3 at(std::size_t side, double share, Vec3 point) const;
   bool is_turned(std::size_t side) const { return ends_[side][0].is_turned || ends_[side][1].is_turned; }
 

@@ -103,7 +103,7 @@ VolumeCounts count_volumes(vtkUnstructuredGrid *grid, vtkUnsignedCharArray *ghos
 
 struct VolumeCells {
   std::vector<std::int64_t> node_ids;
-  std::vector<std::int64_t> offsets = {0};  // one entry more than there are cells
+  std::vector<std::int64_t> offsets = {0};  // the number of cells plus one entries
 };
 
 // Returns tetrahedra, pyramids, wedges and hexahedra, and also voxels as hexahedra. Leaves out other cells.

@@ -41,7 +41,7 @@ Axes axes_turned(const double axis[3], double degrees);
 struct View {
   std::array<Vector, 3> axes;
 
-  // `view` is RIIS_VTK_VIEW_*, but not one of three views. `valve` is used by the views that look by the valve's axes.
+  // `view` is a single view of RIIS_VTK_VIEW_*, not three views. Views along the valve's axes use `valve`.
   View(std::int32_t view, const Axes &valve);
   const Vector &right() const { return axes[0]; }
   const Vector &up() const { return axes[1]; }
