@@ -95,8 +95,8 @@ typedef struct riis_opening_switch_state {
 } riis_opening_switch_state;
 /* Fills *state with a closed valve at time 0. */
 RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size);
-/* Advances a switch to a time. Its phase changes at the end of the step in which the condition is met. The opening is therefore
- * accurate to first order in the length of steps.
+/* Advances a switch to a time. The switch's phase changes at the end of the step in which the condition is met. The opening is
+ * therefore accurate to first order in the length of steps.
  *   time                       at least before->time, magnitude at most 1e30
  *   pressure_difference, flow  at that time, magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now stays unchanged. */

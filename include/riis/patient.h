@@ -20,8 +20,8 @@ enum {
   RIIS_LANDMARK_COMMISSURE = 0,     /* cusps: the top of the attachment between two of them; as many as cusps.
                                        tricuspid: the annulus between two leaflets; exactly 3 */
   RIIS_LANDMARK_NADIR = 1,          /* cusps: the lowest point of a cusp's attachment; as many as cusps */
-  RIIS_LANDMARK_COAPTATION = 2,     /* cusps: where the closed cusps meet; at most 1. The valve's axis
-                                       passes through it; its height is not used */
+  RIIS_LANDMARK_COAPTATION = 2,     /* cusps: where the closed cusps meet; at most 1. The valve's axis passes through this point;
+                                       the point's height is not used */
   RIIS_LANDMARK_ANNULUS = 3,        /* mitral, mitral_coapting, tricuspid: a point of the annulus; 4 or more, in their
                                        order around it. bileaflet: a point of the housing's circle at mid-height; 3 or
                                        more */
@@ -124,7 +124,7 @@ RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmar
 /* ---- Warp: a valve that meets a patient's landmarks, and moves with them ------------------------------- */
 
 /* A smooth map of space that takes landmarks on a valve to landmarks in a patient. The map is the sum of an affine map and a
- * term |r|^3 for each landmark (docs/theory/warp.md). Its matrix is factored once, so new targets in each time step cost
+ * term |r|^3 for each landmark (docs/theory/warp.md). The warp's matrix is factored once, so new targets in each time step cost
  * little. */
 typedef struct riis_warp riis_warp;
 

@@ -99,8 +99,8 @@ RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t
                                               uint8_t *types, int64_t n_node_ids, int64_t *node_ids);
 
 /* Makes the part of the mesh's adjacency that riis_find_leaks needs, in one pass over the cells. The part consists of the edges
- * that are longer than a given length and whose bounding box meets the surface's bounding box. It borrows nothing from the mesh.
- * Use this part only for riis_find_leaks: a search cannot go far along so few edges.
+ * that are longer than a given length and whose bounding box meets the surface's bounding box. The adjacency borrows nothing from
+ * the mesh. Use this part only for riis_find_leaks: a search cannot go far along so few edges.
  *   longer_than       2 (1 - |o|) half thicknesses of the marking, with the offset o. 0 gives all edges near the
  *                     surface. Use 0 after a marking by RIIS_SEARCH_PAPER, or if distances were not measured to the
  *                     triangles. Edges that are shorter by up to a billionth are also included
@@ -119,8 +119,8 @@ RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, 
 RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_marks *marks, double far_distance,
                                              const char *prefix);
 /* Sets point arrays for the fields of a marking: PREFIX_point, PREFIX_normal, PREFIX_barycentric, PREFIX_uv,
- * PREFIX_velocity (Float64), PREFIX_side, PREFIX_rim, PREFIX_patch (Int32). Beyond the limit they are 0, and
- * PREFIX_patch is -1.
+ * PREFIX_velocity (Float64), PREFIX_side, PREFIX_rim, PREFIX_patch (Int32). Beyond the limit these arrays are 0, and PREFIX_patch
+ * is -1.
  *   fields  a sum of RIIS_FIELD_* of the marking's fields
  *   prefix  as in riis_vtk_mesh_set_marks
  * Errors: RIIS_INVALID_ARGUMENT for a field that the marks lack, and as in riis_vtk_mesh_set_marks. */
@@ -299,8 +299,8 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
  *   frames.period = 0.8;
  *   riis_keyframes_create(&arrays, &frames, &keyframes); riis_vtk_motion_destroy(&motion);
  * All reading functions share these rules:
- * - Files are as for riis_vtk_surface_read, at most 1,000,000. They have the same points and cells in the same
- *   order. Polygons and quads are cut as in the first file.
+ * - Files are as for riis_vtk_surface_read, at most 1,000,000. All files have the same points and cells in the same order.
+ *   Polygons and quads are cut as in the first file.
  * - Leaflets and riis_attached come from the first file. `leaflets` names the files' cell array, as in riis_vtk_surface_read.
  * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly the same
  *   position in the first file become one vertex. In every other file such corners must also share one position. If leaflets
@@ -410,8 +410,8 @@ typedef struct riis_vtk_picture_options {
   double rotation_axis[3]; /* of the valve's placement, for RIIS_VTK_VIEW_VALVE_*; ranges as in
                               riis_surface_options. Default (0, 0, 1) */
   double rotation_angle;  /* degrees. Default 0: the valve has the mesh's axes */
-  const riis_surface *wall; /* the wall around a surface without a mesh. It is ignored with a mesh, whose boundary is the
-                               wall. Default NULL: none */
+  const riis_surface *wall; /* the wall around a surface without a mesh. With a mesh, whose boundary is the wall, this field is
+                               ignored. Default NULL: none */
   double background[4];   /* red, green and blue, 0 to 1, then the opacity, 0 or 1. Texts are dark on a bright colour, and bright
                              on a dark one. The opacity 0 makes a transparent picture, with the texts that fit the colour. Default
                              (1, 1, 1, 1): white */
@@ -427,8 +427,8 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  * - The right panel shows marked cells. A cell with all nodes marked has the colour of the leaflet nearest to
  *   one of them. Other cells with a marked node show only their far side, in a pale colour. If the mesh has
  *   volume cells, flat cells are not drawn.
- * - The wall is a translucent shell in both panels. Its flat ends are open: flat parts with a sharp rim, such as
- *   an inlet, are left out. A wall that consists of flat parts, such as a box, is drawn whole.
+ * - The wall is a translucent shell in both panels. The wall's flat ends are open: flat parts with a sharp rim, such as an inlet,
+ *   are left out. A wall that consists of flat parts, such as a box, is drawn whole.
  * - Captions name the half thickness and count the marked nodes.
  * - Axes and a scale bar are below the panels. If a mesh is much longer than the surface, the picture cuts
  *   it at dashed lines. Pictures lower than 120 pixels have no texts, axes or bar.

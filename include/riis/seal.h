@@ -40,8 +40,8 @@ RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mes
 
 /* Mesh edges that leak, ascending by their first node, then by their second. Lengths are in mesh units. */
 typedef struct riis_leak_list {
-  int64_t n_edges;            /* the number of edges that leak. If it is 0, node ids are -1, and all other fields but seconds are
-                                 0 */
+  int64_t n_edges;            /* the number of edges that leak. If this number is 0, node ids are -1, and all other fields but
+                                 seconds are 0 */
   const int64_t *node_id;     /* (2, n_edges): the two nodes, the lower id first */
   const double *length;       /* (n_edges) */
   const double *distance;     /* (n_edges): the least half thickness that closes the edge. Without an offset this is the distance

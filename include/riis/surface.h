@@ -63,7 +63,7 @@ enum {
                                      opening at which the tolerance does not hold. A triangle without area is left out, and its id
                                      is not reused. An update with RIIS_TRIANGULATION_ADAPTED forgets the chosen triangles.
                                      Vertices of mitral or warped valves slide along the surface. Velocities do not include this
-                                     slide */
+                                     slide of the vertices */
 };
 
 /* Options of a surface. The placement, also of arrays, is x -> scale * rotation * x + translation. */
@@ -115,8 +115,8 @@ typedef struct riis_surface_arrays {
   int64_t n_vertices;        /* 1 to 2^31 - 1 */
   const void *x, *y, *z;     /* (n_vertices) by stride: the vertices before placement */
   int64_t stride;            /* of x, y and z. Default 1 */
-  const void *vx, *vy, *vz;  /* (n_vertices) by velocity_stride: velocities of the vertices, in lengths per
-                                unit of time. The placement turns and scales them. All NULL: none */
+  const void *vx, *vy, *vz;  /* (n_vertices) by velocity_stride: velocities of the vertices, in lengths per unit of time. The
+                                placement turns and scales the velocities. All NULL: none */
   int64_t velocity_stride;   /* of vx, vy and vz. Default 1 */
   int64_t n_faces;           /* 1 to 16,777,216 triangles, half as many quads */
   const void *vertex_ids;    /* (corners_per_face, n_faces); the normal follows the right-hand rule */

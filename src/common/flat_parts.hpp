@@ -53,7 +53,7 @@ struct Part {
 // Finds flat parts. The triangles must stay while this object is used, and neighbours must face alike. The surface may be open.
 class Finder {
  public:
-  // `faces_outwards` says that the triangles face outwards. Else the wall beside a part counts as behind it.
+  // `faces_outwards` says that the triangles face outwards. In other cases the wall beside a part counts as behind the part.
   Finder(const Triangles &triangles, bool faces_outwards);
 
   // Returns the flat parts that may be ends, the largest first. `parts` are known already, and are among them.

@@ -35,7 +35,7 @@ class Files {
   void read_nothing() { posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0); }
   void pass(int from, int to) { posix_spawn_file_actions_adddup2(&actions_, from, to); }
 
-  // Starts the words as a program. Returns 0, or why it could not be run.
+  // Starts the words as a program. Returns 0, or the error of a program that could not be run.
   int start(const std::vector<std::string> &words, pid_t &process) const {
     std::vector<char *> arguments;
     for (const std::string &word : words) arguments.push_back(const_cast<char *>(word.c_str()));

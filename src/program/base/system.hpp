@@ -11,7 +11,7 @@ namespace riis::program {
 // Throws a Refusal if the system does not say.
 std::string path_of_this_program();
 
-// Makes a pipe whose ends no other program inherits. Returns whether it did; otherwise errno says why.
+// Makes a pipe whose ends no other program inherits. Returns true after success; otherwise errno has the reason.
 bool make_pipe(int ends[2]);
 
 // The end of the parent sends the signal to this process, a child by fork(). A parent that has ended before is not noticed.

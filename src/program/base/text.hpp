@@ -54,7 +54,7 @@ inline bool is_control(unsigned char c) { return c < ' ' || c == 127; }
 // Returns the system's message for errno.
 std::string system_text(int error);
 
-// In: a path. Out: its ending, or the text of the file. Refusals name the file.
+// In: a path. Out: the path's ending, or the text of the file. Refusals name the file.
 
 // Returns the ending of a path, from the point on and in small letters.
 std::string ending_of(const std::string &path);

@@ -20,7 +20,7 @@ const char *words_of(Unit unit);
 // Returns the unit with one of the names in unit_names(), or none for "".
 std::optional<Unit> unit_of(const std::string &name);
 
-// Returns the factor from one unit to the other. For example, it is 0.01 from centimetres to metres.
+// Returns the factor from one unit to the other. For example, this factor is 0.01 from centimetres to metres.
 double factor_between(Unit from, Unit to);
 // Returns the paper's half thickness, which is 0.1 cm, in the given unit.
 double paper_half_thickness(Unit unit);
@@ -114,8 +114,8 @@ struct UnitJudgement {
   bool is_possible(double factor) const { return std::find(factors.begin(), factors.end(), factor) != factors.end(); }
 };
 
-// Judges the present unit, and each of `factors`. The factor 1 need not be among them. A coarse basin in centimetres and a vessel
-// in millimetres can have the same numbers. The unit of a run without a unit therefore stays possible beside a likelier unit.
+// Judges the present unit, and each of `factors`. These factors need not contain 1. A coarse basin in centimetres and a vessel in
+// millimetres can have the same numbers. The unit of a run without a unit therefore stays possible beside a likelier unit.
 UnitJudgement judge_units(const Sizes &sizes, const std::vector<double> &factors);
 // Returns whether the mesh is about as wide as the surface if the mesh's lengths are multiplied by the factor.
 bool is_as_wide(const Sizes &sizes, double factor);

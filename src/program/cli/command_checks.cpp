@@ -157,7 +157,7 @@ void check_solver_scale(const ExportOptions &options) {
                " in place of --scale, and riis export converts");
 }
 
-// svMultiPhysics gets grams, centimetres and seconds. Without --unit, plain numbers are in its units.
+// svMultiPhysics gets grams, centimetres and seconds. Without --unit, plain numbers are in the solver's units.
 void finish_solver_units(ExportOptions &options) {
   check_solver_scale(options);
   const auto in_solver_units = [&](const std::optional<Amount> &given, const Quantity &quantity, double usual) {

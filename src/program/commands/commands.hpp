@@ -32,7 +32,7 @@ ExitCode run_patient(const PatientOptions &options);
 // riis export. Writes a valve's opening and closing to a folder as files for svMultiPhysics, and prints the block of the solver's
 // input that names these files.
 void export_uris(const ExportOptions &options);
-// The files of an export, written. The block names them in `named_folder`, the folder as the solver sees it.
+// The files of an export, written. The block names the files in `named_folder`, the path of the folder for the solver.
 struct UrisExport {
   std::string block;
   std::string failure;  // why the drop was not found; "" if it was found, or without a mesh

@@ -122,7 +122,7 @@ class Measured {
   Keyframes keyframes_;
   std::vector<double> times_;
   Surface surface_;
-  Surface wall_;  // null unless it bounds the orifice of a surface from a file
+  Surface wall_;  // the wall that bounds the orifice of a surface from a file, or null
 };
 
 State state_at(Measured &valve, double place, bool has_contacts) {
@@ -201,7 +201,7 @@ std::string rounded(double value) { return shown(std::round(value * 1e4) / 1e4);
 
 std::string at(const State &state) { return " at " + shown(state.opening); }
 
-// Returns the opening or the time of the first state. For a valve, this is the closed state.
+// Returns the opening or the time of the first state. For a valve, this state is the closed state.
 std::string at_first(const States &states) {
   if (states.is_of_file && states.states.size() == 1) return "";
   return at(states.states.front());

@@ -33,7 +33,7 @@ bool may_crash(const std::string &path) {
   return endings.count(ending_of(path)) != 0;
 }
 
-// A folder for the mesh that a child process passes on. Signals that end the process remove it.
+// A folder for the mesh that a child process passes on. Signals that end the process remove the folder.
 class PassingFolder {
  public:
   PassingFolder() { remove_if_ended(folder_.path(), mesh()); }

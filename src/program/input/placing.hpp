@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: landmarks of a patient. Out: the sizes and the placement of the valve, as a report and as the file of a placed valve. The
-// program and the Python package share this.
+// program and the Python package share this code.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct LandmarkFile {
   std::vector<double> xyz;                // (3, n), in the file's unit and axes
   std::vector<std::int32_t> roles;        // RIIS_LANDMARK_*
   std::vector<std::int32_t> leaflet_ids;  // (2, n)
-  std::string valve;                      // its kind, or "" if the file does not say
+  std::string valve;                      // the valve's kind, or "" without a statement in the file
   Unit unit = Unit::millimetre;
   Axes axes = Axes::mesh;
   std::optional<double> noise;
@@ -46,7 +46,7 @@ struct LandmarkFile {
 
 // Reads the text of a file, whose format follows from the ending of its path.
 LandmarkFile read_landmarks(const std::string &path, const std::string &text);
-// Reads landmarks in memory from an object with the keys of a file. `subject` stands for them in refusals.
+// Reads landmarks in memory from an object with the keys of a file. `subject` stands for the landmarks in refusals.
 LandmarkFile landmarks_of_json(const std::string &subject, const Json &root);
 
 // Who reads a message. Options are written like --unit mm for the program, and like unit='mm' for Python.
@@ -71,7 +71,7 @@ struct Size {
   std::vector<double> values;
   double standard_error;
   int32_t state;
-  bool follows;  // it was not set, and has the value of another parameter
+  bool follows;  // the parameter was not set, and has the value of another parameter
 };
 
 struct Placed {
@@ -84,7 +84,7 @@ struct Placed {
   std::vector<double> places;                                     // (3, n), of the landmarks on the valve
   riis_surface_options where = defaults<riis_surface_options>();  // the placement
   bool is_warped = false;
-  double warp_noise = 0;          // by which the warp is smoothed; 0: it meets the landmarks
+  double warp_noise = 0;          // the noise that smooths the warp; 0: the warp meets the landmarks
   std::vector<double> still_off;  // distances of the landmarks from the warped closed valve, right to a micrometre
 };
 

@@ -333,7 +333,7 @@ const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".
 const std::set<std::string> cad_files = {".step", ".stp", ".iges", ".igs", ".brep"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2", ".med", ".wrl"};
 const std::set<std::string> surfaces_of_meshio = {".off"};
-// meshio writes all faces of these to a .vtu. To a .stl it writes triangles only.
+// meshio writes all faces of such files to a .vtu. To a .stl, meshio writes triangles only.
 const std::set<std::string> faces_of_meshio = {".xdmf", ".xmf", ".inp", ".e", ".exo", ".avs", ".mdpa", ".vol"};
 const std::set<std::string> surfaces_of_paraview = {".vtkhdf", ".pvtp", ".vtm"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
@@ -392,7 +392,7 @@ std::string first_file_of_list(const std::string &path) {
   return ", such as " + path_in_shell((fs::path(path).parent_path() / name).string());
 }
 
-// A .msh may be of another version of gmsh, or of Ansys Fluent. A damaged one cannot be converted. SimVascular calls the
+// A .msh may be of another version of gmsh, or of Ansys Fluent. A damaged file cannot be converted. SimVascular calls the
 // description of a mesh .msh, which is XML.
 std::string hint_for_msh(const std::string &path, const std::string &refusal) {
   if (has_text(refusal, "is of gmsh's type")) return at_order_2(path);

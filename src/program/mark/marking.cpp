@@ -262,7 +262,7 @@ void Marking::measure(Piece &piece) {
     combine(sums.marks, valves_[i].stats());
     sums.leaks.add(piece, valves_[i].result());
     for (LeafletsOutside &state : sums.outside) state.add(piece);
-    // The closed valve matters only if the open one is outside, which a mesh in pieces tells after the last piece.
+    // The closed valve matters only if the open valve is outside. In a mesh in pieces, this is known after the last piece.
     const bool may_be_outside =
         !mesh_.is_whole() || std::any_of(sums.outside.begin(), sums.outside.end(), [](const LeafletsOutside &state) {
           return state.share_so_far() > most_outside;
@@ -364,7 +364,7 @@ void Marking::judge() {
   report_.seconds.leaks += stage.seconds();
 }
 
-// Fills the report of a valve. The marks were found at its least opening.
+// Fills the report of a valve. The marks were found at the valve's least opening.
 void Marking::report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts) {
   ValveReport &report = report_.valves[i];
   const MovingValve &valve = valves_[i];

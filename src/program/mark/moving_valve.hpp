@@ -19,7 +19,8 @@ namespace riis::program {
 
 class MovingValve {
  public:
-  // Borrows the source, and makes the surface at the given time. `moves` says whether it will have other times, and velocities.
+  // Borrows the source, and makes the surface at the given time. `moves` states whether the valve will have other times, and
+  // velocities.
   MovingValve(ValveSource &source, double time, bool moves);
 
   // Moves the surface to a time. If an earlier time is given, also computes the mean velocities since then.
@@ -57,7 +58,7 @@ class MovingValve {
 // node, so that bad options are refused early.
 std::vector<MovingValve> moving_valves(Case &all);
 
-// Triangles of several surfaces, or of one at several times.
+// Triangles of several surfaces, or of one surface at several times.
 class JoinedTriangles {
  public:
   // Adds triangles, whose leaflets are numbered from `first_leaflet` on.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a surface and the pieces of a mesh. Out: the share of its leaflets' area that is farther than the half thickness outside
-// the mesh. Skirts and the housing of a bileaflet valve do not count, because they may reach beyond the wall.
+// In: a surface and the pieces of a mesh. Out: the share of the leaflets' area that lies more than the half thickness outside the
+// mesh. Skirts and the housing of a bileaflet valve do not count, because they may reach beyond the wall.
 #pragma once
 
 #include <cstdint>

@@ -298,7 +298,7 @@ constexpr double least_share = 1e-3, least_share_left = 1e-5;
 // The width of a gap is found to this share of the bridge.
 constexpr int n_halvings = 10;
 
-// Takes all bumps from their places. Returns whether one had a place.
+// Takes all bumps from their places. Returns whether a bump had a place.
 bool remove_bumps(riis_valve *valve) {
   bool has_bump = false;
   for (const riis_parameter &parameter : all_parameters(valve)) {

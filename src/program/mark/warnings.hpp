@@ -28,7 +28,7 @@ struct Situation : Sizes {
 };
 
 // The possible causes, in the order in which to correct them. A wrong unit also makes the half thickness wrong, and both can
-// cause leaks. All of them may put a part of the leaflets outside the mesh.
+// cause leaks. All these causes may put a part of the leaflets outside the mesh.
 enum class Cause { units, half_thickness, place, leaks, outside };
 
 // The texts of a warning, without line breaks. The advice begins with the punctuation that joins it to the text, such as ":

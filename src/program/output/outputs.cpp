@@ -44,7 +44,7 @@ void check_ending(const std::string &path, const std::string &ending, const std:
   refuse_data(path + ": cannot be written: " + reason);
 }
 
-// Returns whether the path is a device or a pipe. The program writes into these, and replaces any other file as a whole.
+// Returns whether the path is a device or a pipe. The program writes into such files, and replaces any other file as a whole.
 bool is_special(const std::string &path) {
   std::error_code error;
   return fs::exists(path, error) && !fs::is_regular_file(path, error);
@@ -406,7 +406,7 @@ bool is_at(int file, const std::string &path) {
          opened.st_dev == there.st_dev;
 }
 
-// Takes the lock, and returns its file. Returns -1 on a file system without locks.
+// Takes the lock, and returns the file of the lock. Returns -1 on a file system without locks.
 int take(const std::string &output, const std::string &lock) {
   for (;;) {
     int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);

@@ -12,7 +12,7 @@
 
 namespace riis::program {
 
-// Names a file of this process and its folder. Signals that end the process remove both. Empty names stand for none.
+// Names a file of this process and its folder. Signals that end the process remove file and folder. Empty names stand for none.
 void remove_if_ended(const std::string &folder, const std::string &file);
 
 // A folder among the temporary files. The destructor removes the folder with its content.
@@ -53,8 +53,8 @@ class OutputLocks {
 // If the process ended in between, the unfinished file would stay behind.
 
 // While an object of this type lives, the first SIGINT, SIGTERM or SIGHUP waits. The waiting signal ends the process when the
-// object is destroyed. A second signal acts at once. Signals that were ignored stay ignored. Objects made while another one lives
-// do nothing. Other threads may make objects only while one lives.
+// object is destroyed. A second signal acts at once. Signals that were ignored stay ignored. Objects made during another object's
+// life do nothing. Other threads may make objects only during the life of one.
 class UnbrokenWrite {
  public:
   UnbrokenWrite();
@@ -64,7 +64,7 @@ class UnbrokenWrite {
 
   // The signals that end the process.
   static constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
-  // Returns whether a signal waits. If so, callers that work in several parts stop after the present part.
+  // Returns whether a signal waits. After such a signal, callers that work in several parts stop after the present part.
   static bool has_signal();
 
  private:

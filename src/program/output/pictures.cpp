@@ -34,7 +34,7 @@ bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve
 }
 
 // Returns the unit for the scale bar and the captions, or none if it is not known. Without --unit, the centimetres of a valve's
-// parameters and the scale of its placement tell the unit of the mesh. If two valves tell different units, it is not known.
+// parameters and the scale of its placement tell the unit of the mesh. If two valves tell different units, the unit is not known.
 std::optional<Unit> unit_of_mesh(const std::optional<Unit> &given, const std::vector<MovingValve> &valves) {
   if (given) return given;
   std::optional<Unit> told;

@@ -59,7 +59,7 @@ class RunPictures {
   // Returns whether the user wants a picture or a movie.
   static bool are_wanted(const MarkOptions &options);
   // Draws the pictures at the first step, and a frame of the movie at each step. The valves must be at the step's time. In a
-  // series, the call changes their marks.
+  // series, the call changes the valves' marks.
   void draw(std::size_t step, std::vector<MovingValve> &valves, Report &report);
   void encode(Report &report);
 

@@ -57,8 +57,8 @@ void add_surface(const ValveReport &valve, std::ostringstream &out) {
   out << line("surface", valve.name) << surface_title(valve) << ": " << counted(valve.surface.n_triangles, "triangle");
   if (valve.n_leaflets > 0) out << ", " << counted(valve.n_leaflets, "leaflet");
   out << ", area " << valve.surface.area;
-  // Triangles without area are mentioned only for a surface from a file, which should have none. A valve has them at every
-  // collapsed side.
+  // Triangles without area are mentioned only for a surface from a file, which should have none. A valve has such triangles at
+  // every collapsed side.
   if (!valve.opening && valve.surface.n_zero_area > 0)
     out << ", " << grouped(valve.surface.n_zero_area) << " without area left out";
   out << "\n";

@@ -81,7 +81,7 @@ struct OutsideReport {
   };
   double share = 0;               // of the area of all leaflets
   std::vector<Leaflet> leaflets;  // with a share above 0
-  std::optional<double> opening;  // set if it differs from that of the marks
+  std::optional<double> opening;  // set if it differs from the opening of the marks
 };
 
 // Returns a text such as "12.3 MB".
@@ -106,7 +106,7 @@ struct TimeReport {
   double largest_speed;
 };
 
-// One valve of a run. In a series, the numbers hold at its least opening.
+// One valve of a run. In a series, the numbers hold at the valve's least opening.
 struct ValveReport {
   std::string name;               // the valve's name among several, or "" for the only one
   std::string surface_name;       // the valve's kind, or a file

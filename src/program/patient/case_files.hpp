@@ -19,7 +19,7 @@ struct Ends {
 // Refuses a case without exactly one inlet, one wall, and an outlet, and a case in another unit.
 Ends ends_of(const SolverCase &solver, Unit unit);
 
-// Makes the solver's folder. Refuses one that holds a case already.
+// Makes the solver's folder. Refuses a folder that holds a case already.
 void make_case_folder(const SolverCase &solver);
 // Copies a file of the case's folder into the solver's folder, under a name that may begin with folders.
 void copy_into(const SolverCase &solver, const std::string &from, const std::string &to);

@@ -28,7 +28,7 @@ struct PatientWall {
   std::vector<std::int64_t> corners;  // (3, n_triangles); seen from outside, they run counter-clockwise
   std::vector<std::int32_t> end_of;   // (n_triangles): the position in `ends`, or -1 at the wall
   std::vector<FlatEnd> ends;          // two or more, the largest first
-  double size = 0;                    // the diagonal of the box around it
+  double size = 0;                    // the diagonal of the box around the wall
   double area = 0, volume = 0;        // of the whole surface with its ends, and of the blood
   std::vector<std::string> remarks;   // what was changed in the surface, a line each, such as "... are turned outwards"
 };
@@ -49,8 +49,8 @@ PatientWall read_patient_wall(const std::string &path, const EndPoints &points =
 void scale_wall(PatientWall &wall, double factor);
 
 // Names the ends that have no name yet. Blood comes from the inlet: the first end on the way along the wall from the place
-// upstream of the valve. The others are outlet, outlet_2, ..., the largest first. `centre` is the middle of the valve's annulus,
-// and `flow` the direction of the blood through the open valve. Refuses a centre outside the wall.
+// upstream of the valve. The other ends are outlet, outlet_2, ..., the largest first. `centre` is the middle of the valve's
+// annulus, and `flow` the direction of the blood through the open valve. Refuses a centre outside the wall.
 void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std::array<double, 3> &flow);
 
 // Writes all triangles as a binary .stl file.

@@ -164,7 +164,8 @@ class PatientRun {
     if (!options_.params.empty()) inputs_.push_back(fs::absolute(options_.params, error).string());
   }
 
-  // Returns a length of an option in the folder's unit. Without a unit it has that of the wall. The limits are in millimetres.
+  // Returns a length of an option in the folder's unit. Without a unit, a number has the unit of the wall. The limits are in
+  // millimetres.
   double length_of(const std::optional<Amount> &given, double usual_mm, double least_mm, double most_mm) const {
     if (!given) return usual_mm * millimetre_;
     const double mm = given->number * (given->has_unit ? 1000 : factor_between(frame_.unit, Unit::millimetre));

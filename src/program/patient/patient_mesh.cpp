@@ -391,7 +391,7 @@ class PatientMesher {
     return text.text();
   }
 
-  // gmsh gives its patches new numbers, and turns some. Each patch becomes a part of the boundary under the patch.
+  // gmsh gives its patches new numbers, and turns some patches over. Each patch becomes a part of the boundary under the patch.
   void name_patches() {
     std::map<std::int64_t, std::vector<std::size_t>> patches;
     for (std::size_t i = 0; i < surface_.triangles.size(); ++i) patches[surface_.triangles[i].first].push_back(i);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the folder of riis patient. Out: the steps that fill it. A step is a command of riis that the user could also type there.
+// In: the folder of riis patient. Out: the steps that fill the folder. A step is a command of riis that the user could also type
+// there.
 #pragma once
 
 #include <chrono>

@@ -268,7 +268,7 @@ class Forecaster {
     return grouped(static_cast<std::int64_t>(std::llround(count / unit) * std::llround(unit)));
   }
 
-  // The stabilisation can make the drop exceed (R / eps) u a little. A drop far above it, or below 0, is no forecast.
+  // The stabilisation can make the drop exceed (R / eps) u a little. A drop far above this value, or below 0, is no forecast.
   static bool is_sensible(double drop) { return drop > 0 && drop <= 1 / least_of_sensible; }
 
   // Returns a length as the user gives it, in the unit of the mesh.

@@ -305,7 +305,7 @@ bool FinerTriangles::halve_longer(double length) {
       add(corners[k], middles[k], corners[other]);
       add(middles[k], corners[next], corners[other]);
     } else if (n_cut == 2) {
-      // The edge from a to b is not halved. There are two diagonals. The shorter one ends in the middle of the longer halved
+      // The edge from a to b is not halved. There are two diagonals. The shorter diagonal ends in the middle of the longer halved
       // edge.
       const std::size_t k = whole, next = (k + 1) % 3, other = (k + 2) % 3;
       const std::int64_t a = corners[k], b = corners[next], c = corners[other], bc = middles[next], ca = middles[other];

@@ -17,7 +17,7 @@
 
 namespace riis::program {
 
-// Moving triangles that are cut into smaller ones. The cuts are the same at all times.
+// Moving triangles that are cut into smaller triangles. The cuts are the same at all times.
 
 using Corners = std::array<std::int64_t, 3>;
 using Point = std::array<double, 3>;

@@ -85,7 +85,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
 
 // Returns the solver's distance at a point of element e: the absolute distances at its nodes, interpolated. Quadratic shape
 // functions have negative values. At the box's border, nodes have the solver's large number, and some distances become negative.
-// The solver's condition for the band accepts them.
+// The solver's condition for the band accepts negative distances.
 double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
                              const std::vector<double> &distances);
 // Returns the solver's delta at a point of element e: K / R.

@@ -41,10 +41,10 @@ using UnfilledVector = std::vector<T, UnfilledAllocator<T, std::allocator>>;
 void *take_memory(std::size_t n_bytes);
 void give_memory_back(void *memory, std::size_t n_bytes) noexcept;
 
-// Frees the memory that is kept now. Call it after work that took much more memory than a time step takes.
+// Frees the memory that is kept now. Call this function after work that took much more memory than a time step takes.
 void free_kept_memory() noexcept;
 
-// Memory is kept while at least one object of this type exists. The last object's destructor frees it.
+// Memory is kept while at least one object of this type exists. The last object's destructor frees the memory.
 class KeepsMemory {
  public:
   KeepsMemory() noexcept;

@@ -88,7 +88,7 @@ ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset
 // Makes the grid with n_rows rows of equal height h. The distance of an arc from its chords is at most |O| h^2 / 2.
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);
 
-// A linear function is at0 at 0 and at1 at 1. Returns the larger of its values at `from` and `to`.
+// A linear function is at0 at 0 and at1 at 1. Returns the larger of the function's values at `from` and `to`.
 double larger_mix(double at0, double at1, double from, double to);
 // Returns the largest value of 2 v (1-v) between two values of v.
 double largest_arc_weight(double from, double to);

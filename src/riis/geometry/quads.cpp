@@ -17,8 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Bounds the distance between a quad and its triangles at a level of subdivision. The bound is refined no further than `enough`
 // requires.
 double split_error_at(const Quad &quad, int level, double enough) {
-  // Below this level, all parts are checked, because there are few. From this level on, the bound only uses that each level
-  // divides the twist by exactly 4.
+  // Below this level, all parts are checked, because their number is small. From this level on, the bound only uses that each
+  // level divides the twist by exactly 4.
   constexpr int few = 5;
   const double at_equal_uv = std::ldexp(quad_flatness(quad), -2 * level);
   if (level >= few || (at_equal_uv <= enough && enough < infinity)) return at_equal_uv;

@@ -20,8 +20,8 @@ constexpr int nodes_per_cluster = nodes_per_leaf * leaves_per_cluster;
 // Up to 16 neighbouring triangles abc, each in its own frame. The frame's axes are the unit vectors e along ab, f in the
 // triangle's plane, and g across the plane. A point p has the coordinates p.e + e_origin, p.f + f_origin and p.g + g_origin, and
 // the frame's origin is the middle of ab. In (e, f), the edge ac has the unit direction (ac_e, ac_f). Along ac, the point has the
-// coordinate e ac_e + f ac_f + ac_middle, counted from the middle of ac. Across ac, it has the coordinate e ac_f - f ac_e +
-// ac_side. The coordinate across ac is positive on the side of the triangle. Across bc, the coordinate is f bc_e - e bc_f +
+// coordinate e ac_e + f ac_f + ac_middle, counted from the middle of ac. Across ac, the point has the coordinate e ac_f - f ac_e
+// + ac_side. The coordinate across ac is positive on the side of the triangle. Across bc, the coordinate is f bc_e - e bc_f +
 // bc_side. Lanes without a triangle repeat the first triangle, except that their g_origin is beyond_limits.
 struct alignas(64) TriangleGroup {
   float e[3][triangles_per_group], f[3][triangles_per_group], g[3][triangles_per_group];
@@ -112,8 +112,8 @@ struct LeafTask {
   uint32_t found;    // after the last call of filter_cluster, a bit for each node that had pairs in any call
 };
 
-// Cache lines for the decision. The filter requests some of them after every few distances. Requests for all lines at once would
-// fill the processor's queue, and other loads would wait.
+// Cache lines for the decision. The filter requests some of these lines after every few distances. Requests for all lines at once
+// would fill the processor's queue, and other loads would wait.
 struct LinesAhead {
   int32_t n;
   const char *line[256];
@@ -200,9 +200,8 @@ struct FilterKernels {
   // For each candidate group, writes a bit for each box within its reach. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
-  // Clears the bits of boxes beyond the reach of a group's box along its own axes. If one side is wanted, clears all bits of a
-  // box that all groups leave out. Returns false if no box is left. `near` comes from near_boxes, so lanes without a box have no
-  // bits.
+  // Clears the bits of boxes beyond the reach of a group's box along its own axes. For one side, clears all bits of a box that
+  // all groups leave out. Returns false if no box is left. `near` comes from near_boxes, so lanes without a box have no bits.
   bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          uint16_t *near);
   // Copies each numbers[k] of n whose marks[k] has the given bit, without gaps, and returns their number. `to` must have room

@@ -62,7 +62,7 @@ struct ComparisonOf<DoubleRegister> {
 };
 
 // Returns a < b ? a : b. If a is NaN, b is therefore returned. NEON differs for a NaN in b alone, and for two zeros of different
-// signs. No result depends on this: b is NaN only where a is, and nothing reads the sign of a zero.
+// signs. No result depends on this difference: where b is NaN, a is NaN too, and nothing reads the sign of a zero.
 RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_min_ps((__m512)a, (__m512)b);

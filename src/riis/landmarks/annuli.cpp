@@ -90,7 +90,7 @@ void check_outline(const Landmarks &landmarks, const std::vector<std::size_t> &r
   const std::size_t n = flat.size();
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 2; j < n; ++j) {
-      if (i == 0 && j == n - 1) continue;  // they have a point in common
+      if (i == 0 && j == n - 1) continue;  // the two edges have a common point
       const Flat &a = flat[i], &b = flat[i + 1], &c = flat[j], &d = flat[(j + 1) % n];
       if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0)
         fail(RIIS_INVALID_ARGUMENT, "the annulus crosses itself: the line from landmark ", ring[i], " to ", ring[i + 1],
@@ -441,7 +441,7 @@ constexpr SaddleKind tricuspid{"tricuspid",    "AP_diameter",    "SL_diameter",
 constexpr SaddleKind mitral_coapting{"mitral_coapting", "ALPM_diameter", "AP_diameter",
                                      "anterior_ratio",  nullptr,         FlatSide::at_positive_y};
 
-// Where each landmark is on the annulus, in laps from the middle of the flat side. Without laps, it may be anywhere.
+// Where each landmark is on the annulus, in laps from the middle of the flat side. Without laps, the landmark may be anywhere.
 using Laps = std::vector<std::optional<LinearValue>>;
 
 class SaddleModel : public LandmarkModel {

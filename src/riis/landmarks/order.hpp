@@ -14,7 +14,7 @@ namespace riis {
 // The leaflets of a kind, counter-clockwise seen from +z.
 struct LeafletsAround {
   std::vector<std::string> names;  // in the order of leaflet ids
-  const char *seen_along_flow;     // the direction in which they follow each other: "clockwise" if blood flows along +z
+  const char *seen_along_flow;     // the direction from leaflet to leaflet: "clockwise" if blood flows along +z
   // The end of a message that refuses landmarks without names, or null if the leaflets need none. Without names, leaflet 0 is at
   // the first nadir.
   const char *why_names;

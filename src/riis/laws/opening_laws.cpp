@@ -84,7 +84,7 @@ double checked_step(double before, double time, double pressure_difference, doub
   return time - before;
 }
 
-// Returns the new value of a first-order filter. `before` is NaN if there was no value yet.
+// Returns the new value of a first-order filter. `before` is NaN before the first value.
 double filtered(double before, double now, double step, double filter_time) {
   if (std::isnan(before) || filter_time == 0) return now;
   return before - exponential_minus_one(-step / filter_time) * (now - before);

@@ -38,13 +38,13 @@ class AreaSearch {
   const std::vector<double> &turns() const { return turns_; }
   std::int64_t n_refused() const { return n_refused_; }
 
-  // Returns a value with this area, up to the tolerance as a share of the area. If several values have it, the value nearest to
+  // Returns a value with this area, up to the tolerance as a share of the area. Of several such values, the value nearest to
   // `near` is returned. If the area jumps over the wanted area, the nearer end of the jump is returned. Returns nothing if the
   // area is out of reach.
   std::optional<Point> find(double area, double near, double tolerance) const;
 
  private:
-  // The points from `first` to `last`, over which the area only grows or only falls, apart from jumps. No value between them
+  // The points from `first` to `last`, over which the area only grows or only falls, apart from jumps. No value between these two
   // was refused.
   struct Part {
     std::size_t first, last;

@@ -52,7 +52,7 @@ class GridClusters {
     std::int64_t operator[](int lane) const { return first + step[lane]; }
   };
   Numbers numbers(int leaf, const Room &room) const { return {room.first, step_ + nodes_per_leaf * leaf}; }
-  // Writes the points of those lanes of a leaf that have a bit.
+  // Writes the points of a leaf's lanes with a set bit.
   void fill_points(int leaf, std::uint32_t lanes, Room &room) const;
 
  private:
@@ -71,7 +71,7 @@ class GridClusters {
   GridIndex n_regions_, leaf_extent_, cluster_extent_, region_extent_;
   Parts lanes_, leaves_, clusters_;       // of a leaf, a cluster and a region
   std::int64_t step_[nodes_per_cluster];  // from a cluster's first number to the number of each node
-  std::vector<float> x_[3];  // coordinates in the frame. The last one is repeated to the end of the last region
+  std::vector<float> x_[3];  // coordinates in the frame. The last coordinate is repeated to the end of the last region
 };
 
 }  // namespace riis

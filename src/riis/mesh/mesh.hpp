@@ -63,7 +63,7 @@ struct EdgeBlocks {
 // The surfaces that were reported as misfits for a mesh. Several threads may call both functions at once.
 class WarnedSurfaces {
  public:
-  // Records the number, which must not be 0. Returns true if it is new. Once the list is full, new numbers also give
+  // Records the number, which must not be 0. Returns true if the number is new. Once the list is full, new numbers also give
   // false.
   bool is_first(std::uint64_t surface_number);
   bool has(std::uint64_t surface_number) const;

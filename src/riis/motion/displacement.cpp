@@ -496,8 +496,8 @@ bool have_same_build(const PatchSet &now, const PatchSet &before) {
 
 PatchSet with_own_patches(const PatchSet &state, const PatchSet &like) {
   PatchSet made = state;
-  made.seams.clear();  // the other state may lack these points, which only change the last bits
-  // The patches of a warped valve are their own already.
+  made.seams.clear();  // the other state may lack the seams, which only change the last bits
+  // The patches of a warped valve are already separate.
   if (state.material.empty()) made = without_images(made);
   const Vector<std::int32_t> ids = ids_of(made);
   Vector<Patch> patches;

@@ -37,7 +37,8 @@ bool is_beyond_rim(const Resistance &resistance, const ListedNodes &list, std::i
   return resistance.cuts_rim && view(list.fields.rim)[i];
 }
 
-// Returns the distance from the middle of the band at entry i of a list. Outside the band it is at least the half thickness.
+// Returns the distance from the middle of the band at entry i of a list. Outside the band this distance is at least the half
+// thickness.
 double distance_from_middle(const Band &band, const ListedNodes &list, std::int64_t i) {
   const double distance = view(list.nodes.distance)[i];
   if (!band.steps_aside()) return distance;

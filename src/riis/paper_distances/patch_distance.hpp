@@ -30,7 +30,7 @@ struct PlacedPatch {
 
   Vec3 at(double u, double v) const { return evaluate(grid, u, v); }
   // Returns the unit normal by the right-hand rule of the triangles, or 0 if S has no normal there, for example at a
-  // collapsed side. On a grid line, it returns the normal of the quad after the line.
+  // collapsed side. On a grid line, the function returns the normal of the quad after the line.
   Vec3 normal_at(double u, double v) const;
 };
 
@@ -106,7 +106,7 @@ struct DistanceRequest {
   double max_error;     // measure_tolerance * half_thickness, in mesh units
 };
 
-// Makes the method that a surface's options choose. Fails with RIIS_LIMIT_EXCEEDED if it would need too many patches or
+// Makes the method that a surface's options choose. Fails with RIIS_LIMIT_EXCEEDED if the method would need too many patches or
 // samples.
 std::unique_ptr<const PatchDistance> make_distance(const PatchSet &set, const DistanceRequest &request,
                                                    const Placement &placement, bool flip_normals);

@@ -32,8 +32,8 @@ class Blocks {
     }
   }
 
-  // Runs all blocks, or stops before the first block for which has_to_stop() returns true. Returns how many blocks it ran. Each
-  // thread of the loop calls this function once. The calling thread may also call it before the other threads begin.
+  // Runs all blocks, or stops before the first block for which has_to_stop() returns true. Returns the number of blocks that ran.
+  // Each thread of the loop calls this function once. The calling thread may also call it before the other threads begin.
   template <class HasToStop>
   std::int64_t run(int thread, const HasToStop &has_to_stop) {
     const FloatEnvironment environment;

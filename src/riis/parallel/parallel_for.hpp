@@ -18,8 +18,8 @@ int default_thread_count() noexcept;
 int processors_of_machine() noexcept;
 
 // By default a call uses one more thread for each of these amounts of work, which take half a millisecond or more. On a quiet
-// machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine it takes as long as the system
-// gives the processor to other processes.
+// machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine the wait lasts as long as other
+// processes have the processor.
 constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
 constexpr std::int64_t nodes_per_thread = 16384;  // nodes of a mesh, or cells or faces
 

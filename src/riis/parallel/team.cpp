@@ -23,8 +23,8 @@ namespace riis {
 namespace {
 
 // A thread that waits stays awake for a while, because waking it would take some microseconds. At first the worker keeps its
-// processor, and thus wakes at once even if a caller's thread spins there. Later it offers the processor to other threads. Then
-// it sleeps. The history of accesses that the thread sanitizer keeps would fill up if threads waited awake.
+// processor, and thus wakes at once even if a caller's thread spins there. Later the worker offers the processor to other
+// threads. Then it sleeps. The history of accesses that the thread sanitizer keeps would fill up if threads waited awake.
 using std::chrono::microseconds;
 #if defined(RIIS_STD_THREADS)
 constexpr microseconds longest_awake{0}, longest_alone{0};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole pipeline. The pipeline turns a valve's parameters or the caller's arrays into a surface that answers queries for
 // closest points.
-// In: a valve or arrays, the placement, the accuracy. Out: the surface, and the seconds that it took.
+// In: a valve or arrays, the placement, the accuracy. Out: the surface, and the seconds of its making.
 #pragma once
 
 #include <riis/riis.h>

@@ -34,8 +34,8 @@ class Pseudonormals {
 
   Vec3 of_face(std::int64_t triangle) const { return view(face_)[triangle]; }
 
-  // The face, edge or vertex on which a closest point lies. The point's barycentric weights tell which it is. The normal may
-  // have any length. The rim of a valve consists of the sides that only one patch has (valve/rims.hpp). The rim of triangles
+  // The face, edge or vertex on which a closest point lies. The point's barycentric weights tell the edge or vertex. The normal
+  // may have any length. The rim of a valve consists of the sides that only one patch has (valve/rims.hpp). The rim of triangles
   // from arrays consists of the edges that only one triangle has.
   struct Feature {
     Vec3 normal;

@@ -49,8 +49,8 @@ struct TriangleGroups {
   std::vector<TriangleGroup> groups;
   Bounds of_all;  // bounds of all corners, in the set's own coordinates
   std::vector<GroupBounds> bounds;
-  // Packs of groups_per_pack neighbouring groups in order. The last pack may have fewer. Only their boxes along the coordinate
-  // axes, their longest edges and their corners are set. A pack has the corner of one of its groups.
+  // Packs of groups_per_pack neighbouring groups in order. The last pack may have fewer. Only the groups' boxes along the
+  // coordinate axes, longest edges and corners are set. A pack has the corner of one of its groups.
   std::vector<GroupBounds> packs;
   float longest_edge = 0;
   // True if each group has the same triangles as before and the groups are not much larger. Structures over the groups

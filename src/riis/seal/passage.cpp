@@ -76,7 +76,7 @@ class Opening {
     std::sort(to_ids_.begin(), to_ids_.end());
   }
 
-  // Opens the nodes that the half thickness `limit` leaves unmarked. Returns whether they join the ends.
+  // Opens the nodes that the half thickness `limit` leaves unmarked. Returns whether the open nodes join the ends.
   bool joins_beyond(double limit) {
     const Band band = request_.surface.band().with(limit);
     SearchRequest within = request_;

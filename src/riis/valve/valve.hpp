@@ -110,7 +110,7 @@ const ValveKind &quadricuspid_valve_kind();
 const ValveKind &tricuspid_valve_kind();
 const ValveKind &trileaflet_valve_kind();
 
-// Returns the kind with that name. If there is none, fails with RIIS_INVALID_PARAMETER and names the existing kinds.
+// Returns the kind with that name. For an unknown kind, fails with RIIS_INVALID_PARAMETER and names the existing kinds.
 const ValveKind &find_valve_kind(std::string_view name);
 
 // A valve: a kind and its values. All functions fail with RIIS_INVALID_PARAMETER and name the parameter and the value. A failure
@@ -151,8 +151,8 @@ class Valve {
 
   // Returns whether make_patches adds a skirt.
   bool has_skirt() const { return kind_->skirt_axis != SkirtAxis::none && state_.values[kind_->skirt_length][0] != 0; }
-  // Replaces the skirt by a skirt with these lengths (valve/skirt.hpp). The parameter "skirt_length" becomes the largest of them.
-  // Setting that parameter removes the lengths.
+  // Replaces the skirt by a skirt with these lengths (valve/skirt.hpp). The parameter "skirt_length" becomes the largest of these
+  // lengths. Setting that parameter removes the lengths.
   void set_skirt_lengths(SkirtLengths lengths);
 
   // Compares with another valve. Fails unless the other valve equals this valve in everything but the opening and the values of a

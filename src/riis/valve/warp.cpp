@@ -163,7 +163,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
 }
 
 // Finds the columns U that are orthogonal to the polynomials and make U^T K U tridiagonal, K_ij = |r_ij|^3. K is positive
-// definite on them.
+// definite on these columns.
 void WarpLandmarks::reduce() {
   const std::size_t n = size(), m = n_terms_;
   const auto term = [&](std::size_t k, Vec3 y) { return k == 0 ? 1.0 : dot(axis_[k - 1], y); };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A smooth map of space from landmarks (docs/theory/warp.md): affine plus a radial function |r|^3 at each landmark.
-// In: landmarks at rest and where they are now. Out: the map's values and derivatives.
+// In: landmarks at rest, and their present places. Out: the map's values and derivatives.
 #pragma once
 
 #include <cstddef>
@@ -131,7 +131,7 @@ class WarpLandmarks {
 PatchSet without_images(const PatchSet &set);
 
 // Returns the same patches with warped curves. Curves are cut at landmarks first. Each warped part has the warped ends and the
-// directions of the warped end tangents. The lengths of these tangents make it the nearest to the warped points of the part, by
+// directions of the warped end tangents. The lengths of these tangents bring the warped part nearest to the warped points, by
 // least squares. Arcs are bent anew between warped curves. With `check`, fails with RIIS_INVALID_PARAMETER for a warp that folds
 // at a patch or turns a part of the patch over. The message names the place and the value.
 enum class FoldCheck { no, yes };

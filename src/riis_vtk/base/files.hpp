@@ -60,7 +60,7 @@ std::string_view take_line(std::string_view &text);
 // Removes the first word and the blanks before it. Returns the word, or "" if there is none.
 std::string_view take_word(std::string_view &text);
 
-// Reads the whole text as a number. Returns false if it is not a number of that type.
+// Reads the whole text as a number. Returns false for a text that is no number of that type.
 template <class Number>
 bool read_number(std::string_view text, Number &number) {
   const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), number);

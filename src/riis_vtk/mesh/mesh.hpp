@@ -80,7 +80,7 @@ void write_axes(const std::string &path, const riis_vtk_mesh &mesh, const Caught
 void make_points_double(vtkUnstructuredGrid *grid);
 
 // The properties that all cells of one VTK type have in common. Nodes are positions in the cell's list of nodes. Edges and faces
-// are empty if they depend on the cell.
+// are empty for types whose cells differ in them.
 using Edge = std::array<vtkIdType, 2>;
 struct CellShape {
   struct Face {
@@ -98,7 +98,7 @@ struct VolumeCounts {
   std::int64_t n_linear = 0;   // the volume cells that volume_cells_of returns
   std::int64_t n_unknown = 0;  // the volume cells whose edges are not known
 };
-// `ghosts`, by cell, may be NULL. Cells that it marks as copies of another piece's cells do not count.
+// `ghosts`, by cell, may be NULL. Cells that `ghosts` marks as copies of another piece's cells do not count.
 VolumeCounts count_volumes(vtkUnstructuredGrid *grid, vtkUnsignedCharArray *ghosts = nullptr);
 
 struct VolumeCells {

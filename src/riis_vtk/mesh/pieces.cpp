@@ -161,7 +161,7 @@ std::vector<Declared> arrays_of(vtkFieldData *data) {
   return arrays;
 }
 
-// Refuses a piece whose arrays differ from the declared arrays. The pieces would otherwise not form one mesh.
+// Refuses a piece whose arrays differ from the declared arrays. Pieces with other arrays would not form one mesh.
 void check_arrays(const riis_vtk_pieces &pieces, const std::string &path, const char *kind, vtkFieldData *data,
                   const std::vector<Declared> &declared) {
   const std::vector<Declared> arrays = arrays_of(data);

@@ -90,7 +90,7 @@ riis_vtk_picture_options completed_picture_options(const riis_vtk_picture_option
   return whole;
 }
 
-// Checks a view. `argument` is the caller's name for it.
+// Checks a view. `argument` is the caller's name for the view.
 void check_view(std::int32_t view, const char *argument) {
   if (view < RIIS_VTK_VIEW_SIDE || view > RIIS_VTK_VIEW_VALVE_THREE) {
     refuse_argument(argument, " is ", view, ", not a RIIS_VTK_VIEW_*");

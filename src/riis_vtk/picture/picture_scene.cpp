@@ -84,8 +84,8 @@ void add_text(vtkRenderer *renderer, const std::string &text, double x, double y
   renderer->AddViewProp(actor);
 }
 
-// Adds a text. If it is too long, uses smaller letters. A text that does not fit even with the smallest letters is cut off at its
-// end.
+// Adds a text. Uses smaller letters for a text that is too long. A text that does not fit even with the smallest letters is cut
+// off at its end.
 void add_fitting_text(vtkRenderer *renderer, std::string text, double x, double y, double width, int letter,
                       const Colour &colour) {
   while (letter > least_letter && width_of(text, letter) > width) --letter;

@@ -59,7 +59,7 @@ struct MarkCounts {
   vtkIdType n_partly_cells = 0;  // cells with some but not all nodes marked
 };
 
-// The panel with marked cells. A cell has the colour of its closest node's leaflet. If it is partly marked, the colour is paler.
+// The panel with marked cells. A cell has the colour of its closest node's leaflet. A partly marked cell has a paler colour.
 // Leaking edges are red. Cells below the grid's largest dimension are left out.
 class MarksPanel {
  public:
@@ -85,7 +85,8 @@ class MarksPanel {
 };
 
 // The positions of a picture's parts, in pixels from the lower left corner. A picture that is not high enough for bands has no
-// texts. The panels are side by side. In a column of three views they are above each other. Texts belong to a column of panels.
+// texts. The panels are side by side. In a column of three views the panels are above each other. Texts belong to a column of
+// panels.
 class Layout {
  public:
   enum class Panels { side_by_side, stacked };
@@ -146,12 +147,12 @@ void check_has_marks(const riis_vtk_mesh *mesh);
 
 class Scene {
  public:
-  // Makes the window. If `grid` is NULL, it shows only the surface.
+  // Makes the window. If `grid` is NULL, the window shows only the surface.
   Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options);
   ~Scene();
   // Shows the surface, and the marks that the grid has at present. If `title` is NULL, the title is "Surface".
   void show(const riis_surface *surface, const char *title, const Leaks &leaks);
-  // Draws a view, or three views side by side. `seen` is the box that the camera shows. Without it, the camera shows the
+  // Draws a view, or three views side by side. `seen` is the box that the camera shows. Without this box, the camera shows the
   // surface's box.
   vtkSmartPointer<vtkImageData> picture(std::int32_t of, const std::optional<Bounds> &seen);
 

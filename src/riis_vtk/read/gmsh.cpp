@@ -403,7 +403,7 @@ class GmshFile {
   }
 
   // Version 2 lists an element once for each of its physical groups, each time with another number. Keeps the first of
-  // these elements, and returns how many are left out. If equal elements are in one group, all stay.
+  // these elements, and returns how many are left out. Equal elements in one group all stay.
   std::int64_t drop_copies() {
     const bool are_grouped =
         std::any_of(physical_.begin(), physical_.end(), [&](std::int32_t group) { return group != physical_[0]; });

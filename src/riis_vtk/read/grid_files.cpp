@@ -185,7 +185,7 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
     }
   }
 
-  // Reads n values of an array of the cells. Fails unless the file holds them.
+  // Reads n values of an array of the cells. Fails unless the file holds these values.
   Ids ids_in(vtkXMLDataElement *cells, const char *name, vtkIdType n) {
     vtkXMLDataElement *element = FindDataArrayWithName(cells, name);
     const auto created = vtkSmartPointer<vtkAbstractArray>::Take(element ? CreateArray(element) : nullptr);

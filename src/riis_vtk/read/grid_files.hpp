@@ -24,7 +24,7 @@ enum class Points { required, may_be_missing };
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught,
                                                Points points = Points::required);
 
-// Fails unless each array has n values. `kind` names them in the message.
+// Fails unless each array has n values. `kind` names the kind of data in the message.
 void check_array_lengths(const std::string &path, vtkFieldData *data, const char *kind, vtkIdType n);
 
 // Fails unless the grid has points, and its cells have types, sizes and points that exist.

@@ -548,7 +548,7 @@ class Scan {
     return true;
   }
 
-  // In a binary file, colours are bytes. In an ASCII file, they are numbers from 0 to 1.
+  // In a binary file, colours are bytes. In an ASCII file, the values are numbers from 0 to 1.
   std::string type_of_colors() const { return binary_ ? "unsigned_char" : "float"; }
 
   void scalars() {

@@ -455,7 +455,8 @@ bool read_folder(const Folders &folders, PlainGrid &mesh) {
 
 // ---- Decomposed cases ----
 
-// Returns the ids that the parts' nodes or cells have in the whole mesh. Fails unless they are all ids from 0 to some number.
+// Returns the ids that the parts' nodes or cells have in the whole mesh. Fails unless the ids are all numbers from 0 to some
+// number.
 std::vector<Ids> read_addresses(const std::vector<fs::path> &folders, const char *name, const Ids &sizes) {
   std::vector<Ids> all;
   std::int64_t n_claimed = 0, most = -1;

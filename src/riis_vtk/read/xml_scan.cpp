@@ -287,8 +287,8 @@ void XmlSizes::check_array(vtkXMLDataParser *parser, vtkXMLDataElement *element,
   check_bits(parser, element, n * n_components, bits_of(element->GetAttribute("type")));
 }
 
-// Returns the value of an attribute. Returns 0 if it is missing or not a number. VTK also reads such an attribute as 0, or
-// refuses the file.
+// Returns the value of an attribute. Returns 0 for an attribute that is missing or not a number. VTK also reads such an attribute
+// as 0, or refuses the file.
 std::int64_t XmlSizes::count(vtkXMLDataElement *element, const char *attribute) const {
   vtkIdType n = 0;
   if (!element->GetScalarAttribute(attribute, n)) return 0;
