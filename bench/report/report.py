@@ -354,8 +354,8 @@ def few_processors(data):
     if not 0 < n < 4:
         return ""
     return (
-        f"This machine has {plural(n, 'processor')}. So 4 to 16 threads with a processor each were not measured,\n"
-        "and neither were 4 to 16 ranks."
+        f"This machine has {plural(n, 'processor')}. 4 to 16 threads with a processor each,\n"
+        "and 4 to 16 ranks, were therefore not measured."
     )
 
 
@@ -466,7 +466,7 @@ def roofline_values(data):
 # ------------------------------------------------------------------------------------------------------------------- peers
 
 PYTHON_PEERS = (
-    "`./run bench peers` also measures packages from PyPI. This command was not run here.",
+    "`./run bench peers` also measures packages from PyPI. The run of this page left this command out.",
     "The packages of PyPI have a version in their name. `bench/peers/peers.py` measured these packages right\n"
     "after the libraries, in a process of their own on one processor. Their arrays were made before the\n"
     "measurement. libigl and point-cloud-utils make their tree in every call.",

@@ -261,7 +261,7 @@ module riis_c
                                              !! for a surface from arrays
     integer(c_int64_t) :: largest_leaflet_id !< of the triangles
     real(c_double) :: offset                 !< of the band, in half thicknesses
-    real(c_double) :: contact_depth          !< deeper crossings of triangles are no contacts of leaflets
+    real(c_double) :: contact_depth          !< leaflets whose triangles cross deeper than this do more than touch
                                              !! (docs/theory/crossings.md)
     integer(c_int32_t) :: skirt_leaflet_id   !< the leaflet_id of the skirt; -1: no skirt
     integer(c_int32_t) :: housing_leaflet_id !< bileaflet: RIIS_LEAFLET_HOUSING; -1 for other surfaces
@@ -477,11 +477,11 @@ module riis_c
     real(c_double) :: seconds            !< wall time of riis_mark_nodes
     integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
     integer(c_int32_t) :: n_threads      !< the largest number of threads in any part of the marking. A caller's TBB
-                                         !! limit affects walks, not loops
+                                         !! limit affects the walks of the neighbour search, not loops
     integer(c_int32_t) :: complete       !< 1: all nodes within the limit were found, for the coordinates that the mesh
                                          !! was last given; 0: this is not certain
     integer(c_int32_t) :: instructions   !< the instructions that were used, never RIIS_INSTRUCTIONS_AUTO
-    integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search found only by its proof
+    integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search found outside of its walks
   end type riis_mark_stats
 
   type, bind(c) :: riis_resistance_arrays
@@ -561,15 +561,16 @@ module riis_c
     real(c_double) :: seconds
   end type riis_leak_list
 
-  !> The widest passage from one set of nodes to another: the path with the largest least distance from the surface.
+  !> The widest passage from one set of nodes to another: the path whose nearest node is as far from the surface as
+  !! possible.
   type, bind(c) :: riis_passage
     integer(c_int64_t) :: node_id  !< the path's node that is nearest to the surface; -1 without a path. If nodes have
                                    !! equal distances, the higher id counts as nearest
     real(c_double) :: distance     !< the distance of node_id. A half thickness of at least this distance closes the
                                    !! passage between these triangles, and a smaller one leaves it open. 0 without a
-                                   !! path. With an offset o, nodes are ordered by the half thickness that marks them,
-                                   !! and this is the half thickness of node_id. It is s / (1 + o) for a signed distance
-                                   !! s >= 0, and -s / (1 - o) for s < 0
+                                   !! path. With an offset o, `distance` is the least half thickness that marks the
+                                   !! node, and nodes are ordered by it: s / (1 + o) for a signed distance s >= 0, and
+                                   !! -s / (1 - o) for s < 0
     real(c_double) :: point(3)     !< the coordinates of node_id; 0 without a path
     real(c_double) :: seconds      !< wall time of riis_find_passage
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
@@ -588,29 +589,30 @@ module riis_c
   type, bind(c) :: riis_leaflet
     integer(c_int64_t) :: n_triangles !< the number of its triangles with an area above 0
     real(c_double) :: area            !< the area of its triangles
-    real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 that only one of its patches has.
-                                      !! For a surface from arrays: the edges that only one of its triangles has,
-                                      !! without the longest closed line of edges that only one triangle has. 0 for a
-                                      !! skirt
+    real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 of only one patch of the leaflet.
+                                      !! A surface from arrays has no patches: its free edge is all open edges except
+                                      !! the longest closed line of open edges. An open edge belongs to only one
+                                      !! triangle. 0 for a skirt
     integer(c_int32_t) :: leaflet_id  !< as in riis_triangles
     integer(c_int32_t) :: reserved    !< 0
   end type riis_leaflet
 
   !> The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is
-  !! the vector area of the outline's edges in space. It is on the side of a valve's z axis, or on the side to which the
-  !! normals of arrays and keyframes point. A bileaflet valve has its z axis. A skirt does not count. If leaflets of
-  !! arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units
+  !! the vector area of the outline's edges in space. The axis points to the side of a valve's z axis, or to the side of
+  !! the normals of arrays and keyframes. The axis of a bileaflet valve is its z axis. A skirt does not count. If
+  !! leaflets of arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units
   !! (docs/theory/measures.md, "Outline").
   type, bind(c) :: riis_orifice
     real(c_double) :: area           !< the area of the orifice. Without an outline, all fields but axis and rim_reach
                                      !! are 0
     real(c_double) :: outline_area   !< the area inside the outline
-    real(c_double) :: perimeter      !< the length of the orifice's edge along the triangles. Before that, the edge
-                                     !! moves inwards by a tenth of the half thickness, so narrower slits do not count.
+    real(c_double) :: perimeter      !< the length of the orifice's edge along the triangles. The edge is first moved
+                                     !! inwards by a tenth of the half thickness, so that narrow slits do not count.
                                      !! Parts of the edge on the outline are walls and do not count
     real(c_double) :: effective_area !< the area that the band around the valve leaves to the flow. The edge along the
                                      !! triangles is moved inwards by rim_reach * half_thickness. To first order the
-                                     !! result is area - rim_reach * half_thickness * perimeter. It is never below 0
+                                     !! effective area is area - rim_reach * half_thickness * perimeter, but never below
+                                     !! 0
     real(c_double) :: rim_reach      !< the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open
                                      !! valves gave 0.70 to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md.
                                      !! With an offset o, c has another factor: max(0, 1 - o / 1.05) for a round rim,
@@ -641,9 +643,10 @@ module riis_c
     real(c_double) :: turns(4)          !< the first values at which the area stops growing or falling; NaN: no more. A
                                         !! change by less than 1e-4 of the largest area does not count
     real(c_double) :: seconds           !< wall time of riis_find_by_area
-    integer(c_int64_t) :: n_turns       !< the number of turns. Without a turn, the area grows or falls over all values
+    integer(c_int64_t) :: n_turns       !< the number of turns. Without a turn, the area only grows or only falls
     integer(c_int64_t) :: n_surfaces    !< the number of surfaces that were made, which is the cost of the search
-    integer(c_int64_t) :: n_refused     !< sampled values that make no valve or no orifice, and are left out
+    integer(c_int64_t) :: n_refused     !< the number of sampled values that are left out, because they make no valve or
+                                        !! no orifice
   end type riis_area_range
 
   !> The coaptation of a surface's leaflets: their parts that touch another leaflet. Lengths are in mesh units.
@@ -678,8 +681,8 @@ module riis_c
     real(c_double) :: least, mean, most       !< 2 * half_thickness over the longest, the mean and the shortest length
     real(c_double) :: shortest_edge, mean_edge, longest_edge !< the lengths of the mesh edges with a marked node
     real(c_double) :: half_thickness          !< the half thickness of the marking
-    integer(c_int64_t) :: n_edges             !< edges with at least one marked node. If it is 0, only half_thickness
-                                              !! differs from 0
+    integer(c_int64_t) :: n_edges             !< the number of edges with at least one marked node. If n_edges is 0,
+                                              !! only half_thickness differs from 0
   end type riis_cells_across
 
   type, bind(c) :: riis_landmarks
@@ -713,8 +716,8 @@ module riis_c
     integer(c_int64_t) :: worst_landmark_id !< the landmark with the largest residual
     integer(c_int32_t) :: n_undetermined    !< the number of parameters with RIIS_SIZE_UNDETERMINED
     integer(c_int32_t) :: n_as_annulus      !< the number of given trigones that lie behind the anterior horn. The model
-                                            !! has no trigones there, so these count as points of the annulus, and do
-                                            !! not say how long IT_distance is
+                                            !! has no trigones there, so these landmarks count as points of the annulus,
+                                            !! and do not say how long IT_distance is
   end type riis_placement
 
   !> c_null_ptr for arrays that are not wanted
@@ -753,7 +756,8 @@ module riis_c
                                          !! lengths. 0 without a wall at any end
     real(c_double) :: widest_point(3)    !< the end of an edge with the widest gap
     integer(c_int64_t) :: n_ends         !< number of ends of edges: 2 * riis_attachment.n_edges
-    integer(c_int64_t) :: n_without_wall !< the ends whose line misses the wall. They count in no other field
+    integer(c_int64_t) :: n_without_wall !< the number of ends whose line misses the wall. These ends count in no other
+                                         !! field
   end type riis_gap
 
   type, bind(c) :: riis_direction

@@ -1376,8 +1376,8 @@ subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_fac
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
   real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement: a strip from the
-                                                          !! attachment outwards. It is 1e-4 to 10 times the mean distance of
-                                                          !! the attachment from its axis. 0: no skirt.
+                                                          !! attachment outwards. The length is 1e-4 to 10 times the mean
+                                                          !! distance of the attachment from its axis. 0: no skirt.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
                                                           !! tolerance * half_thickness.
@@ -1440,8 +1440,8 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
   real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement: a strip from the
-                                                          !! attachment outwards. It is 1e-4 to 10 times the mean distance of
-                                                          !! the attachment from its axis. 0: no skirt.
+                                                          !! attachment outwards. The length is 1e-4 to 10 times the mean
+                                                          !! distance of the attachment from its axis. 0: no skirt.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
                                                           !! tolerance * half_thickness.
@@ -5097,10 +5097,10 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   integer(int32), intent(in) :: leaflet_num               !< 1 to n_leaflets, ascending by leaflet_id.
   integer(int32), intent(inout) :: leaflet_id             !< From 0.
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
-  real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 that only one of its
-                                                          !! patches has. For a surface from arrays: the edges that only one of
-                                                          !! its triangles has, without the longest closed line of edges that
-                                                          !! only one triangle has. 0 for a skirt.
+  real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 of only one patch of
+                                                          !! the leaflet. A surface from arrays has no patches: its free edge
+                                                          !! is all open edges except the longest closed line of open edges. An
+                                                          !! open edge belongs to only one triangle. 0 for a skirt.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leaflet) :: sizes
   status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, sizes, c_sizeof(sizes))
@@ -5124,14 +5124,14 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline, all fields but axis
                                                           !! and rim_reach are 0.
   real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
-  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. Before that,
-                                                          !! the edge moves inwards by a tenth of the half thickness, so
-                                                          !! narrower slits do not count. Parts of the edge on the outline are
+  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. The edge is
+                                                          !! first moved inwards by a tenth of the half thickness, so that
+                                                          !! narrow slits do not count. Parts of the edge on the outline are
                                                           !! walls and do not count.
   real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
                                                           !! edge along the triangles is moved inwards by rim_reach *
-                                                          !! half_thickness. To first order the result is area - rim_reach *
-                                                          !! half_thickness * perimeter. It is never below 0.
+                                                          !! half_thickness. To first order the effective area is area -
+                                                          !! rim_reach * half_thickness * perimeter, but never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5166,14 +5166,14 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
   real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline, all fields but axis
                                                           !! and rim_reach are 0.
   real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
-  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. Before that,
-                                                          !! the edge moves inwards by a tenth of the half thickness, so
-                                                          !! narrower slits do not count. Parts of the edge on the outline are
+  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. The edge is
+                                                          !! first moved inwards by a tenth of the half thickness, so that
+                                                          !! narrow slits do not count. Parts of the edge on the outline are
                                                           !! walls and do not count.
   real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
                                                           !! edge along the triangles is moved inwards by rim_reach *
-                                                          !! half_thickness. To first order the result is area - rim_reach *
-                                                          !! half_thickness * perimeter. It is never below 0.
+                                                          !! half_thickness. To first order the effective area is area -
+                                                          !! rim_reach * half_thickness * perimeter, but never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5369,8 +5369,8 @@ subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, toler
   real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
   real(c_double), intent(inout) :: least                  !< The least area that can be reached.
   real(c_double), intent(inout) :: most                   !< The largest area that can be reached.
-  integer(int32), intent(inout) :: n_turns                !< The number of turns. Without a turn, the area grows or falls over
-                                                          !! all values.
+  integer(int32), intent(inout) :: n_turns                !< The number of turns. Without a turn, the area only grows or only
+                                                          !! falls.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   type(riis_area_search) :: search
@@ -5423,8 +5423,8 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
   real(c_double), intent(inout) :: least                  !< The least area that can be reached.
   real(c_double), intent(inout) :: most                   !< The largest area that can be reached.
-  integer(int64), intent(inout) :: n_turns                !< The number of turns. Without a turn, the area grows or falls over
-                                                          !! all values.
+  integer(int64), intent(inout) :: n_turns                !< The number of turns. Without a turn, the area only grows or only
+                                                          !! falls.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   type(riis_area_search) :: search
@@ -5875,7 +5875,7 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks).
   real(c_double), intent(in) :: noise                     !< Standard deviation of each coordinate of the targets, 0 to 1e50.
                                                           !! The map is smoothed until it misses the targets by about this
-                                                          !! noise. 0: it meets the targets exactly.
+                                                          !! noise. 0: the map meets the targets exactly.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,

@@ -20,7 +20,7 @@ extern "C" {
 
 /* ---- Status, errors, log, version ---------------------------------------------------------------------- */
 
-/* What a call returns. Values are part of the ABI and never change. New ones are appended at either end. */
+/* The result of a call. Its values never change. A release may add new values at either end of the list. */
 typedef int32_t riis_status;
 /* Values of riis_status. */
 enum {
@@ -38,17 +38,17 @@ enum {
   RIIS_INTERNAL_ERROR = -1      /* an error in riis or in a library that it uses */
 };
 
-/* Returns the status's own name, such as "RIIS_INVALID_ARGUMENT", or "unknown status". Static text. */
+/* Returns the name of a status, such as "RIIS_INVALID_ARGUMENT", or "unknown status". Static text. */
 RIIS_API const char *riis_status_name(riis_status status);
 
-/* Returns the message of the calling thread's last failed call. The message names the argument and its value. It is ""
- * if no call has failed, and never NULL. It is valid until the thread's next failed call, and the library owns it. */
+/* Returns the message of the calling thread's last failed call. The message names the argument and its value. The message is ""
+ * if no call has failed, and never NULL. The library owns the message, and keeps it until the thread's next failed call. */
 RIIS_API const char *riis_last_error(void);
 
 /* Returns the version of the linked library, not of this header, as static text such as "1.0.0". */
 RIIS_API const char *riis_version_string(void);
 
-/* Receives messages, in the thread whose call sends them. It must not call the library, throw or jump out.
+/* Receives messages, in the thread whose call sends them. A log function must not call the library, throw or jump out.
  *   user_data  the pointer that was passed to riis_set_log
  *   level      RIIS_LOG_INFO or RIIS_LOG_WARNING
  *   message    one line without a newline; valid during the call only */
@@ -62,13 +62,13 @@ enum {
  *   function   receives the messages; NULL, the default, means no log
  *   user_data  passed to the function; it must stay valid as long as the function is set
  * The previous function may still get a message that another thread is sending. With a log function, the library also
- * searches surfaces for crossings (riis_find_crossings). It searches only shapes whose parameters, patches or open state the
- * caller chose. The search takes longer than an update. Openings have five ranges: 0, up to 0.05, up to 1/3, up to 2/3, and
- * up to 1. In each range the search runs once, at the shape's first opening there. It ends after the shape's first
- * warning. */
+ * searches surfaces for crossings (riis_find_crossings). Only shapes whose parameters, patches or open state the caller chose are
+ * searched. The search takes longer than an update. Openings have five ranges: 0, up to 0.05, up to 1/3, up to 2/3, and up to 1.
+ * A shape is searched once in each range, at its first opening in that range. After its first warning a shape is not searched
+ * again. */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
-/* Stands for the value of another quantity, which the field's comment names. */
+/* RIIS_AUTO in a field stands for the value of another quantity. The comment of the field names that quantity. */
 #define RIIS_AUTO (-1.0)
 
 /* Points in the caller's arrays, for the calls that copy them or read them once. */

@@ -17,12 +17,12 @@ extern "C" {
 /* These rules hold for all laws:
  * - The functions are pure: the same arguments give the same bits, and the library keeps nothing.
  * - Times, pressures and flows have the solver's units.
- * - The pressure difference is the upstream pressure minus the downstream pressure. Flow is positive downstream. So
- *   positive values open a valve.
+ * - The pressure difference is the upstream pressure minus the downstream pressure. Flow is positive downstream. Positive
+ *   pressure differences thus open a valve.
  * - `rate` is the time derivative of the opening.
- * - A state has no pointers. A solver that restores it from a restart file continues with the same bits.
- * - `now` may be the struct `before` itself. It gets the struct_size of `before`. To repeat a step, start from `before`
- * again. */
+ * - A state has no pointers. A solver that restores a state from a restart file continues with the same bits.
+ * - `now` may be the struct `before` itself. `now` gets the struct_size of `before`. To repeat a step, start from `before`
+ *   again. */
 
 /* An opening by its values at keys in time. */
 typedef struct riis_opening_table {
@@ -95,8 +95,8 @@ typedef struct riis_opening_switch_state {
 } riis_opening_switch_state;
 /* Fills *state with a closed valve at time 0. */
 RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size);
-/* Advances a switch to a time. Its phase changes at the end of the step in which the condition is met. So the opening
- * is accurate to first order in the length of steps.
+/* Advances a switch to a time. The switch's phase changes at the end of the step in which the condition is met. The opening is
+ * therefore accurate to first order in the length of steps.
  *   time                       at least before->time, magnitude at most 1e30
  *   pressure_difference, flow  at that time, magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now stays unchanged. */
@@ -133,9 +133,9 @@ typedef struct riis_opening_angle_state {
 } riis_opening_angle_state;
 /* Fills *state with a closed valve at rest, at time 0. Until the first step its angle 0 stands for angle_min. */
 RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
-/* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step. So the angle is accurate
- * to second order in the length of steps. In a first step without earlier pressure difference and flow, the present ones
- * hold for the whole step.
+/* Advances the angle law to a time. The law takes pressure difference and flow as linear over the step, so the angle is accurate
+ * to second order in the length of steps. The first step has no earlier pressure difference and flow, so the present values hold
+ * for the whole step.
  *   time                       at least before->time, magnitude at most 1e30
  *   pressure_difference, flow  at that time, magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step

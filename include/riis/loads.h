@@ -17,8 +17,8 @@ extern "C" {
 /* The forces of the leaflets, and the edges at which tissue holds them. With MPI all ranks pass the same numbers. */
 typedef struct riis_loads {
   int64_t struct_size;            /* set by the init function */
-  double radius;                  /* mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes nearer than this to its
-                                     edges. Default NaN, which is refused */
+  double radius;                  /* mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes that are nearer to the
+                                     leaflet's edges than the radius. Default NaN, which is refused */
   double about[3];                /* the reference point of leaflet_moment; magnitude at most 1e60. Default 0 */
   int64_t n_leaflets;             /* the number of columns of sums, leaflet_force and leaflet_moment; 1 to 2^31. Default 0 */
   const double *leaflet_force;    /* (3, n_leaflets): as riis_reaction.leaflet_force, added up over all ranks. The sums do not
@@ -28,8 +28,8 @@ typedef struct riis_loads {
   int64_t n_edges;                /* 1 to 2^40. Default 0 */
   const double *edges;            /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges; magnitude at
                                      most 1e60. An edge may have length 0 */
-  const int32_t *edge_leaflet_id; /* (n_edges), >= 0: the leaflet that the edge holds, for example riis_attachment.leaflet_id.
-                                     All edges hold a leaflet that has no edge of its own, such as a skirt. NULL, the default:
+  const int32_t *edge_leaflet_id; /* (n_edges), >= 0: the leaflet that the edge holds, for example riis_attachment.leaflet_id. A
+                                     leaflet without an edge of its own, such as a skirt, is held by all edges. NULL, the default:
                                      all edges hold all leaflets */
   int32_t n_threads;              /* default 0 */
   int32_t reserved;               /* 0 */
@@ -41,9 +41,9 @@ RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /*
  *           sum, and get no force
  *   weight  (n_points), 0 to 1e60: the area or volume around a node, 0 for nodes of other ranks. NULL: 1 for each node
  *   sums    (11, n_leaflets): sums are added
- * A bileaflet valve has no attachment. A surface from arrays has one only with `attached` or a skirt. Otherwise the caller
- * gives edges: the pivots, or the edges at which the leaflets are sewn. With MPI each rank passes its own nodes, and all ranks
- * then add up their sums.
+ * A bileaflet valve has no attachment. A surface from arrays has an attachment only with `attached` or a skirt. Without an
+ * attachment the caller gives edges: the pivots, or the edges at which the leaflets are sewn. With MPI each rank passes its own
+ * nodes, and all ranks then add up their sums.
  * Errors: RIIS_INVALID_ARGUMENT naming the field, or the edge, node or weight and its value. */
 RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_points *nodes, const double *weight, double *sums);
 /* Adds the forces of the leaflets at nodes of tissue. For each leaflet, their sum is leaflet_force and their moment is
@@ -55,12 +55,12 @@ RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_poi
  * edges, w(d) = (1 + cos(pi d / radius)) / 2 up to the radius, and s its place from the middle of the leaflet's nodes. The
  * vectors a and b belong to the leaflet. Of all forces with this sum and moment, these forces have the least sum
  * of |force|^2 / (m w). In a rigid motion their power is force times velocity plus moment times angular velocity. The forces are
- * linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to get the forces of one leaflet. They do not
- * come from the mechanics of a membrane.
+ * linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to get the forces of one leaflet. The mechanics
+ * of a membrane plays no part in these forces.
  * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also for a leaflet with a force or a moment whose nodes within the
  * radius are fewer than three, or lie nearly on a line. Nodes lie nearly on a line if their root-mean-square distance from it is
- * less than a hundredth of their root-mean-square distance from their middle. The same holds if it is less than a thousandth of
- * the size of the edges (docs/theory/loads.md). */
+ * less than a hundredth of their root-mean-square distance from their middle. Nodes also lie nearly on a line if the first
+ * distance is less than a thousandth of the size of the edges (docs/theory/loads.md). */
 RIIS_API riis_status riis_loads_add_forces(const riis_loads *loads, const riis_points *nodes, const double *weight,
                                            const double *sums, double *node_force);
 

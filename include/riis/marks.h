@@ -17,7 +17,7 @@ extern "C" {
 
 /* The nodes that a marking found. Make one object and reuse it every step, because it keeps its memory. */
 typedef struct riis_marks riis_marks;
-/* Makes empty marks. They belong to no mesh and no surface. */
+/* Makes empty marks, which belong to no mesh and no surface. */
 RIIS_API riis_status riis_marks_create(riis_marks **marks);
 RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and their lists */
 
@@ -33,13 +33,12 @@ enum {
                                  mesh must have an adjacency, which need not be connected */
   RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes that no path
                                  joins to its one starting node. The mesh must have an adjacency */
-  RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, and decides in double precision.
-                                 The exhaustive search runs instead (stats.search) for 2^32 points and more. It
-                                 also runs if the mesh is a million times as large as the surface, or as far
-                                 away */
+  RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, and decides in double precision. The exhaustive
+                                 search runs instead (stats.search) for 2^32 points and more, and for a mesh that is a million
+                                 times as large as the surface or as far away */
 };
 
-/* The processor's instructions that a marking uses. All of them give the same bits. */
+/* The processor's instructions that a marking uses. All instruction sets give the same bits. */
 enum {
   RIIS_INSTRUCTIONS_AUTO = 0,     /* the best available */
   RIIS_INSTRUCTIONS_BASELINE = 1, /* available on every processor that the library was built for: SSE2 on x86-64, NEON
@@ -72,7 +71,7 @@ enum {
 /* The term K (u - u_surface) of the momentum equation, with the fluid velocity u and the surface velocity u_surface
  * (paper, 2.1; docs/theory/marks.md, "Resistance"). At a distance d < eps, K = (R / eps) delta(d) with
  * delta(d) = (1 + cos(pi d / eps)) / (2 eps). At larger distances K is 0. With the offset o of the surface, d is the distance
- * from the middle of the band, |s - o eps|. This also holds for the eps of this resistance (riis_surface_create). */
+ * from the middle of the band, |s - o eps|. Here eps is the half thickness of this resistance (riis_surface_create). */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
   double R;              /* 0 to 1e60, mass / (length time): kg/(m s). A flat closed valve in a flow of
@@ -96,18 +95,19 @@ typedef struct riis_mark_options {
   int32_t fields;            /* a sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Default 0 */
   int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
   int32_t n_threads;         /* default 0 */
-  int32_t instructions;      /* RIIS_INSTRUCTIONS_*, for tests and measurements; default
-                                RIIS_INSTRUCTIONS_AUTO. RIIS_UNAVAILABLE if the processor lacks them.
-                                Distances by sampling or minimisation use RIIS_INSTRUCTIONS_BASELINE */
+  int32_t instructions;      /* RIIS_INSTRUCTIONS_*, for tests and measurements; default RIIS_INSTRUCTIONS_AUTO. RIIS_UNAVAILABLE
+                                if the processor lacks these instructions. Distances by sampling or minimisation use
+                                RIIS_INSTRUCTIONS_BASELINE */
 } riis_mark_options;
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size); /* the defaults */
 
 /* Finds every node near the surface: the nodes within the half thickness (marked), and within the distance limit.
- * The reported distance decides, in double precision. With an offset, the nodes in the band are marked (riis_surface_create).
+ * The reported distance, in double precision, decides which nodes are near. With an offset, the nodes in the band are marked
+ * (riis_surface_create).
  *   marks  its content is replaced
- * The log warns if the units of mesh and surface seem to differ. They do if the largest sides of their boxes differ by
- * more than a factor of 50, or if one side is less than the half thickness. It warns once per surface and mesh, at most
- * eight times per mesh, and never for fewer than 1000 nodes.
+ * The log warns if the units of mesh and surface seem to differ. Units seem to differ if the two boxes' largest sides differ by
+ * more than a factor of 50, or one of these sides is less than the half thickness. The log warns once per surface and mesh, at
+ * most eight times per mesh, and never for fewer than 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);
@@ -130,9 +130,9 @@ typedef struct riis_mark_list {
   const double *point;        /* (3, n_nodes): the closest point of the surface */
   const double *normal;       /* (3, n_nodes): the unit normal of its triangle */
   const double *barycentric;  /* (3, n_nodes): the point's weights for the triangle's vertices */
-  const double *uv;           /* (2, n_nodes): u and v of the point on its patch, in [0,1]. S_u x S_v points
-                                 along the normal, on mirrored patches against it (cusps: patch_id % 4 >= 2;
-                                 mitral: 3, 4, 5, 8, 9). Flipped normals reverse both */
+  const double *uv;           /* (2, n_nodes): u and v of the point on its patch, in [0,1]. S_u x S_v points along the normal, on
+                                 mirrored patches against it (cusps: patch_id % 4 >= 2; mitral: 3, 4, 5, 8, 9). flip_normals
+                                 reverses both cases */
   const double *velocity;     /* (3, n_nodes): the velocity of the surface at the point, from its last update.
                                  Several leaflets may be equally near (within 1e-6 half thicknesses), or several patches
                                  of one leaflet (within 1e-9). The velocity is then the mean of the velocities at their
@@ -144,18 +144,18 @@ typedef struct riis_mark_list {
                                  of only one triangle; vertices with equal coordinates count as one */
   const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
   int64_t n_directions;       /* the surface's directions during the marking; 0 without RIIS_FIELD_GRADIENT */
-  const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, -n.V. The
-                                 unit vector n points from the closest point to the node, on both sides. V is the rate
-                                 of the closest point, on the triangle of triangle_id. On the surface it is 0, because the
-                                 distance has a kink there. The distance also has a kink at nodes with several nearest
-                                 places */
-  const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. It is 0
-                                 beyond the half thickness and beyond a cut rim; NULL without a resistance. With an
-                                 offset, on the surface n is the surface's normal, and at a rim the normal turns too */
+  const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, -n.V. The unit
+                                      vector n points from the closest point to the node, on both sides. V is the rate of the
+                                      closest point, on the triangle of triangle_id. On the surface the derivative is 0, because
+                                      the distance has a kink there. The distance also has a kink at nodes with several nearest
+                                      places */
+  const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. This derivative
+                                 is 0 beyond the half thickness and beyond a cut rim; NULL without a resistance. With an offset,
+                                 on the surface n is the surface's normal, and at a rim the normal turns too */
   const double *height;       /* (n_nodes): with an offset, the signed distance s of riis_surface_create; at a rim n.(x - p).
                                  NULL without an offset */
 } riis_mark_list;
-/* Gives a list of the last marking. It is valid until the next riis_mark_nodes with these marks, or their destruction.
+/* Gives a list of the last marking. The list is valid until the next riis_mark_nodes with these marks, or their destruction.
  *   which  RIIS_LIST_* */
 RIIS_API riis_status riis_marks_get_list(const riis_marks *marks, int32_t which, riis_mark_list *list,
                                          int64_t struct_size);
@@ -184,12 +184,12 @@ typedef struct riis_mark_stats {
   int64_t n_queries;    /* number of closest-point queries, of nodes and of parts of the mesh */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
-  int32_t n_threads;    /* the largest number of threads in any part of the marking. A caller's TBB limit affects walks, not
-                           loops */
+  int32_t n_threads;    /* the largest number of threads in any part of the marking. A caller's TBB limit affects the walks of the
+                           neighbour search, not loops */
   int32_t complete;     /* 1: all nodes within the limit were found, for the coordinates that the mesh was last given; 0: this
                            is not certain */
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */
-  int64_t n_unreached;  /* nodes within the limit that the neighbour search found only by its proof */
+  int64_t n_unreached;  /* nodes within the limit that the neighbour search found outside of its walks */
 } riis_mark_stats;
 /* Tells how the last marking with the marks went; all 0 for empty marks. */
 RIIS_API riis_status riis_marks_get_stats(const riis_marks *marks, riis_mark_stats *stats, int64_t struct_size);

@@ -19,9 +19,9 @@ extern "C" {
 typedef struct riis_leaflet {
   int64_t n_triangles; /* the number of its triangles with an area above 0 */
   double area;         /* the area of its triangles */
-  double free_edge;    /* the length of its free edge: the sides v = 1 that only one of its patches has. For a surface
-                          from arrays: the edges that only one of its triangles has, without the longest closed line of
-                          edges that only one triangle has. 0 for a skirt */
+  double free_edge;    /* the length of its free edge: the sides v = 1 of only one patch of the leaflet. A surface from arrays has
+                          no patches: its free edge is all open edges except the longest closed line of open edges. An open edge
+                          belongs to only one triangle. 0 for a skirt */
   int32_t leaflet_id;  /* as in riis_triangles */
   int32_t reserved;    /* 0 */
 } riis_leaflet;
@@ -36,24 +36,24 @@ RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64
 enum {
   RIIS_OUTLINE_NONE = 0,      /* the boundary of the leaflets does not surround a centre, or encloses no area */
   RIIS_OUTLINE_DISC = 1,      /* bileaflet: the disc of radius about the z axis */
-  RIIS_OUTLINE_ATTACHMENT = 2, /* other valves: the farthest edges of the leaflets in all directions from the centre. These
-                                 are the attachment, except where a free edge reaches farther */
+  RIIS_OUTLINE_ATTACHMENT = 2, /* other valves: the farthest edges of the leaflets in all directions from the centre. The farthest
+                                  edge is the attachment, except where a free edge reaches farther */
   RIIS_OUTLINE_BOUNDARY = 3,  /* a surface from arrays or keyframes: the farthest edges that only one triangle has */
   RIIS_OUTLINE_WALL = 4       /* riis_surface_get_orifice_in_wall: the longest line of open edges of the wall */
 };
 /* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is the vector
- * area of the outline's edges in space. It is on the side of a valve's z axis, or on the side to which the normals of arrays and
- * keyframes point. A bileaflet valve has its z axis. A skirt does not count. If leaflets of arrays do not touch at the
+ * area of the outline's edges in space. The axis points to the side of a valve's z axis, or to the side of the normals of arrays
+ * and keyframes. The axis of a bileaflet valve is its z axis. A skirt does not count. If leaflets of arrays do not touch at the
  * commissures, straight lines join their ends. Lengths are in mesh units (docs/theory/measures.md, "Outline"). */
 typedef struct riis_orifice {
   double area;           /* the area of the orifice. Without an outline, all fields but axis and rim_reach are 0 */
   double outline_area;   /* the area inside the outline */
-  double perimeter;      /* the length of the orifice's edge along the triangles. Before that, the edge moves
-                            inwards by a tenth of the half thickness, so narrower slits do not count. Parts of the
-                            edge on the outline are walls and do not count */
-  double effective_area; /* the area that the band around the valve leaves to the flow. The edge along the triangles
-                            is moved inwards by rim_reach * half_thickness. To first order the result is area -
-                            rim_reach * half_thickness * perimeter. It is never below 0 */
+  double perimeter;      /* the length of the orifice's edge along the triangles. The edge is first moved inwards by a tenth of
+                            the half thickness, so that narrow slits do not count. Parts of the edge on the outline are walls and
+                            do not count */
+  double effective_area; /* the area that the band around the valve leaves to the flow. The edge along the triangles is moved
+                            inwards by rim_reach * half_thickness. To first order the effective area is area - rim_reach *
+                            half_thickness * perimeter, but never below 0 */
   double rim_reach;      /* the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70
                             to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md. With an offset o, c has
                             another factor: max(0, 1 - o / 1.05) for a round rim, max(0, 1 - o / 0.85) for a cut rim,
@@ -72,7 +72,7 @@ RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const
 /* Measures the orifice inside a wall: a ring or a tube around leaflets that do not reach it, such as those of a mechanical valve
  * from arrays. The longest connected line of open edges of the wall gives the outline and the axis (docs/theory/measures.md,
  * "Outline"). The other arguments are as in riis_surface_get_orifice.
- *   wall  in the frame of the surface. RIIS_INVALID_ARGUMENT if this line does not surround a centre */
+ *   wall  in the frame of the surface. RIIS_INVALID_ARGUMENT if the wall's line does not surround a centre */
 RIIS_API riis_status riis_surface_get_orifice_in_wall(const riis_surface *surface, const riis_surface *wall,
                                                       const riis_resistance *resistance, riis_orifice *orifice,
                                                       int64_t struct_size);
@@ -103,9 +103,9 @@ typedef struct riis_area_range {
   double turns[4];          /* the first values at which the area stops growing or falling; NaN: no more. A change by
                                less than 1e-4 of the largest area does not count */
   double seconds;           /* wall time of riis_find_by_area */
-  int64_t n_turns;          /* the number of turns. Without a turn, the area grows or falls over all values */
+  int64_t n_turns;          /* the number of turns. Without a turn, the area only grows or only falls */
   int64_t n_surfaces;       /* the number of surfaces that were made, which is the cost of the search */
-  int64_t n_refused;        /* sampled values that make no valve or no orifice, and are left out */
+  int64_t n_refused;        /* the number of sampled values that are left out, because they make no valve or no orifice */
 } riis_area_range;
 /* Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, "From an area to
  * a valve").
@@ -117,11 +117,11 @@ typedef struct riis_area_range {
  *   values   (n_areas): the openings or sizes. NULL: not wanted
  *   reached  (n_areas): the areas at these values. NULL: not wanted
  *   range    the areas that can be reached. NULL: not wanted
- * The area 0 stands for the closed valve: it gives the opening with the least area, even if slits remain between the leaflets.
- * If several openings have an area, the least of them is taken. If several sizes have it, the size nearest to the present size
- * is taken.
- * The area of RIIS_TRIANGULATION_ADAPTED jumps by up to 1e-4 of the largest area where triangles change. An area inside a jump
- * gives the nearer end of the jump. Parts narrower than the distance between two samples may be missed.
+ * The area 0 stands for the closed valve: it gives the opening with the least area, even if slits remain between the leaflets. If
+ * several openings have the wanted area, the call gives the least of them. If several sizes have the wanted area, the call gives
+ * the size nearest to the present size. The area of RIIS_TRIANGULATION_ADAPTED jumps by up to 1e-4 of the largest area where
+ * triangles change. An area inside a jump gives the nearer end of the jump. The search may miss areas that occur only between two
+ * neighbouring samples.
  * Errors: RIIS_INVALID_ARGUMENT naming the area. If the area is out of reach, the message has the range.
  * RIIS_INVALID_PARAMETER for an unknown name, for a parameter with three values, for a valve with one state or no orifice, and
  * if the name does not change the area. The errors of riis_surface_create come with the value. On an error nothing is written. */
@@ -143,16 +143,15 @@ typedef struct riis_coaptation {
  *   reach       1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness
  *   leaflet_id  as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from
  *               both sides
- * The error of an area is at most 1e-3 times the contact's outline times reach (docs/theory/measures.md). The extent of
- * a surface is the diagonal of its box. A reach below 1/250 of the extent loses details below 1/2000 of the
- * extent.
+ * The error of an area is at most 1e-3 reach times the length of the contact's outline (docs/theory/measures.md). The extent of a
+ * surface is the diagonal of its box. A reach below 1/250 of the extent loses details below 1/2000 of the extent.
  * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
 RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
                                                  riis_coaptation *coaptation, int64_t struct_size);
 
 /* Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The
- * bileaflet housing does not count in the area. With an offset o, the area is that of the surface moved by o eps along its
- * normals. The leak in a solver differs from the ideal (docs/solvers.md).
+ * bileaflet housing does not count in the area. With an offset o, the surface is first moved by o eps along its normals, and its
+ * area is taken there. The leak in a solver differs from the ideal (docs/solvers.md).
  *   resistance  only R, 1e-60 to 1e60, and half_thickness are used. RIIS_AUTO stands for the surface's half thickness
  *   drop        upstream pressure minus downstream pressure, magnitude at most 1e30
  *   flow        in the unit of drop * area * eps / R, which is m^3/s in SI units
@@ -191,9 +190,9 @@ typedef struct riis_first_passage {
  *   valve  its own opening is ignored
  *   mesh   must have an adjacency, and need not have been marked
  *   ends   as for riis_find_passage; each end must be outside the band at each tried opening
- * The call tries 0, 1/8, 2/8, ... until a passage is open. It then halves the last step until opening and closed_opening
- * differ by at most the tolerance. A valve may close a passage again as it opens further. So the call may miss a passage
- * that ends before the next multiple of 1/8.
+ * The call tries the openings 0, 1/8, 2/8, ... until a passage is open. Then the call halves the last step until opening and
+ * closed_opening differ by at most the tolerance. A valve that opens further may close a passage again, so the call may miss a
+ * passage that ends before the next multiple of 1/8.
  * Errors: the errors of riis_surface_create and riis_find_passage, with the opening. RIIS_INVALID_PARAMETER for a
  * valve with only one state. */
 RIIS_API riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *mesh,
@@ -206,7 +205,8 @@ typedef struct riis_cells_across {
   double least, mean, most; /* 2 * half_thickness over the longest, the mean and the shortest length */
   double shortest_edge, mean_edge, longest_edge; /* the lengths of the mesh edges with a marked node */
   double half_thickness; /* the half thickness of the marking */
-  int64_t n_edges;       /* edges with at least one marked node. If it is 0, only half_thickness differs from 0 */
+  int64_t n_edges;       /* the number of edges with at least one marked node. If n_edges is 0, only half_thickness differs from
+                            0 */
 } riis_cells_across;
 /* Computes the number of mesh edges across the band. An edge counts once, whether one or both of its nodes list it. Edges to
  * ghosts and edges of length 0 do not count.
@@ -217,8 +217,8 @@ typedef struct riis_cells_across {
 RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh *mesh,
                                                  riis_cells_across *cells, int64_t struct_size);
 
-/* Gives the volume that the valve sweeps between two openings, in mesh units cubed. It is the integral of u_surface . n over
- * surface and time, positive along the normals. A flow displaces less, because blood slips past the leaflets.
+/* Gives the volume that the valve sweeps between two openings, in mesh units cubed. The volume is the integral of u_surface . n
+ * over surface and time, positive along the normals. A flow displaces less, because blood slips past the leaflets.
  *   opening_from, opening_to  0 to 1. The valve's own opening is ignored
  *   options     only scale, flip_normals and n_threads are used. NULL stands for the defaults
  *   leaflet_id  RIIS_LEAFLET_*, or the id of a patch's leaflet, or RIIS_ALL_LEAFLETS

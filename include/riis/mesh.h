@@ -17,22 +17,22 @@ extern "C" {
 /* The caller's nodes. The coordinates are borrowed or copied, depending on the last call that gave them. */
 typedef struct riis_mesh riis_mesh;
 
-/* Borrows node coordinates and checks them once. They must stay in place until an update or the destruction. A process
- * without nodes makes the same calls as the other processes.
+/* Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. A
+ * process without nodes makes the same calls as the other processes.
  *   n_nodes  0 to 2^40; with 0 the pointers may be NULL
  * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride, riis_mesh **mesh);
-/* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Call it after every
- * change of coordinates. The adjacency stays if n_nodes is the same. For other nodes make a new handle.
- * Arguments and errors as riis_mesh_create. */
+/* Tells the mesh that its coordinates changed, in place or by other arrays, and checks the coordinates again. Call it after every
+ * change of coordinates. The adjacency stays if n_nodes is the same. For other nodes make a new handle. Arguments and errors as
+ * riis_mesh_create. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y,
                                       const double *z, int64_t stride);
 /* Copies node coordinates, such as a Fortran temporary or single precision, and checks them. Single precision is
  * converted to double once, exactly. The handle keeps 24 bytes per node.
  * Errors: as riis_mesh_create. */
 RIIS_API riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh);
-/* As riis_mesh_update, but copies the coordinates. A mesh may change between borrowed and copied coordinates. */
+/* Does the same as riis_mesh_update, but copies the coordinates. A mesh may change between borrowed and copied coordinates. */
 RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes);
 /* Destroys the handle. The caller's coordinates and all marks stay. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
@@ -42,8 +42,8 @@ RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
 /* A rectilinear grid: three axes, and the place of each node in the caller's arrays. Node (i, j, k) is at (x[i], y[j], z[k])
- * and has the number first + i stride[0] + j stride[1] + k stride[2], all from 0. Other numbers below n_nodes, such as
- * those of halos, have no node. */
+ * and has the number first + i stride[0] + j stride[1] + k stride[2], all from 0. Other numbers below n_nodes, such as the
+ * numbers of halos, have no node. */
 typedef struct riis_grid {
   int64_t struct_size;   /* set by the init function */
   int64_t ni, nj, nk;    /* nodes along each axis, each >= 1 */
@@ -62,10 +62,11 @@ typedef struct riis_grid {
   int32_t reserved;      /* 0 */
 } riis_grid;
 RIIS_API riis_status riis_grid_init(riis_grid *grid, int64_t struct_size); /* the defaults */
-/* Makes a mesh from the axes of a grid, and stores nothing for each node. It marks the nodes of riis_mesh_create with the same
- * bits. Its edges are those of riis_adjacency_create_from_grid, unless riis_mesh_set_adjacency gives it others. Axes are not
- * periodic. Markings refuse RIIS_SEARCH_NEIGHBOR and RIIS_SEARCH_PAPER, and sampling and minimisation for more than 10^8 nodes.
- *   grid  its axes are copied. n_nodes is the n_nodes of the mesh in every other call
+/* Makes a mesh from the axes of a grid, and stores nothing for each node. A marking gives the same bits as on a mesh that
+ * riis_mesh_create makes of the same nodes. The edges are those of riis_adjacency_create_from_grid, unless
+ * riis_mesh_set_adjacency gives the mesh other edges. Axes are not periodic. Markings refuse RIIS_SEARCH_NEIGHBOR and
+ * RIIS_SEARCH_PAPER, and sampling and minimisation for more than 10^8 nodes.
+ *   grid  the axes, which are copied. Its n_nodes is the n_nodes of the mesh in every other call
  * Errors: RIIS_INVALID_MESH naming the axis, the index and the value; RIIS_LIMIT_EXCEEDED for numbers from 2^40 on. */
 RIIS_API riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh);
 /* Gives a mesh other axes, or turns a mesh of points into a grid. riis_mesh_update turns a grid into points.
@@ -89,7 +90,7 @@ typedef struct riis_csr {
 RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size); /* the defaults */
 
 /* Gives the mesh the adjacency that the neighbour search walks along, and checks it once.
- *   csr  its arrays are borrowed: they must stay in place, unchanged, until the handle is destroyed or gets another
+ *   csr the struct's arrays are borrowed: they must stay in place, unchanged, until the handle is destroyed or gets another
  *        adjacency. NULL removes the adjacency, as riis_mesh_update with another n_nodes does
  * Errors: RIIS_INVALID_MESH naming the row and its value. */
 RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);

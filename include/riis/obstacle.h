@@ -28,7 +28,7 @@ RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays,
 /* Adds K and K u_surface to the caller's arrays, which then hold sums over several valves. The solver's term is
  * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. riis_mark_list also has both.
  *   resistance  RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY
- * Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that they lack. */
+ * Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that the marks lack. */
 RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
                                                const riis_resistance_arrays *arrays);
 
@@ -41,25 +41,25 @@ typedef struct riis_flow_arrays {
   const double *weight;      /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
 } riis_flow_arrays;
 RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
-/* The caller's arrays for the forces and moments of the flow, which are added to them. NULL leaves a sum out. The arrays
- * must not overlap. A node's force is weight K (velocity - u_surface), and acts at the node's closest point. The power of
- * a rigid surface is therefore force times velocity plus moment times angular velocity, also with an offset. */
+/* The caller's arrays, to which the forces and moments of the flow are added. NULL leaves a sum out. The arrays must not overlap.
+ * A node's force is weight K (velocity - u_surface), and acts at the node's closest point. The power of a rigid surface is
+ * therefore force times velocity plus moment times angular velocity, also with an offset. */
 typedef struct riis_reaction {
   int64_t struct_size;      /* set by the init function */
   double about[3];          /* the reference point of moment and leaflet_moment; magnitude at most 1e60.
                                Default 0 */
   double *force;            /* (3): force on the whole surface, in the unit of weight K velocity, N in SI units */
   double *moment;           /* (3): moment on the whole surface */
-  int64_t n_leaflets;       /* the number of columns in both sums of leaflets: more than
-                               riis_surface_info.largest_leaflet_id. Nothing else uses it. Default 0 */
+  int64_t n_leaflets;       /* the number of columns of leaflet_force and leaflet_moment, which must be more than
+                               riis_surface_info.largest_leaflet_id. Default 0 */
   double *leaflet_force;    /* (3, n_leaflets): force on each leaflet. A node belongs to the leaflet in
                                riis_mark_list.leaflet_id, also if two leaflets are equally near */
   double *leaflet_moment;   /* (3, n_leaflets): moment on each leaflet */
   int64_t n_edges;          /* number of edges, at least 1 if edge_force or edge_moment is given; else unused. Default 0 */
   const double *edges;      /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges;
                                magnitude at most 1e60. An edge may have length 0 */
-  const int32_t *edge_leaflet_id; /* (n_edges), >= 0: a node counts for the nearest edge of its leaflet, and each
-                               leaflet needs an edge. NULL, the default: it counts for the nearest of all edges */
+  const int32_t *edge_leaflet_id; /* (n_edges), >= 0: a node counts for the nearest edge of its leaflet, and each leaflet needs an
+                                     edge. NULL, the default: a node counts for the nearest of all edges */
   double *edge_force;       /* (3, n_edges): force of the nodes that count for the edge. A node's distances are measured
                                to its closest point. If edges are equally near, the first one counts */
   double *edge_moment;      /* (3, n_edges): moment of the same nodes about the middle of the edge */
@@ -70,14 +70,12 @@ RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_
  *   flow      u and the volumes; u_surface counts as 0 if the marking lacks RIIS_FIELD_VELOCITY
  *   reaction  moments and sums of edges need RIIS_FIELD_POINT
  * Each result is a plain sum over nodes. With MPI all ranks pass the same points and edges, and add up their sums. The sums
- * of leaflets add up to the sum of the whole, up to rounding. The sums of edges are loads for tissue codes. They do not
- * model how a membrane carries loads to its edges. A node takes a time of order log n_edges, or of order n_edges if all
- * edges are equally near.
- * The force on a valve at rest is right. The force on a moving valve includes the inertia of the blood in the band. If a
- * scheme has K at its faces, its pressure equation then needs a source, or the force is wrong by newtons. Some cells are
- * bounded only by walls and by faces with K dt > rho. Through these faces such a cell gets the outflow of u_surface
- * (docs/solvers.md, "The source in the band"). Finite elements have the same fault for K dt > rho, and we found no source
- * for them.
+ * of leaflets add up to the sum of the whole, up to rounding. The sums of edges are loads for tissue codes. These sums do not
+ * model how a membrane carries loads to its edges. The time for a node grows as log n_edges, or as n_edges if all edges are
+ * equally near. The force on a valve at rest is right. The force on a moving valve includes the inertia of the blood in the band.
+ * If a scheme has K at its faces, its pressure equation then needs a source, or the force is wrong by newtons (docs/solvers.md,
+ * "The source in the band"). The source acts in cells that only walls and faces with K dt > rho bound: these faces get the
+ * outflow of u_surface. Finite elements have the same fault for K dt > rho, and no source is known for them.
  * Errors: as riis_marks_add_resistance; RIIS_INVALID_ARGUMENT also for too small an n_leaflets, naming the leaflet
  * id, for a leaflet without edge, for a bad edge, and for a reaction without any sum. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
@@ -90,9 +88,9 @@ RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis
  *   vertex_force  (3, n_vertices): forces are added. A node's force goes to the three vertices of its closest triangle, in the
  *                 shares of the closest point's barycentric coordinates
  * The forces on the vertices of a leaflet add up to leaflet_force of riis_marks_add_reaction, and their moment is
- * leaflet_moment, up to rounding. Their power is the power of the nodes' forces in every motion of the vertices. Vertices with
- * equal coordinates are not joined: a valve repeats its vertices along sides of patches, and arrays may share a vertex between
- * leaflets. With MPI add up the forces of all ranks.
+ * leaflet_moment, up to rounding. The power of these forces is the power of the nodes' forces in every motion of the vertices.
+ * Vertices with equal coordinates are not joined: a valve repeats its vertices along sides of patches, and arrays may share a
+ * vertex between leaflets. With MPI add up the forces of all ranks.
  * Errors: as riis_marks_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, another number of
  * vertices, or a closest triangle that the surface lacks. */
 RIIS_API riis_status riis_marks_add_vertex_reaction(const riis_marks *marks, const riis_surface *surface,
@@ -116,10 +114,9 @@ typedef struct riis_band {
   const double *weight; /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
 } riis_band;
 RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* the defaults */
-/* Gives the sums of the value over the nodes in the band, by side. It leaves out nodes whose closest point is
- * on the rim, and nodes on neither side. With an open valve the two sides have no meaning. With the offset o of the surface,
- * the distance is |s - o eps|, and the sign of s - o eps is the side. Here s is the signed distance, and eps is the half
- * thickness of the marking.
+/* Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim, and nodes on neither
+ * side, are left out. With an open valve the two sides have no meaning. With the offset o of the surface, the distance is |s - o
+ * eps|, and the sign of s - o eps is the side. Here s is the signed distance, and eps is the half thickness of the marking.
  * Errors: RIIS_INVALID_ARGUMENT also for a field that the marks lack. */
 RIIS_API riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *band,
                                               riis_band_sums *sums, int64_t struct_size);

@@ -20,8 +20,8 @@ enum {
   RIIS_LANDMARK_COMMISSURE = 0,     /* cusps: the top of the attachment between two of them; as many as cusps.
                                        tricuspid: the annulus between two leaflets; exactly 3 */
   RIIS_LANDMARK_NADIR = 1,          /* cusps: the lowest point of a cusp's attachment; as many as cusps */
-  RIIS_LANDMARK_COAPTATION = 2,     /* cusps: where the closed cusps meet; at most 1. The valve's axis
-                                       passes through it; its height is not used */
+  RIIS_LANDMARK_COAPTATION = 2,     /* cusps: where the closed cusps meet; at most 1. The valve's axis passes through this point;
+                                       the point's height is not used */
   RIIS_LANDMARK_ANNULUS = 3,        /* mitral, mitral_coapting, tricuspid: a point of the annulus; 4 or more, in their
                                        order around it. bileaflet: a point of the housing's circle at mid-height; 3 or
                                        more */
@@ -34,8 +34,8 @@ enum {
   RIIS_LANDMARK_POSTEROMEDIAL = 7,  /* mitral: the annulus at the posteromedial commissure; at most 1 */
   RIIS_LANDMARK_ANTEROLATERAL = 8,  /* mitral: the annulus at the anterolateral commissure; at most 1 */
   RIIS_LANDMARK_HINGE = 9,          /* bileaflet: an end of a leaflet's hinge line; 2 of one leaflet, or 4 */
-  RIIS_LANDMARK_ATTACHMENT = 10     /* cusps: a further point of the attachment; at most 900. The sizes and the
-                                       placement do not depend on it: it is for a warp, by riis_placement_arrays.place */
+  RIIS_LANDMARK_ATTACHMENT = 10     /* cusps: a further point of the attachment; at most 900. The sizes and the placement do not
+                                       depend on such a point, which serves a warp by riis_placement_arrays.place */
 };
 /* Landmarks of a patient, in the caller's arrays. */
 typedef struct riis_landmarks {
@@ -65,8 +65,8 @@ enum {
   RIIS_SIZE_KEPT = 0,        /* it is the valve's own */
   RIIS_SIZE_DETERMINED = 1,  /* the landmarks determine the parameter: its standard error at their noise moves the
                                 valve by at most a fifteenth of its radius */
-  RIIS_SIZE_TIED = 2,        /* no landmark bears on the parameter; it follows from other sizes by the valve's proportions */
-  RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on the parameter but do not determine it; it stays near the valve's
+  RIIS_SIZE_TIED = 2,        /* no landmark bears on the parameter, which follows from other sizes by the valve's proportions */
+  RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on the parameter but do not determine it, so it stays near the valve's
                                 proportions */
 };
 /* The placement that riis_place finds, for the fields of riis_surface_options with these names. */
@@ -83,9 +83,8 @@ typedef struct riis_placement {
   double position_error;     /* standard error of the position of the valve's origin, mesh units */
   int64_t worst_landmark_id; /* the landmark with the largest residual */
   int32_t n_undetermined;    /* the number of parameters with RIIS_SIZE_UNDETERMINED */
-  int32_t n_as_annulus;      /* the number of given trigones that lie behind the anterior horn. The model has no
-                                trigones there, so these count as points of the annulus, and do not say how
-                                long IT_distance is */
+  int32_t n_as_annulus;      /* the number of given trigones that lie behind the anterior horn. The model has no trigones there,
+                                so these landmarks count as points of the annulus, and do not say how long IT_distance is */
 } riis_placement;
 /* The caller's arrays for the results of riis_place. NULL arrays, the default, are not written. */
 typedef struct riis_placement_arrays {
@@ -103,12 +102,12 @@ RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, i
  *   valve   the template, a kind with any parameters: lengths without a landmark keep their proportions. Translation,
  *           opening and the open state of riis_valve_set_open_state stay
  *   held    names of parameters that keep the valve's values, between blanks or commas; "": none
- *   arrays  its arrays are written; NULL: not wanted
+ *   arrays  the arrays that the call writes; NULL: not wanted
  * The result minimises the sum of squared distances between the landmarks and their places on the closed valve
  * (docs/theory/landmarks.md). Cusps of a bicuspid, coapting or quadricuspid valve get sectors of their own, with a sum of
- * 360 degrees, if the landmarks show that they differ by more than the noise. So do the heights of the commissures, and
- * commissure_height is then their mean. Otherwise sectors and proportions of heights stay. Rotations and leaflet angles of
- * an aortic valve follow from the landmarks. If a leaflet_power would make its cusps overlap, it is lowered.
+ * 360 degrees, if the landmarks show that they differ by more than the noise. The commissures get heights of their own in the
+ * same way, and commissure_height is then the mean height. Otherwise sectors and proportions of heights stay. Rotations and
+ * leaflet angles of an aortic valve follow from the landmarks. A leaflet_power at which cusps would overlap is lowered.
  * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear, mirrored, or too
  * large or small for a heart valve at this scale, and if they do not show the flow; the message names them. The axis of a
  * tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus' normal. A mitral valve must satisfy three
@@ -125,25 +124,25 @@ RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmar
 /* ---- Warp: a valve that meets a patient's landmarks, and moves with them ------------------------------- */
 
 /* A smooth map of space that takes landmarks on a valve to landmarks in a patient. The map is the sum of an affine map and a
- * term |r|^3 for each landmark (docs/theory/warp.md). Its matrix is factored once, so new targets in each time step cost
+ * term |r|^3 for each landmark (docs/theory/warp.md). The warp's matrix is factored once, so new targets in each time step cost
  * little. */
 typedef struct riis_warp riis_warp;
 
 /* Options of riis_warp_create. */
 typedef struct riis_warp_options {
   int64_t struct_size; /* set by the init function */
-  double noise;        /* standard deviation of each coordinate of the targets, 0 to 1e50. The map is smoothed until it
-                          misses the targets by about this noise. Default 0: it meets the targets exactly */
-  const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates.
-                          Otherwise they are in the mesh's frame, and scale, rotation and translation of these options
-                          place them. Use the same options for the surface */
+  double noise;        /* standard deviation of each coordinate of the targets, 0 to 1e50. The map is smoothed until it misses the
+                          targets by about this noise. Default 0: the map meets the targets exactly */
+  const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates. Otherwise
+                                            landmarks and noise are in the mesh's frame, where scale, rotation and translation of
+                                            these options place the valve. Use the same options for the surface */
 } riis_warp_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);
 
-/* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, it is the identity.
- *   sources  3 to 1000 landmarks. If they lie nearly in a plane, they do not determine the map across that plane. The map then
- *            stretches the normal direction as it stretches the plane, and keeps it at right angles (riis_warp_info.is_planar)
+/* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, the warp is the identity.
+ *   sources  3 to 1000 landmarks. Landmarks nearly in a plane do not determine the map across that plane. The map then stretches
+ *            the plane's normal as much as the plane, and keeps the normal at right angles (riis_warp_info.is_planar)
  * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
  * landmarks on a line. */
 RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
@@ -188,11 +187,10 @@ RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *poi
  * Between the openings the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches stay patches
  * between the mapped curves. Error bounds, fixed triangulations and velocities therefore hold as for any valve, and with
  * RIIS_TRIANGULATION_FIXED the warp may move. Curves are cut where landmarks of `closed` lie on the closed valve, and landmarks
- * of `open` on the open valve. So the warped valve passes through the mapped landmarks on its curves.
- * An annulus that moves needs two valves in turn. In each step call riis_warp_set_targets and this function for one of them,
- * and pass both to riis_surface_update_moving. Both must be warped, or neither. A call that makes or updates a surface
- * refuses a warp that folds at the valve or turns a part of it over. It returns RIIS_INVALID_PARAMETER, and names the
- * place and the value.
+ * of `open` on the open valve. The warped valve thus passes through the mapped landmarks on its curves. An annulus that moves
+ * needs two valves in turn. In each step call riis_warp_set_targets and this function for one of them, and pass both to
+ * riis_surface_update_moving. Either both valves have a warp, or neither has one. A call that makes or updates a surface refuses
+ * a warp that folds at the valve or turns a part of it over: RIIS_INVALID_PARAMETER names the place and the value.
  * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`; RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
 RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open);
 
@@ -204,7 +202,7 @@ typedef struct riis_gap {
                                wall at any end */
   double widest_point[3];   /* the end of an edge with the widest gap */
   int64_t n_ends;           /* number of ends of edges: 2 * riis_attachment.n_edges */
-  int64_t n_without_wall;   /* the ends whose line misses the wall. They count in no other field */
+  int64_t n_without_wall;   /* the number of ends whose line misses the wall. These ends count in no other field */
 } riis_gap;
 /* Measures the gap between a valve's attachment and a wall, such as a patient's vessel.
  *   wall      a surface in the same frame, usually by riis_surface_create_from_arrays
@@ -216,13 +214,13 @@ typedef struct riis_gap {
  * Errors: RIIS_INVALID_ARGUMENT for a surface without an attachment, and for an attachment that encloses no area. */
 RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance,
                                           riis_gap *gap, int64_t struct_size);
-/* Gives a valve a skirt that just reaches a wall. It replaces the valve's skirt.
+/* Gives a valve a skirt that just reaches a wall, and replaces the valve's skirt.
  *   wall     as in riis_surface_get_gap
  *   longest  the longest length to accept, mesh units, 1e-50 to 1e50
  *   options  scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults
  * The length at each point of the closed valve's attachment is the gap there. The length is at least 0.01 of the attachment's
- * mean distance from the axis. These lengths stay while the valve opens. The parameter "skirt_length" becomes the largest
- * length, before placement. Setting that parameter removes the lengths.
+ * mean distance from the axis. The lengths of the skirt stay while the valve opens. The parameter "skirt_length" becomes the
+ * largest length, before placement. If the caller sets "skirt_length", the lengths at the points are lost.
  * Errors: RIIS_INVALID_ARGUMENT if the wall is missed or farther than longest, naming the first such point;
  * RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
 RIIS_API riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,

@@ -33,7 +33,7 @@ typedef struct riis_closest {
 RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
                                         int64_t struct_size);
 
-/* The default distance of far points. It is finite, so that arithmetic raises no floating-point exceptions. */
+/* The default distance of far points. The value is finite, so that arithmetic raises no floating-point exceptions. */
 #define RIIS_FAR_DISTANCE 1.0e30
 
 /* Options of queries for many points. */
@@ -90,21 +90,22 @@ RIIS_API riis_status riis_crossings_create(riis_crossings **crossings); /* makes
 RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys the crossings and their list */
 
 /* Finds every pair of the surface's triangles that go through each other.
- *   options    a pair crosses if its depth is larger. A depth within the rounding error counts as touching in any
- *              case. That error is 2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate
+ *   options    a pair crosses if its depth is larger. A depth within the rounding error always counts as touching. The rounding
+ *              error is 2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate
  *   crossings  its content is replaced
- * The depth of a pair is the length of the shortest translation of one triangle after which both only touch
- * (docs/theory/crossings.md). Triangles that touch or lie in one plane have depth 0. Triangles of one leaflet that share a
- * vertex (equal placed coordinates) are neighbours, not a pair. The call uses the triangles, also with other measures
- * than RIIS_MEASURE_TRIANGLES. If smooth leaflets touch, their triangles may therefore cross by twice
- * riis_surface_info.error_bound. A log function (riis_set_log) gets warnings of deeper crossings even without this call.
+ * The depth of a pair is the length of the shortest translation of one triangle after which the triangles only touch
+ * (docs/theory/crossings.md). Triangles that touch or lie in one plane have depth 0. Triangles of one leaflet that share a vertex
+ * (equal placed coordinates) are neighbours, not a pair. The call uses the triangles, also with other measures than
+ * RIIS_MEASURE_TRIANGLES. Where smooth leaflets touch, their triangles may cross by twice riis_surface_info.error_bound. A log
+ * function (riis_set_log) gets warnings of deeper crossings without this call.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
 RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings);
 
 /* Pairs of triangles that cross, ascending by first triangle, then by second. Lengths are in mesh units. */
 typedef struct riis_crossing_list {
-  int64_t n_pairs;            /* pairs that cross. If 0, ids are -1 and all other fields but seconds are 0 */
+  int64_t n_pairs;            /* the number of pairs that cross. If this number is 0, ids are -1, and all other fields but seconds
+                                 are 0 */
   const int64_t *triangle_id; /* (2, n_pairs): the two triangles, the lower id first */
   const double *point;        /* (3, n_pairs): the middle of the segment where the two triangles meet */
   const double *depth;        /* (n_pairs): the penetration depth */
@@ -116,7 +117,8 @@ typedef struct riis_crossing_list {
   int32_t deepest_leaflet_id[2];  /* the leaflets of the deepest pair's triangles */
   double seconds;             /* wall time of riis_find_crossings */
 } riis_crossing_list;
-/* Gives the pairs of the last riis_find_crossings. They are valid until the next riis_find_crossings with these crossings. */
+/* Gives the pairs of the last riis_find_crossings. The pairs are valid until the next riis_find_crossings with these
+ * crossings. */
 RIIS_API riis_status riis_crossings_get_list(const riis_crossings *crossings, riis_crossing_list *list,
                                              int64_t struct_size);
 

@@ -23,36 +23,40 @@
  * These rules hold for every function:
  *
  * - Units: lengths have one unit of the caller's choice, and angles are in degrees. The valves' default lengths are in
- *   centimetres. A placement's scale turns them into the mesh's unit (0.01 for metres).
- * - Ids: values called *_id count from 0, also in messages. If a struct has a field index_base, the ids in it count from
+ *   centimetres. The scale of a placement turns centimetres into the mesh's unit (0.01 for metres).
+ * - Ids: values called *_id count from 0, also in messages. If a struct has a field index_base, the ids in this struct count from
  *   that base, 0 (default) or 1. A field id_bits gives the ids' width: 32 (default) or 64.
  * - Points: point i is x[i * stride], y[i * stride], z[i * stride]. Coordinates are finite, of magnitude at most 1e60. The
  *   stride counts numbers and is at least 1: 1 for separate arrays, and 3 for xyz(3,n) with y = x + 1, z = x + 2. A field
- *   real_bits gives the numbers' width: 64 (default) or 32. Without this field they are doubles. Vectors follow this, too.
+ *   real_bits gives the numbers' width: 64 (default) or 32. Without this field the numbers are doubles. These rules also hold for
+ *   vectors.
  * - Order: the first argument is the object that the function is named after. Then come arguments that the call reads,
  *   then options, then arguments that it writes. Functions with `get` in their names return content.
  * - Status: a function that can fail returns a riis_status; 0 is success, and riis_last_error() gives the message of a failure.
- *   If the status is positive, the call has changed nothing, and pointers from earlier calls stay valid. If it is negative, an
- *   object that the call writes may be damaged: destroy it. No function aborts, prints or throws.
+ *   If the status is positive, the call has changed nothing, and pointers from earlier calls stay valid. If the status is
+ *   negative, an object that the call writes may be damaged: destroy this object. No function aborts, prints or throws.
  * - Any function may return RIIS_INVALID_ARGUMENT for a forbidden NULL and for an argument or field out of range,
  *   RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, and RIIS_OUT_OF_MEMORY.
  * - Handles: a new object is the last argument, and is written only on success. A destroy function takes a handle's
- *   address, accepts NULL, and sets the handle to NULL. It ignores handles of another kind; other calls refuse them.
- * - Memory: except for arrays that a call borrows, it reads arguments and their arrays only while it runs. Arrays that a
- *   call returns belong to the handle. They are valid until the handle's next update or destruction. An array without
- *   entries is NULL if a call returns it. The caller may pass NULL for such an array.
+ *   address, accepts NULL, and sets the handle to NULL. A destroy function ignores handles of another kind; other calls refuse
+ *   such handles.
+ * - Memory: a call reads its arguments and their arrays only while it runs, unless its comment says that it borrows them. Arrays
+ *   that a call returns belong to the handle, and are valid until the handle's next update or destruction. A returned array
+ *   without entries is NULL. The caller may also pass NULL for an array without entries.
  * - Structs that a call fills in are followed by their size, as in (&list, sizeof list). The call writes no more bytes.
- * - Structs that a call reads begin with struct_size. Their init function sets that field and the defaults, and sets all else
- *   to 0 or NULL. A NULL options pointer means all defaults. New fields are appended, or replace `reserved`, which must be 0.
- * - Threads: any number of threads may read a handle (const) at once. One thread may write it while no other reads it.
- *   Different handles never interfere. Results are bitwise the same for any number of threads.
+ * - Structs that a call reads begin with struct_size. The init function of a struct sets struct_size and the defaults, and sets
+ *   all other fields to 0 or NULL. A NULL options pointer means all defaults. New fields are appended, or replace `reserved`,
+ *   which must be 0.
+ * - Threads: any number of threads may read a handle (const) at once. One thread may write a handle while no other thread reads
+ *   it. Different handles never interfere. Results are bitwise the same for any number of threads.
  * - n_threads: 1 to 1024, or 0, the default. By default a call takes one thread, and one more for each 4096 triangles (of
  *   a surface's last content), 16,384 nodes, cells or faces, or 2048 points. The default never exceeds the number of processors
  *   in the calling thread's affinity mask. Parts of a call with little work take one thread by default. With n_threads 1, no
  *   thread is started. OMP_NUM_THREADS and omp_set_num_threads have no effect. If the system refuses a thread or its memory,
  *   OpenMP and TBB end the process (docs/building.md). The library's own threads block all signals but those of errors.
- * - fork(): if the library has used several threads, a child process may use only one, which is then the default. More threads
- *   are refused as RIIS_UNAVAILABLE. A child cannot make surfaces if another thread was inside the library during the fork.
+ * - fork(): if the library has used several threads, a child process may use only one thread, which is then the default. A child
+ *   that requests more gets RIIS_UNAVAILABLE. A child cannot make surfaces if another thread was inside the library during the
+ *   fork.
  * - Environment: calls, and the log functions that they call, run with the default floating-point environment. Each call
  *   restores the caller's environment at its end. The caller's OpenMP and TBB settings are not changed.
  *

@@ -148,7 +148,7 @@ Struct get(const Call &call, const Arguments &...arguments) {
   return filled;
 }
 
-// A view of an array of the library or of the caller. It is like C++20's std::span, but with signed sizes. It owns nothing.
+// A view of an array of the library or of the caller. A Span is like C++20's std::span, but with signed sizes, and owns nothing.
 template <class T>
 class Span {
  public:

@@ -1,20 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis_vtk.h - optional component: meshes and surfaces from and to VTK files, and pictures. It is a separate
- * library, riis_vtk, so that the core needs no VTK.
+ * riis_vtk.h - optional component: meshes and surfaces from and to VTK files, and pictures. The component is a separate library,
+ * riis_vtk, so that the core needs no VTK.
  *
  * The rules of riis.h also hold here, and riis_last_error() has the messages. These rules are added:
  *
  * - VTK keeps process-wide state: call these functions from one thread at a time.
  * - Messages that VTK would print are caught, and become the message of the error.
- * - A file is refused if it is of another kind, or if its end is missing. It is also refused if it claims more points,
- *   cells, values or bytes than it holds. VTK's own readers can still crash on a .vtu file whose bytes were damaged. So
- *   read files that you do not trust in a separate process.
+ * - A file is refused if it is of another kind, or if its end is missing. A file is also refused if it claims more points, cells,
+ *   values or bytes than it holds. VTK's own readers can still crash on a .vtu file whose bytes were damaged. Read files that you
+ *   do not trust in a separate process.
  * - RIIS_OUT_OF_MEMORY names the file that was read or written.
  * - If a path cannot be read or written, the status is RIIS_FILE_ERROR, and the message names the file.
- * - A written file is complete or does not exist: it is written under a temporary name and then moved. It gets
- *   the permissions of the file that it replaces. If the path is a link, the file behind it is written, and the link
- *   stays.
+ * - A written file is complete or does not exist: it is written under a temporary name and then moved. The new file gets the
+ *   permissions of the file that it replaces. If the path is a link, the file behind it is written, and the link stays.
  * - The caller's locale has no influence and does not change.
  */
 /* clang-format off: as riis.h */
@@ -46,9 +45,9 @@ RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
 /* Gives notes on the file in one line, such as "its points have single precision", or "". The text is valid
  * until the mesh is destroyed. */
 RIIS_API riis_status riis_vtk_mesh_get_notes(const riis_vtk_mesh *mesh, const char **notes);
-/* Replaces the nodes of the mesh by the centres of its cells, in the order of the cells. This is for solvers with
- * unknowns at centres. They are OpenFOAM's centres. Two nodes are then neighbours if their cells share a face, and
- * arrays that are set become arrays of cells. A mesh of centres has no parts (riis_vtk_mesh_extract).
+/* Replaces the nodes of the mesh by the centres of its cells, in the order of the cells. The call serves solvers with unknowns at
+ * cell centres, and computes centres as OpenFOAM does. Two nodes are then neighbours if their cells share a face. Arrays that are
+ * set later become arrays of cells. A mesh of centres has no parts (riis_vtk_mesh_extract).
  * Errors: RIIS_INVALID_ARGUMENT for a cell that is neither a linear volume cell nor a polyhedron, naming it.
  * The mesh then keeps its nodes. */
 RIIS_API riis_status riis_vtk_mesh_use_centers(riis_vtk_mesh *mesh);
@@ -69,9 +68,9 @@ RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t 
  *         y and z are valid until the mesh is destroyed */
 RIIS_API riis_status riis_vtk_mesh_get_axes(const riis_vtk_mesh *mesh, riis_grid *grid, int64_t struct_size);
 
-/* Makes the adjacency of nodes that are joined by an edge of a volume cell, for riis_mesh_set_adjacency. It
- * borrows nothing from the mesh. Nodes without such an edge get empty rows: RIIS_SEARCH_NEIGHBOR still finds
- * them, RIIS_SEARCH_PAPER does not.
+/* Makes the adjacency of nodes that are joined by an edge of a volume cell, for riis_mesh_set_adjacency. The adjacency borrows
+ * nothing from the mesh. Nodes without such an edge get empty rows: RIIS_SEARCH_NEIGHBOR still finds them, RIIS_SEARCH_PAPER does
+ * not.
  * - A linear cell, a prism with more than three sides and a polyhedron have the edges of their faces.
  * - A quadratic cell has edges from each corner to the middles of its sides, and between the middles of
  *   neighbouring sides of a face. If a face has a node in its middle, edges join this node to all others of the face
@@ -99,9 +98,9 @@ RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, i
 RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t n_cells, int64_t *offsets,
                                               uint8_t *types, int64_t n_node_ids, int64_t *node_ids);
 
-/* Makes the part of the mesh's adjacency that riis_find_leaks needs, in one pass over the cells. It consists of the
- * edges that are longer than a given length and whose bounding box meets the surface's bounding box. It borrows
- * nothing. Use it only for riis_find_leaks: a search cannot go far along so few edges.
+/* Makes the part of the mesh's adjacency that riis_find_leaks needs, in one pass over the cells. The part consists of the edges
+ * that are longer than a given length and whose bounding box meets the surface's bounding box. The adjacency borrows nothing from
+ * the mesh. Use this part only for riis_find_leaks: a search cannot go far along so few edges.
  *   longer_than       2 (1 - |o|) half thicknesses of the marking, with the offset o. 0 gives all edges near the
  *                     surface. Use 0 after a marking by RIIS_SEARCH_PAPER, or if distances were not measured to the
  *                     triangles. Edges that are shorter by up to a billionth are also included
@@ -120,8 +119,8 @@ RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, 
 RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_marks *marks, double far_distance,
                                              const char *prefix);
 /* Sets point arrays for the fields of a marking: PREFIX_point, PREFIX_normal, PREFIX_barycentric, PREFIX_uv,
- * PREFIX_velocity (Float64), PREFIX_side, PREFIX_rim, PREFIX_patch (Int32). Beyond the limit they are 0, and
- * PREFIX_patch is -1.
+ * PREFIX_velocity (Float64), PREFIX_side, PREFIX_rim, PREFIX_patch (Int32). Beyond the limit these arrays are 0, and PREFIX_patch
+ * is -1.
  *   fields  a sum of RIIS_FIELD_* of the marking's fields
  *   prefix  as in riis_vtk_mesh_set_marks
  * Errors: RIIS_INVALID_ARGUMENT for a field that the marks lack, and as in riis_vtk_mesh_set_marks. */
@@ -142,20 +141,20 @@ RIIS_API riis_status riis_vtk_mesh_set_unit(riis_vtk_mesh *mesh, const char *nam
 /* Tells whether the mesh has a point array of that name: *has is then 1, otherwise 0. */
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
 /* Gives the median length of the edges of volume cells, as in riis_vtk_mesh_create_adjacency, and of faces
- * other than polygons. It is 0 if the mesh has no such cells. An edge counts once for each of its cells.
- * At most 20,000 cells, at equal distances in the list, are measured. */
+ * other than polygons. The length is 0 if the mesh has no such cells. An edge counts once for each of its cells. At most 20,000
+ * cells, at equal distances in the list, are measured. */
 RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length);
 
 /* Keeps only the cells with certain values in a cell array, such as the fluid of a mesh that also has the wall, and
  * their nodes. Nodes and cells keep their order and their data. As in riis_vtk_mesh_extract, riis_node_id and
  * riis_cell_id have their ids in the whole mesh, also in later parts of this mesh.
- *   where     NAME=VALUES, such as "region=1,2". NAME is a cell array of single numbers. For gmsh's physical groups it
- *             is gmsh:physical, and VALUES may be names of groups; all groups of a cell count
+ *   where     NAME=VALUES, such as "region=1,2". NAME is a cell array of single numbers. For gmsh's physical groups NAME is
+ *             gmsh:physical, and VALUES may be names of groups; all groups of a cell count
  *   n_chosen  the number of cells with such a value; only volume cells count if the mesh has some. NULL refuses none
  * Errors: RIIS_INVALID_ARGUMENT if there is no such array or name; the mesh is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_choose_cells(riis_vtk_mesh *mesh, const char *where, int64_t *n_chosen);
-/* Gives a cell array that probably numbers domains. Volume cells have 2 to 16 whole numbers in it, and two cells of
- * one type with a common node have different numbers. Arrays named for something else, such as "rank", do not count.
+/* Gives a cell array that probably numbers domains. Volume cells have 2 to 16 whole numbers in this array, and two cells of one
+ * type with a common node have different numbers. Arrays named for something else, such as "rank", do not count.
  *   array     its name, until the next call or the mesh's destruction. "" if there is none
  *   n_values  the number of its values; 0 if there is none
  *   values    (n_values), ascending. NULL if they are not wanted */
@@ -165,7 +164,7 @@ RIIS_API riis_status riis_vtk_mesh_find_regions(riis_vtk_mesh *mesh, const char 
 /* Tells which points lie outside the mesh and farther than a distance from all of its volume cells. Cells of higher
  * order have straight edges here. A point is outside a mesh in pieces if it is outside each piece.
  *   xyz         (3, n_points), finite
- *   distance    >= 0, finite, in the unit of xyz. With 0 these are the points that no cell contains
+ *   distance    >= 0, finite, in the unit of xyz. With the distance 0 the call finds the points that no cell contains
  *   is_outside  (n_points). In: 0 for points that are not wanted. Out: 0 also for the points that are not outside
  * Errors: RIIS_INVALID_ARGUMENT naming the argument and its value; is_outside is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64_t n_points, const double *xyz,
@@ -184,12 +183,12 @@ RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_
 RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes);
 
 /* Writes the mesh with all its arrays to a file. The points are Float64.
- *   path  ends in .vtu, or in .xdmf. If the mesh was read as the axes of a grid, the path may also end in .vtr, or in
- *         .vti if they are those of an image; neither stores cells. The numbers of NAME.xdmf are in NAME.h5 beside it,
- *         or in NAME.xdmf itself if riis was built without HDF5. Polyhedra and text have no place in an .xdmf. If the
- *         mesh was read from a case of OpenFOAM, with nodes at centres, the path may also be a time folder of the case,
- *         such as CASE/0. The arrays of cells become its fields, with zeroGradient at patches: riis_K becomes K, and
- *         riis_K_u_surface becomes Ku. Such a folder may be written in part if an error occurs */
+ *   path  ends in .vtu, or in .xdmf. If the mesh was read as the axes of a grid, the path may also end in .vtr, or in .vti if the
+ *         axes are evenly spaced, as in an image; neither format stores cells. The numbers of NAME.xdmf are in NAME.h5 beside it,
+ *         or in NAME.xdmf itself if riis was built without HDF5. Polyhedra and text have no place in an .xdmf. If the mesh was
+ *         read from a case of OpenFOAM, with nodes at centres, the path may also be a time folder of the case, such as CASE/0.
+ *         The arrays of cells become the folder's fields, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface
+ *         becomes Ku. Such a folder may be written in part if an error occurs */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
 
 /* ---- Meshes in pieces ---------------------------------------------------------------------------------- */
@@ -202,7 +201,7 @@ typedef struct riis_vtk_pieces riis_vtk_pieces;
  * Errors: RIIS_FILE_ERROR naming the file and the piece: if there is no piece, if a piece is missing, is listed twice
  * or is no .vtu file, and as in riis_vtk_mesh_read. */
 RIIS_API riis_status riis_vtk_pieces_read(const char *path, riis_vtk_pieces **pieces);
-/* Makes a list of pieces that have the same arrays as a mesh, for riis_vtk_pieces_write. It borrows nothing.
+/* Makes a list of pieces that have the same arrays as a mesh, for riis_vtk_pieces_write. The list borrows nothing.
  *   n_files  1 to 1,000,000
  *   files    (n_files), the paths of the pieces, which need not exist yet */
 RIIS_API riis_status riis_vtk_pieces_create(const riis_vtk_mesh *mesh, int64_t n_files, const char *const *files,
@@ -235,9 +234,8 @@ enum {
 /* The cells of a piece that are not ghosts. Ghosts have bit 1 in the cell array vtkGhostType. */
 typedef struct riis_vtk_sharing {
   int64_t n_cells;          /* cells that are not ghosts */
-  int64_t n_volume_cells;   /* the volume cells among these */
-  int64_t n_cells_left_out; /* the number of these volume cells whose edges are not known,
-                               as in riis_vtk_mesh_get_volume_cells */
+  int64_t n_volume_cells;   /* the number of volume cells that are not ghosts */
+  int64_t n_cells_left_out; /* the number of such volume cells whose edges are not known, as in riis_vtk_mesh_get_volume_cells */
   int32_t has_global_ids;   /* 1 if the mesh has global ids */
   int32_t reserved;         /* 0 */
 } riis_vtk_sharing;
@@ -265,9 +263,9 @@ typedef struct riis_vtk_surface riis_vtk_surface;
  * from the second corner to the fourth, with the same winding.
  * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the arrays that exist. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflets, riis_vtk_surface **surface);
-/* Makes a surface of the faces that only one volume cell of the mesh has. It is the wall around the blood. The faces
- * point outwards. Faces of cells of higher order become straight. The surface borrows nothing, and
- * riis_vtk_surface_destroy destroys it.
+/* Makes a surface of the faces that only one volume cell of the mesh has. This surface is the wall around the blood, and its
+ * faces point outwards. Faces of cells of higher order become straight. The surface borrows nothing, and riis_vtk_surface_destroy
+ * destroys it.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without volume cells. */
 RIIS_API riis_status riis_vtk_mesh_get_boundary(const riis_vtk_mesh *mesh, riis_vtk_surface **boundary);
 /* Makes every connected piece of the surface a leaflet, numbered from 0 in the order of the pieces' first
@@ -275,13 +273,12 @@ RIIS_API riis_status riis_vtk_mesh_get_boundary(const riis_vtk_mesh *mesh, riis_
  * an .stl file. Arrays that the surface gave before become invalid. */
 RIIS_API riis_status riis_vtk_surface_number_pieces(riis_vtk_surface *surface);
 /* Adds the faces of another surface, for a valve with one file for each leaflet. The first surface becomes
- * leaflet 0, and each added surface the next leaflet. Other leaflet ids are lost. If only one of the surfaces
- * has quads, these are cut. `other` stays. Arrays that the surface gave before become invalid. */
+ * leaflet 0, and each added surface the next leaflet. Other leaflet ids are lost. If only one of the two surfaces has quads,
+ * these quads are cut. `other` stays. Arrays that the surface gave before become invalid. */
 RIIS_API riis_status riis_vtk_surface_append(riis_vtk_surface *surface, const riis_vtk_surface *other);
 /* Destroys the surface. Its arrays become invalid. Surfaces made from it stay. */
 RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
-/* Gives the arrays of the surface, for riis_surface_create_from_arrays. They are valid until the surface is
- * destroyed. */
+/* Gives the arrays of the surface, for riis_surface_create_from_arrays. The arrays are valid until the surface is destroyed. */
 RIIS_API riis_status riis_vtk_surface_get_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays,
                                                  int64_t struct_size);
 
@@ -302,12 +299,12 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
  *   frames.period = 0.8;
  *   riis_keyframes_create(&arrays, &frames, &keyframes); riis_vtk_motion_destroy(&motion);
  * All reading functions share these rules:
- * - Files are as for riis_vtk_surface_read, at most 1,000,000. They have the same points and cells in the same
- *   order. Polygons and quads are cut as in the first file.
- * - Leaflets and riis_attached come from the first file. `leaflets` names their cell array, as in riis_vtk_surface_read.
+ * - Files are as for riis_vtk_surface_read, at most 1,000,000. All files have the same points and cells in the same order.
+ *   Polygons and quads are cut as in the first file.
+ * - Leaflets and riis_attached come from the first file. `leaflets` names the files' cell array, as in riis_vtk_surface_read.
  * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly the same
- *   position in the first file become one vertex. They must also share one position in each of the other
- *   files. If leaflets touch at corners in the first file and separate later, use .vtp files, which number points.
+ *   position in the first file become one vertex. In every other file such corners must also share one position. If leaflets
+ *   touch at corners in the first file and separate later, use .vtp files, which number points.
  * - Times ascend strictly, and coordinates are finite, as in riis_keyframe_arrays.
  * Errors: RIIS_FILE_ERROR naming the file and the difference, with its value. */
 typedef struct riis_vtk_motion riis_vtk_motion;
@@ -357,11 +354,11 @@ RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, in
 RIIS_API riis_status riis_vtk_motion_number_pieces(riis_vtk_motion *motion);
 /* Destroys the motion. Its arrays become invalid. Keyframes made from it stay. */
 RIIS_API void riis_vtk_motion_destroy(riis_vtk_motion **motion);
-/* Gives the faces of all frames with the vertices of the first frame, for riis_keyframes_create. They are
- * valid until the motion is destroyed or riis_vtk_motion_number_pieces is called. */
+/* Gives the faces of all frames with the vertices of the first frame, for riis_keyframes_create. The arrays are valid until the
+ * motion is destroyed or riis_vtk_motion_number_pieces is called. */
 RIIS_API riis_status riis_vtk_motion_get_arrays(const riis_vtk_motion *motion, riis_surface_arrays *arrays,
                                                 int64_t struct_size);
-/* Gives the frames, for riis_keyframes_create. They are valid until the motion is destroyed. */
+/* Gives the frames, for riis_keyframes_create. The frames are valid until the motion is destroyed. */
 RIIS_API riis_status riis_vtk_motion_get_frames(const riis_vtk_motion *motion, riis_keyframe_arrays *frames,
                                                 int64_t struct_size);
 
@@ -404,20 +401,20 @@ typedef struct riis_vtk_picture_options {
   const char *const *leaflet_names; /* (n_leaflet_names): the names by leaflet_id, for the key of the colours. Default
                                        NULL: "leaflet 0", ..., as for leaflets without a name here */
   int64_t n_leaking_edges;/* >= 0, default 0 */
-  const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, dark red and in front of everything.
-                                   Default NULL: the picture says nothing of leaks. If n_leaking_edges is 0 and this
-                                   is not NULL, the picture says that no edge leaks */
+  const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, dark red and in front of everything. Default
+                                   NULL: the picture says nothing of leaks. If n_leaking_edges is 0 and leaking_edges is not NULL,
+                                   the picture says that no edge leaks */
   int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */
   int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
   int32_t reserved;       /* 0 */
   double rotation_axis[3]; /* of the valve's placement, for RIIS_VTK_VIEW_VALVE_*; ranges as in
                               riis_surface_options. Default (0, 0, 1) */
   double rotation_angle;  /* degrees. Default 0: the valve has the mesh's axes */
-  const riis_surface *wall; /* the wall around a surface without a mesh. It is ignored with a mesh, whose boundary is the
-                               wall. Default NULL: none */
-  double background[4];   /* red, green and blue, 0 to 1, then the opacity, 0 or 1. Texts are dark on a bright colour, and
-                             bright on a dark one. 0 makes a transparent picture, with the texts that fit the colour.
-                             Default (1, 1, 1, 1): white */
+  const riis_surface *wall; /* the wall around a surface without a mesh. With a mesh, whose boundary is the wall, this field is
+                               ignored. Default NULL: none */
+  double background[4];   /* red, green and blue, 0 to 1, then the opacity, 0 or 1. Texts are dark on a bright colour, and bright
+                             on a dark one. The opacity 0 makes a transparent picture, with the texts that fit the colour. Default
+                             (1, 1, 1, 1): white */
   int32_t captions;       /* RIIS_VTK_CAPTIONS_*. Default RIIS_VTK_CAPTIONS_ALL */
   int32_t panels;         /* RIIS_VTK_PANELS_*. Default RIIS_VTK_PANELS_BOTH */
 } riis_vtk_picture_options;
@@ -425,14 +422,13 @@ typedef struct riis_vtk_picture_options {
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
 
 /* Draws the surface and the marked cells of the mesh into a .png file, in two panels to the same scale.
- * - The left panel shows the surface with a colour for each leaflet. Six colours are used in turn. The key
- *   below it names as many leaflets as fit, and dots replace the others. Leaflets seen edge-on appear as
- *   lines.
+ * - The left panel shows the surface with a colour for each leaflet. Six colours are used in turn. The key below this panel names
+ *   as many leaflets as fit, and dots replace the others. Leaflets seen edge-on appear as lines.
  * - The right panel shows marked cells. A cell with all nodes marked has the colour of the leaflet nearest to
  *   one of them. Other cells with a marked node show only their far side, in a pale colour. If the mesh has
  *   volume cells, flat cells are not drawn.
- * - The wall is a translucent shell in both panels. Its flat ends are open: flat parts with a sharp rim, such as
- *   an inlet, are left out. A wall that consists of flat parts, such as a box, is drawn whole.
+ * - The wall is a translucent shell in both panels. The wall's flat ends are open: flat parts with a sharp rim, such as an inlet,
+ *   are left out. A wall that consists of flat parts, such as a box, is drawn whole.
  * - Captions name the half thickness and count the marked nodes.
  * - Axes and a scale bar are below the panels. If a mesh is much longer than the surface, the picture cuts
  *   it at dashed lines. Pictures lower than 120 pixels have no texts, axes or bar.
@@ -458,8 +454,8 @@ RIIS_API riis_status riis_vtk_draw_views(const riis_surface *surface, const riis
 /* Pictures of a moving valve in one mesh, all seen by one camera, such as the frames of a movie. */
 typedef struct riis_vtk_film riis_vtk_film;
 /* Makes the window and the outline of the mesh, which all pictures share.
- *   mesh          its nodes and cells must stay the same, but its marks may change. NULL draws the surface
- *                 alone. The film shares the mesh's data, so the caller may destroy the mesh first
+ *   mesh          the nodes and cells must stay the same, but the marks may change. NULL draws the surface alone. The film shares
+ *                 the mesh's data, so the caller may destroy the mesh first
  *   lower, upper  (3), bounds of the surface at all times along the mesh's axes, for the camera
  *   options       the view, the size and the leaflets' names; title and leaking edges are ignored
  * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for

@@ -29,10 +29,9 @@ RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and 
  * row or in both, and appears once in the list. Edges to ghosts are ignored. Edges that are at most two half thicknesses long
  * do not leak (docs/meshes.md). With an offset o, edges of at most 2 (1 - |o|) half thicknesses do not leak. Longer edges may
  * leak beside rims, but seldom if they are at most 2 sqrt(1 - o^2) half thicknesses long. With an offset, an edge does not leak
- * if both ends are off rims and on the same side. Such an edge only cuts off a fold.
- * A marking of the same triangles with the half thickness of riis_leak_list closes all of these edges, except by
- * RIIS_SEARCH_PAPER. But riis_surface_update with that half thickness moves a valve's triangles by up to
- * tolerance * half_thickness. Search again after it.
+ * if both ends are off rims and on the same side. Such an edge only cuts the corner of a fold. A marking of the same triangles
+ * with the half thickness of riis_leak_list closes all of these edges, except by RIIS_SEARCH_PAPER. But riis_surface_update with
+ * that half thickness moves a valve's triangles by up to tolerance * half_thickness. Search for leaks again after such an update.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that
  * have another number of nodes or half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh,
@@ -41,13 +40,14 @@ RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mes
 
 /* Mesh edges that leak, ascending by their first node, then by their second. Lengths are in mesh units. */
 typedef struct riis_leak_list {
-  int64_t n_edges;            /* edges that leak. If 0, node ids are -1 and all other fields but seconds are 0 */
+  int64_t n_edges;            /* the number of edges that leak. If this number is 0, node ids are -1, and all other fields but
+                                 seconds are 0 */
   const int64_t *node_id;     /* (2, n_edges): the two nodes, the lower id first */
   const double *length;       /* (n_edges) */
   const double *distance;     /* (n_edges): the least half thickness that closes the edge. Without an offset this is the distance
                                  of the edge's nearer node */
   double half_thickness;      /* the smallest half thickness that gives each edge a marked node, for these triangles */
-  int64_t longest_node_id[2]; /* the nodes of the longest edge, ascending. If edges are equally long, it is the first one */
+  int64_t longest_node_id[2]; /* the nodes of the longest edge, ascending. Of equally long edges, the first edge counts */
   double longest_length;      /* the length of this edge */
   double longest_middle[3];   /* the middle of this edge */
   double seconds;             /* wall time of riis_find_leaks */
@@ -78,14 +78,14 @@ enum {
   RIIS_PASSAGE_OPEN = 1,   /* yes: some path has no node within the half thickness */
   RIIS_PASSAGE_NONE = 2    /* no: the mesh itself has no path between the sets */
 };
-/* The widest passage from one set of nodes to another: the path with the largest least distance from the surface. */
+/* The widest passage from one set of nodes to another: the path whose nearest node is as far from the surface as possible. */
 typedef struct riis_passage {
   int64_t node_id;  /* the path's node that is nearest to the surface; -1 without a path. If nodes have equal distances,
                        the higher id counts as nearest */
-  double distance;  /* the distance of node_id. A half thickness of at least this distance closes the passage between
-                       these triangles, and a smaller one leaves it open. 0 without a path. With an offset o, nodes are
-                       ordered by the half thickness that marks them, and this is the half thickness of node_id. It is
-                       s / (1 + o) for a signed distance s >= 0, and -s / (1 - o) for s < 0 */
+  double distance;  /* the distance of node_id. A half thickness of at least this distance closes the passage between these
+                       triangles, and a smaller one leaves it open. 0 without a path. With an offset o, `distance` is the least
+                       half thickness that marks the node, and nodes are ordered by it: s / (1 + o) for a signed distance s >= 0,
+                       and -s / (1 - o) for s < 0 */
   double point[3];  /* the coordinates of node_id; 0 without a path */
   double seconds;   /* wall time of riis_find_passage */
   int32_t state;    /* RIIS_PASSAGE_* */
@@ -101,7 +101,7 @@ typedef struct riis_passage_ends {
 } riis_passage_ends;
 RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t struct_size); /* the defaults */
 /* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
- *   mesh     with an adjacency; it need not have been marked
+ *   mesh     must have an adjacency, and need not have been marked
  *   ends     paths include their ends, so an end limits the passage to its own distance from the surface
  *   options  only node_mask, n_threads and instructions are used. No path passes through a node that node_mask leaves out
  * A new half thickness moves a valve's triangles by up to tolerance * half_thickness: search again after

@@ -14,14 +14,14 @@ extern "C" {
 
 /* ---- Surface: triangles in space that answer closest-point queries ------------------------------------- */
 
-/* Triangles with a half thickness. A surface borrows nothing from the caller. The first query that needs the
- * triangles' Embree scene builds it, also if several threads query at once. */
+/* Triangles with a half thickness. A surface borrows nothing from the caller. The first query that needs an Embree scene of the
+ * triangles builds this scene, also if several threads query at once. */
 typedef struct riis_surface riis_surface;
 
 /* The leaflets of the parametric valves, as leaflet_id reports them. */
 enum {
-  RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters;
-                                   other cusps: on the x axis. Others follow counter-clockwise, seen from +z */
+  RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters; other kinds: the cusp on the x
+                                   axis. More cusps follow counter-clockwise, seen from +z */
   RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; other cusps: the second one */
   RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; other cusps: the third one. The fourth one has the id 3 */
   RIIS_LEAFLET_ANTERIOR = 0,    /* mitral, mitral_coapting, tricuspid: the anterior leaflet */
@@ -42,28 +42,28 @@ enum {
 };
 
 /* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation are for comparison with
- * the paper, and only for surfaces of valves. They measure to points S(u,v) of patches, with the error
- * e = measure_tolerance * half_thickness (docs/theory/paper-distances.md). Their closest point has the leaflet_id of its patch,
- * the normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0. With these measures, calls refuse
+ * the paper, and only for surfaces of valves. Sampling and minimisation measure to points S(u,v) of patches, with the error e =
+ * measure_tolerance * half_thickness (docs/theory/paper-distances.md). Their closest points have the leaflet_id of the patch, the
+ * normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0. With sampling and minimisation, calls refuse
  * arrays for barycentric and side, and RIIS_SEARCH_CLUSTERS, as RIIS_INVALID_ARGUMENT. */
 enum {
   RIIS_MEASURE_TRIANGLES = 0,   /* the closest point of all triangles, without approximation */
   RIIS_MEASURE_SAMPLING = 1,    /* the nearest of points spaced evenly on the patches, at most 16,777,216 of them.
                                     The distance is at most e too large, and at most e / 10 too small */
   RIIS_MEASURE_MINIMIZATION = 2 /* Powell's method (1964) runs on every patch. The distance is at most e / 10 too small. In a
-                                    local minimum it is too large by any amount, without a sign of it */
+                                   local minimum the distance may be too large by any amount, and nothing shows this */
 };
 
 /* How the smooth valve is cut into triangles. */
 enum {
-  RIIS_TRIANGULATION_ADAPTED = 0, /* as few triangles as each state needs; they change as the valve opens */
+  RIIS_TRIANGULATION_ADAPTED = 0, /* as few triangles as each state needs; the triangles change as the valve opens */
   RIIS_TRIANGULATION_FIXED = 1    /* the same ids, vertices and neighbours at every opening. The first call with this option
-                                     chooses the ids, vertices and neighbours. Afterwards only opening and placement may
-                                     change: RIIS_INVALID_PARAMETER names any other parameter that changed.
-                                     RIIS_LIMIT_EXCEEDED refuses an opening at which the tolerance does not hold. A triangle
-                                     without area is left out, and its id is not reused. An update with
-                                     RIIS_TRIANGULATION_ADAPTED forgets this choice. Vertices of mitral or warped
-                                     valves slide along the surface. Velocities leave this slide out */
+                                     chooses the ids, vertices and neighbours. Afterwards only opening and placement may change:
+                                     RIIS_INVALID_PARAMETER names any other parameter that changed. RIIS_LIMIT_EXCEEDED refuses an
+                                     opening at which the tolerance does not hold. A triangle without area is left out, and its id
+                                     is not reused. An update with RIIS_TRIANGULATION_ADAPTED forgets the chosen triangles.
+                                     Vertices of mitral or warped valves slide along the surface. Velocities do not include this
+                                     slide of the vertices */
 };
 
 /* Options of a surface. The placement, also of arrays, is x -> scale * rotation * x + translation. */
@@ -96,12 +96,12 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
  *   valve    its parameters must fit together
  *   options  accuracy and placement
  * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of
- * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring they point outwards. Triangles of zero area
- * are skipped. They lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges.
- * The band around a surface has the thickness 2 eps, with the half thickness eps. With an offset o its middle lies o eps beside
- * the triangles, on the side to which normals point. Let s be the signed distance of a node, with the sign of its side. The band
- * holds the nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, it holds the nodes x with
- * |x - p - o eps n| <= eps (docs/theory/marks.md, "Offset"). Distances, sides and closest points stay those of the triangles.
+ * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring, normals point outwards. Triangles of zero area
+ * are skipped. Such triangles lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges.
+ * The band around a surface has the thickness 2 eps, with the half thickness eps. With an offset o the middle of the band lies o
+ * eps beside the triangles, on the side to which normals point. Let s be the signed distance of a node, with the sign of its
+ * side. The band holds the nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, the band holds the
+ * nodes x with |x - p - o eps n| <= eps (docs/theory/marks.md, "Offset"). An offset changes no distance, side or closest point.
  * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range;
  * RIIS_INVALID_SURFACE with an offset, for two triangles that run along a shared edge in the same direction;
  * RIIS_LIMIT_EXCEEDED if a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than the rounding
@@ -115,8 +115,8 @@ typedef struct riis_surface_arrays {
   int64_t n_vertices;        /* 1 to 2^31 - 1 */
   const void *x, *y, *z;     /* (n_vertices) by stride: the vertices before placement */
   int64_t stride;            /* of x, y and z. Default 1 */
-  const void *vx, *vy, *vz;  /* (n_vertices) by velocity_stride: velocities of the vertices, in lengths per
-                                unit of time. The placement turns and scales them. All NULL: none */
+  const void *vx, *vy, *vz;  /* (n_vertices) by velocity_stride: velocities of the vertices, in lengths per unit of time. The
+                                placement turns and scales the velocities. All NULL: none */
   int64_t velocity_stride;   /* of vx, vy and vz. Default 1 */
   int64_t n_faces;           /* 1 to 16,777,216 triangles, half as many quads */
   const void *vertex_ids;    /* (corners_per_face, n_faces); the normal follows the right-hand rule */
@@ -125,8 +125,8 @@ typedef struct riis_surface_arrays {
   int32_t id_bits;           /* of vertex_ids */
   int32_t index_base;        /* of vertex_ids */
   int32_t real_bits;         /* of vertices and velocities */
-  double skirt_length;       /* the length of a skirt before placement: a strip from the attachment outwards. It is 1e-4 to
-                                10 times the mean distance of the attachment from its axis. 0, the default: no skirt */
+  double skirt_length;       /* the length of a skirt before placement: a strip from the attachment outwards. The length is 1e-4
+                                to 10 times the mean distance of the attachment from its axis. 0, the default: no skirt */
   const uint8_t *attached;   /* (n_vertices): not 0 for the vertices of the attachment. The attachment consists of the open
                                 edges between two such vertices. NULL: with a skirt, the call chooses the attachment */
   const double *skirt_lengths; /* (n_vertices): the skirt's lengths at the attached vertices, at most skirt_length.
@@ -136,12 +136,12 @@ typedef struct riis_surface_arrays {
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
 
-/* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have
- * 2 q and 2 q + 1. The id of a skipped triangle is not reused. A triangle has zero area if its longest edge is shorter
- * than 1e-60, or if its height over that edge is at most 1e-12 of the edge.
- * A skirt leads away from the line through the attachment's centroid along its vector area (docs/theory/skirt.md). Its
- * vertices and triangles follow the caller's. Without `attached`, the attachment is the closed line of open edges that
- * encloses the largest area. The line must enclose 0.8 of the leaflets' outline (RIIS_OUTLINE_BOUNDARY).
+/* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have the ids
+ * 2 q and 2 q + 1. The id of a skipped triangle is not reused. A triangle has zero area if its longest edge is shorter than
+ * 1e-60, or if its height over that edge is at most 1e-12 of the edge.
+ * A skirt leads away from an axis: the line through the attachment's centroid along its vector area (docs/theory/skirt.md). The
+ * skirt's vertices and triangles come after the caller's. Without `attached`, the attachment is the closed line of open edges
+ * that encloses the largest area. The line must enclose 0.8 of the leaflets' outline (RIIS_OUTLINE_BOUNDARY).
  * Errors: RIIS_LIMIT_EXCEEDED for too many triangles; RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying
  * why an attachment is not found; RIIS_INVALID_ARGUMENT for a length of the skirt out of range. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
@@ -161,7 +161,7 @@ RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve
  * last arrays, or if the surface was not made from arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
-/* Destroys the surface. Marks stay. */
+/* Destroys the surface. Marks that were made with the surface stay. */
 RIIS_API void riis_surface_destroy(riis_surface **surface);
 
 /* The size of a surface, and the seconds that its last create or update took. */
@@ -179,7 +179,7 @@ typedef struct riis_surface_info {
                                 valve; at most tolerance * half_thickness. 0 for a surface from arrays */
   int64_t largest_leaflet_id; /* of the triangles */
   double offset;             /* of the band, in half thicknesses */
-  double contact_depth;      /* deeper crossings of triangles are no contacts of leaflets (docs/theory/crossings.md) */
+  double contact_depth;      /* leaflets whose triangles cross deeper than this do more than touch (docs/theory/crossings.md) */
   int32_t skirt_leaflet_id;  /* the leaflet_id of the skirt; -1: no skirt */
   int32_t housing_leaflet_id; /* bileaflet: RIIS_LEAFLET_HOUSING; -1 for other surfaces */
 } riis_surface_info;
@@ -211,8 +211,8 @@ typedef struct riis_triangles {
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
                                                 int64_t struct_size);
 
-/* The attachment of a valve, after placement: the edges at which tissue or a stent holds its leaflets. They follow the
- * order of the patches, and along a side the order of u or v. */
+/* The attachment of a valve, after placement: the edges at which tissue or a stent holds its leaflets. The edges follow the order
+ * of the patches, and along a side the order of u or v. */
 typedef struct riis_attachment {
   int64_t n_edges;           /* the number of edges; edges of length 0 are left out */
   const double *edges;       /* (3, 2, n_edges): both ends of each edge, in the layout of riis_reaction.edges */
@@ -226,7 +226,7 @@ typedef struct riis_attachment {
  * - A valve from patches is attached at the sides v = 0 of only one patch.
  * - A bileaflet valve has no attachment, because pivots hold its leaflets.
  * - A surface from arrays or keyframes has an attachment if they have `attached` or a skirt.
- * A skirt continues the leaflets at the attachment, and changes nothing of it.
+ * A skirt continues the leaflets outwards, and does not change the attachment.
  * Errors: RIIS_INVALID_ARGUMENT for other surfaces from arrays, because their attached edges are not known. */
 RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment,
                                                  int64_t struct_size);
@@ -249,8 +249,8 @@ RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const rii
                                                 const riis_surface_options *options,
                                                 const riis_surface_options *options_before);
 
-/* Interpolation between keys in time. A time counts as a key if it differs from the key plus whole periods by at most
- * 8 * 2^-52 of the largest of time, key and period. */
+/* Interpolation between keys in time. A time counts as equal to a key, plus whole periods, if both differ by at most 8 * 2^-52 of
+ * the largest of time, key and period. */
 enum {
   RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at keys; at a key it has the value after the jump */
   RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */

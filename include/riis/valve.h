@@ -25,9 +25,9 @@ typedef struct riis_valve riis_valve;
  *         "trileaflet", three equal cusps that close in straight lines
  *         "bileaflet", a mechanical prosthesis */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
-/* Makes a second valve with the same parameters, patches and states. Destroy both. */
+/* Makes a second valve with the same parameters, patches and states. The caller destroys both valves. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
-/* Destroys the valve. Surfaces made from this valve do not change, nor do valves with it as their open state. */
+/* Destroys the valve. Surfaces made from this valve do not change, and valves whose open state is this valve do not change. */
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by its name in the paper. riis_surface_create checks whether all values fit together.
@@ -42,7 +42,7 @@ RIIS_API void riis_valve_destroy(riis_valve **valve);
  *   move a valve, set "opening" and call riis_surface_update.
  * - "skirt_length" gives any valve except "bileaflet" a skirt. The skirt is a strip from the attachment outwards, and
  *   closes the gap to the wall (docs/theory/skirt.md). The length is 0 (the default), or 1e-4 to 10 times
- *   the mean distance of the attachment from its axis. The value of an open state is ignored.
+ *   the mean distance of the attachment from its axis. The skirt_length of an open state is ignored.
  * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value. */
 RIIS_API riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values,
                                     const double *values);
@@ -54,16 +54,16 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
                                     double *values);
 
 /* Sizes by a surgeon's names, and sizes that follow from other sizes (docs/theory/sizes.md). Three names
- * stand for parameters. If a kind lacks such a size, it refuses the name and says why:
+ * stand for parameters. A kind that lacks such a size refuses the name and says why:
  *   annulus           diameter: 2 root_radius (kinds with cusps), 2 radius (bileaflet)
  *   stj               diameter at the commissures: 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius
  *                     (coapting, bicuspid, quadricuspid)
  *   effective_height  height of the free edges above the annulus: leaflet_height (aortic, trileaflet). The other
  *                     kinds with cusps have it as a parameter, for the middle of the edges
  * Some parameters have a rule: until they are set, they follow from other parameters. The order of calls does not matter.
- * riis_valve_get gives their present values. Copies and open states keep which parameters were set. */
+ * riis_valve_get gives the present values of such parameters. Copies and open states remember which parameters were set. */
 
-/* Gives a parameter the value of a parameter that is not set: its rule's value, or its default.
+/* Returns a parameter to the value by its rule, or to its default if it has no rule.
  *   name  as in riis_valve_set
  * Errors: RIIS_INVALID_PARAMETER for another name. */
 RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);
@@ -73,13 +73,14 @@ RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);
  * Errors: RIIS_INVALID_PARAMETER, also for a name that means all cusps. */
 RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t *is_set);
 
-/* Gives the valve a second state. At opening 0 it then has its own state, and at opening 1 the state of the valve `open`.
- *   open  a valve of the same kind, which is copied. Its opening, leaflet ids and open state are ignored. A valve from patches
- *         has the same curves, sides and degrees (1 may stand for 2). Both bileaflet valves have a ring, or neither has one
- * A second call replaces the state. No call removes it. Control points are blended linearly between the states
- * (docs/theory/openings.md). A bileaflet valve blends lengths and angles instead. The middle of a coapting cusp's free edge
- * hangs as deep as the edge's length requires. All kinds but aortic and bileaflet take the closed shape from their
- * own parameters, and the open shape from the parameters of `open`.
+/* Gives the valve a second state. At opening 0 the valve then has its own state, and at opening 1 the state of the valve `open`.
+ *   open  a valve of the same kind, which is copied. The opening, leaflet ids and open state of the second valve are ignored. Two
+ *         valves from patches must have the same curves, sides and degrees (1 may stand for 2). Two bileaflet valves must both
+ *         have a ring, or both lack it
+ * A second call replaces the open state. No call removes an open state. Control points are blended linearly between the states
+ * (docs/theory/openings.md). A bileaflet valve blends lengths and angles instead. The middle of a coapting cusp's free edge hangs
+ * as deep as the edge's length requires. All kinds but aortic and bileaflet take the closed shape from their own parameters, and
+ * the open shape from the parameters of `open`.
  * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
 
@@ -103,8 +104,8 @@ typedef struct riis_patches {
 } riis_patches;
 RIIS_API riis_status riis_patches_init(riis_patches *patches, int64_t struct_size); /* the defaults */
 
-/* Makes a valve from patches, which it copies. Its parameters are "opening" and "skirt_length". A skirt continues the
- * sides v = 0 of only one patch. patch_id is the patch's number, from 0.
+/* Makes a valve from copies of the patches. The valve's parameters are "opening" and "skirt_length". A skirt continues each side
+ * v = 0 that belongs to only one patch. patch_id is the patch's number, from 0.
  * Errors: RIIS_INVALID_PARAMETER naming the curve or patch and its value, such as sides that do not meet. */
 RIIS_API riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve);
 
@@ -129,9 +130,9 @@ RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_
 RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id,
                                               riis_parameter *parameter, int64_t struct_size);
 
-/* The curves and patches of a valve at its opening, after a warp and before placement. If n_pieces equals n_curves,
- * riis_patches has the same arrays, and they make the same shape. Trileaflet and aortic valves and valves from patches
- * have as many pieces as curves, unless a warp has landmarks on their curves (riis_valve_set_warp). */
+/* The curves and patches of a valve at its opening, after a warp and before placement. If n_pieces equals n_curves, these arrays
+ * also fit into riis_patches, and make the same shape there. Trileaflet and aortic valves and valves from patches have as many
+ * pieces as curves, unless a warp has landmarks on their curves (riis_valve_set_warp). */
 typedef struct riis_valve_patches {
   int64_t n_curves;           /* curves; each is a side of a patch */
   int64_t n_pieces;           /* Bezier pieces of all curves. Sides of mitral and bileaflet patches may have several */
@@ -149,7 +150,7 @@ typedef struct riis_valve_patches {
                                  point lies bulge |W| unit(W x T) beside the middle of the straight line */
 } riis_valve_patches;
 /* Gives the curves and patches of a valve at its opening. The arrays are valid until the next call that may change the
- * valve. Points of a side are labelled by their share of its length. All normals S_u x S_v have the directions that
+ * valve. On a side, u or v of a point is the point's share of the side's length. All normals S_u x S_v have the directions that
  * riis_surface_create describes. A mitral patch has a bulge, so a Coons patch of its sides differs from it.
  * Errors: RIIS_INVALID_PARAMETER as riis_surface_create. */
 RIIS_API riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patches *patches, int64_t struct_size);

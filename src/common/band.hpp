@@ -26,7 +26,7 @@ struct Band {
   double sure_distance() const { return (1 - std::abs(offset)) * half_thickness; }
 
   // Returns the least half thickness that marks a node. Off the rim, it is h / (1 + offset) for h >= 0, and -h / (1 - offset)
-  // below. At a rim it is the root e of (1 - offset^2) e^2 + 2 offset h e - d^2 = 0, which gives the same for h = d and h = -d.
+  // below. At a rim, this distance is the root e of (1 - offset^2) e^2 + 2 offset h e - d^2 = 0, also for h = d and h = -d.
   double marking_thickness(double distance, double height) const {
     if (!steps_aside() || !(distance > 0)) return distance;
     const double cosine = height / distance, along = offset * cosine;

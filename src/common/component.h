@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * The project's components are separate libraries, such as riis_vtk, and report errors as the core's last error. The function
- * below is exported for these components, but its header is not installed, and it is not part of the public interface.
+ * below is exported for these components, but it is not part of the public interface, and its header is not installed.
  */
 #ifndef RIIS_COMMON_COMPONENT_H
 #define RIIS_COMMON_COMPONENT_H

@@ -26,8 +26,8 @@ struct EdgeLengths {
   // Returns how many edges fit across the band.
   riis_cells_across across(double half_thickness) const {
     if (n == 0) return {0, 0, 0, 0, 0, 0, half_thickness, 0};
-    // The mean is limited to the range of the lengths, because the rounded sum could put it outside. Otherwise the mean of equal
-    // lengths could differ from them.
+    // The mean is limited to the range of the lengths, because the rounded sum could put it outside. Without this limit the mean
+    // of equal lengths could differ from the lengths.
     const double mean = std::clamp(static_cast<double>(sum / static_cast<Sum>(n)), shortest, longest);
     const double band = 2 * half_thickness;
     return {band / longest, band / mean, band / shortest, shortest, mean, longest, half_thickness, n};

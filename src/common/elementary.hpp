@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sines, cosines and arc tangents whose bits depend on the argument alone. A C library takes other code for these functions on
-// other processors, and the last bits differ. These functions have only sums, products, quotients and roots, which IEEE 754
-// rounds in one way. Arguments are finite. Errors are in units of 2^-53 = 1.1e-16, and test_elementary checks them.
+// other processors, and the last bits differ. The functions of this file have only sums, products, quotients and roots, which
+// IEEE 754 rounds in one way. Arguments are finite. Errors are in units of 2^-53 = 1.1e-16, and test_elementary checks them.
 //
-// The polynomials are in the square of the argument. They interpolate the functions at Chebyshev points, except the one of
-// sine_of_pi. That one is a fit by least squares, and its third coefficient is lowered by five units in its last place. So no
-// value exceeds 1.
+// The polynomials are in the square of the argument. The polynomials interpolate the functions at Chebyshev points, except the
+// one of sine_of_pi. The polynomial of sine_of_pi is a fit by least squares, whose third coefficient is five units lower in its
+// last place. So no value exceeds 1.
 #pragma once
 
 #include <cmath>
@@ -58,7 +58,8 @@ inline SineCosine turned_by_quarters(SineCosine of, double quarters) {
 
 }  // namespace elementary
 
-// Returns sin(pi u) for |u| <= 1/2, with an error of 3.5 units. It is exact at 0 and at both ends, and never beyond 1.
+// Returns sin(pi u) for |u| <= 1/2, with an error of 3.5 units. The sine is exact at 0 and at both ends of this range, and never
+// beyond 1.
 inline double sine_of_pi(double u) {
   constexpr double in_squares[] = {3.141592653589793,     -5.167712780049953,      2.5501640398765839,
                                    -0.5992645293034821,   0.08214588638811002,     -0.0073704292175835835,
@@ -66,7 +67,7 @@ inline double sine_of_pi(double u) {
   return u * elementary::polynomial(in_squares, u * u);
 }
 
-// Returns cos(pi t) for 0 <= t <= 1, with an error of 3.5 units. It is exact at 0, 1/2 and 1.
+// Returns cos(pi t) for 0 <= t <= 1, with an error of 3.5 units. The cosine is exact at 0, 1/2 and 1.
 inline double cosine_of_pi(double t) { return sine_of_pi(0.5 - t); }
 
 // Returns sine and cosine of an angle in radians, with errors of 2 units. Beyond 1e6 the error grows with the angle.
@@ -80,7 +81,7 @@ inline SineCosine sine_cosine(double radians) {
       elementary::of_small(((near - quarters * first) - quarters * second) - quarters * third), quarters);
 }
 
-// Returns sine and cosine of an angle in degrees, with errors of 2 units. They are exact at multiples of 90 degrees.
+// Returns sine and cosine of an angle in degrees, with errors of 2 units. Sine and cosine are exact at multiples of 90 degrees.
 inline SineCosine sine_cosine_degrees(double degrees) {
   using elementary::half_pi;
   // The reduction to a number of quarter turns and an angle in [-45, 45] degrees is exact.
@@ -98,7 +99,7 @@ inline double arc_tangent(double y, double x) {
                                    -0.06664510525508936, 0.05858140904866328,  -0.050854078345894844,
                                    0.03923044778479309,  -0.019175404711104935};
   const double ax = std::abs(x), ay = std::abs(y), least = ay < ax ? ay : ax, largest = ay < ax ? ax : ay;
-  // Beyond pi/8 the angle is measured from pi/4. So the quotient is at most tan(pi/8).
+  // Beyond pi/8 the angle is measured from pi/4. The quotient is therefore at most tan(pi/8).
   constexpr double tangent_of_eighth = 0.41421356237309503;
   const bool is_wide = least > tangent_of_eighth * largest;
   const double over = is_wide ? least - largest : least, under = is_wide ? least + largest : largest;

@@ -15,7 +15,8 @@ namespace {
 
 // Distances from the plane, as shares of the wall's size: within a flat part, and within a part that the user points at.
 constexpr double flat_share = 5e-4, pointed_share = 5e-3;
-// Triangles of a flat part may lean by this much against its plane, in degrees. Triangles of little height lean more by rounding.
+// The largest angle between a triangle of a flat part and the part's plane, in degrees. Triangles of little height lean more by
+// rounding.
 constexpr double most_lean = 25;
 // A flat part has at least so many triangles.
 constexpr std::int64_t least_triangles = 4;
@@ -24,7 +25,7 @@ constexpr double band_share = 0.5;
 constexpr std::size_t n_sectors = 12;
 // Flat parts that touch make each other unclear if their areas differ by less than this factor. Else only the small one is.
 constexpr double most_apart = 10;
-// A small part is an end if its rim has so many sides, and if the wall is as steep up to this share of the radius.
+// A small part is an end if its rim has at least this number of sides and the wall is as steep up to this share of the radius.
 constexpr std::int64_t least_sides = 12;
 constexpr double wide_band_share = 1.5;
 
@@ -160,7 +161,8 @@ Part Finder::grown(std::int64_t seed, double tolerance) {
   Part part;
   part.triangles = {seed};
   fit(part);
-  // At first the plane moves with each triangle. Then the triangles are collected anew in the plane, until they stay.
+  // At first the plane moves with each triangle. The triangles are then collected anew in the plane, until the collection stays
+  // the same.
   Vector3 area = part.area * part.plane.normal, centre = part.area * part.plane.point;
   double sum = part.area;
   collect(seed, part, tolerance, [&](std::int64_t i) {

@@ -15,8 +15,8 @@ namespace riis::flat_parts {
 
 // A flat part below this share of the whole area is noise.
 inline constexpr double least_share = 3e-4;
-// The angle between a flat part and the wall beside it, in degrees: a tube that is cut has a mean angle of 90, also if it is cut
-// obliquely. A part between the limits may be a cut, or a flat place of the wall.
+// The angle between a flat part and the wall beside it, in degrees. A tube that is cut has a mean angle of 90, even if the cut is
+// oblique. A part between the limits may be a cut, or a flat place of the wall.
 inline constexpr double clear_mean = 55, clear_least = 20, unclear_mean = 30;
 // Four pi times the area over the square of the perimeter: 1 for a disc, 0.6 for an ellipse thrice as long as wide.
 inline constexpr double least_roundness = 0.25;
@@ -53,7 +53,7 @@ struct Part {
 // Finds flat parts. The triangles must stay while this object is used, and neighbours must face alike. The surface may be open.
 class Finder {
  public:
-  // `faces_outwards` says that the triangles face outwards. Else the wall beside a part counts as behind it.
+  // `faces_outwards` says that the triangles face outwards. In other cases the wall beside a part counts as behind the part.
   Finder(const Triangles &triangles, bool faces_outwards);
 
   // Returns the flat parts that may be ends, the largest first. `parts` are known already, and are among them.
@@ -72,7 +72,8 @@ class Finder {
   Part grown(std::int64_t seed, double tolerance);
   // Measures the rim and the angle to the wall beside it.
   void measure(Part &part);
-  // Adds a part, unless a larger one has most of its triangles. Removes smaller ones of which it has most.
+  // Adds a part, unless a larger part has most of its triangles. Removes smaller parts whose triangles are mostly in the new
+  // part.
   void add(Part part, std::vector<Part> &parts);
 
   void fit(Part &part) const;

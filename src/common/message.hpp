@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A message is composed of words and numbers in memory of a fixed size. It allocates nothing and depends on no locale.
+// A message is composed of words and numbers in memory of a fixed size. The message allocates nothing and depends on no locale.
 #pragma once
 
 #include <algorithm>

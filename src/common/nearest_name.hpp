@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the existing name that is nearest to a wrong one, because the user probably meant it. All the code is in this header,
+// Finds the existing name that is nearest to a wrong name. The user probably meant this name. All the code is in this header,
 // because the library and the program both include it.
 #pragma once
 

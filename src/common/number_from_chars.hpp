@@ -18,7 +18,7 @@
 
 namespace riis {
 
-// Finds the text of a number. Each function moves `at` behind what it finds, and returns whether it finds it.
+// Finds the text of a number. Each function moves `at` behind the item that it finds, and returns whether there was one.
 class NumberText {
  public:
   NumberText(const char *first, const char *last) : at(first), last_(last) {}

@@ -5,7 +5,7 @@
 // favours the cell with less resistance, so the drop differs. Here the closed valve has a pressure of 1 upstream and 0
 // downstream. The solver's own equation of p is solved with the schemes of the case: laplacian(1/A, p) = 0. The flow from one
 // side to the other gives the drop. The pressure is given at a distance from the band (endsOf). The flow is steady, so A is K /
-// rho, without rho / dt. It contains neither convection nor viscosity, which are small compared with K.
+// rho, without rho / dt. A contains neither convection nor viscosity, which are small compared with K.
 #include "boundBox.H"
 #include "fvScalarMatrix.H"
 #include "fvmLaplacian.H"
@@ -42,7 +42,8 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
   labelList regionBeyond;
   syncTools::swapBoundaryCellList(mesh, region, regionBeyond);
 
-  // A face between the band and another region lies on one side of the middle of the band. Its area votes for this side.
+  // A face between the band and another region lies on one side of the middle of the band. The area of such a face votes for this
+  // side.
   scalarField votes(region.nRegions(), 0), all(region.nRegions(), 0), volume(region.nRegions(), 0);
   labelList entry(mesh.nCells(), -1);
   for (int64_t i = 0; i < marked.n_nodes; ++i) {
@@ -125,7 +126,7 @@ boolList endsOf(const fvMesh &mesh, const scalarField &K, const labelList &side)
 // Returns this rank's part of the closed area (docs/theory/measures.md, "Closed area"). Triangles are cut into parts with edges
 // below a quarter of the half thickness. The middle of a part tells whether it lies in this rank's cells. From the middle, eight
 // points along the normal stand for equal shares of the integral of K across the band. If another leaflet is nearer to a point,
-// this share belongs to that leaflet. So leaflets that touch count once. The leaflet leftOut does not count.
+// this share belongs to that leaflet. Leaflets that touch therefore count once. The leaflet leftOut does not count.
 template <class Check>
 scalar closedArea(const polyMesh &mesh, const riis_surface *surface, scalar halfThickness, int32_t leftOut,
                   int32_t nThreads, const Check &check) {
@@ -265,8 +266,8 @@ scalar riisValve::conductance(const scalarField &K, const labelList &side, const
       const labelUList &cells = mesh_.boundary()[patch].faceCells();
       forAll(cells, i) diagonal[cells[i]] += equation.internalCoeffs()[patch][i];
     }
-    // setValues clears the coefficients between a fixed cell and other ranks. If the cell has no neighbour on its own rank, it
-    // then has no diagonal.
+    // setValues clears the coefficients between a fixed cell and other ranks. A cell without a neighbour on its own rank then has
+    // no diagonal.
     forAll(fixed, i) {
       const label cell = fixed[i];
       if (diagonal[cell] != 0) continue;

@@ -171,7 +171,8 @@ pointField pointsAtRest(const fvMesh &mesh) {
   return points;
 }
 
-// Takes points of faces. They are in the order of their coordinates at rest, and points with the same coordinates are one point.
+// Takes points of faces. The points are in the order of their coordinates at rest, and points with the same coordinates are one
+// point.
 void riisFollow::readFaces(const labelList &points, const string &place) {
   local_ = points;
   const pointField all(gathered(pointsAtRest(mesh_)));
@@ -192,7 +193,7 @@ void riisFollow::readFaces(const labelList &points, const string &place) {
   name_ = Foam::name(atRest_.size()) + " points" + place;
 }
 
-// Takes points by their labels in the whole mesh. They are in the order of the list.
+// Takes points by their labels in the whole mesh. The points are in the order of the list.
 void riisFollow::readLabels(const dictionary &dict) {
   const labelList wanted(dict.get<labelList>("points"));
   name_ = Foam::name(wanted.size()) + " points";
@@ -252,7 +253,8 @@ void riisFollow::chooseNearest(const pointField &places, const dictionary &dict)
     }
   }
   giveToAll(chosen);
-  // Each rank keeps its chosen points. Their new places in the list of all ranks' points follow from the number on each rank.
+  // Each rank keeps its chosen points. The new places of these points in the list of all ranks' points follow from the number on
+  // each rank.
   labelList sizes(Pstream::nProcs(), 0);
   sizes[Pstream::myProcNo()] = local_.size();
   Pstream::gatherList(sizes);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines a linear solver for the pressure. It gives a volume source to cells that the band of a moving valve seals off.
+// Defines a linear solver for the pressure. This solver gives a volume source to cells that the band of a moving valve seals off.
 //
-// The band imposes the velocity of the leaflets. On the mesh this velocity is not free of divergence, for three reasons: it
-// points through walls, leaflets stretch, and it jumps from one leaflet to the next. If all faces of a cell are resisted, blood
-// can pass them only under a very large pressure. This solver adds a source to the right-hand side of the pressure equation,
-// and then calls the solver that its dictionary names as linearSolver. README.md says how to switch it on, and riisNetSource.H
-// says what it adds.
+// The band imposes the velocity of the leaflets. On the mesh this velocity has divergence for three reasons: it points through
+// walls, leaflets stretch, and it jumps between leaflets. If all faces of a cell are resisted, blood can pass them only under a
+// very large pressure. The solver riisSource adds a source to the right-hand side of the pressure equation, and then calls the
+// linearSolver of its dictionary. README.md shows how to switch the source on, and riisNetSource.H describes the source.
 #include "addToRunTimeSelectionTable.H"
 #include "fvOptions.H"
 #include "lduMatrix.H"

@@ -68,7 +68,7 @@ void riisValve::copyValve() {
 }
 
 void riisValve::readAll() {
-  // If the entry has a subdictionary for the keys, OpenFOAM reads them from there. Keys beside the part would do nothing.
+  // If the entry has a subdictionary for the keys, OpenFOAM reads the keys from it. Keys beside the part would do nothing.
   const word part = modelType_ + "Coeffs";
   if (dict_.found(part)) {
     refuseOthers(dict_, {"type", "active", "libs", "selectionMode", "fields", part.c_str()});
@@ -263,7 +263,7 @@ void riisValve::setWarp(const pointField &targets, const dictionary *dict) {
   checked(riis_valve_set_warp(valve_.get(), warp_.get(), nullptr));
 }
 
-// Moves the placement to the present points of the mesh. If a warp follows points, it gets the part of their motion that is
+// Moves the placement to the present points of the mesh. A warp that follows points gets the part of the points' motion that is
 // not rigid.
 void riisValve::follow() {
   placement_ = placementAtRest_;
@@ -390,8 +390,8 @@ void riisValve::forces(const volVectorField &U, const vector &about, vectorField
   addOverRanks(moment);
 }
 
-// Moves the valve to its position at the end of the step, marks the cells, and computes K. This happens once in a step, so all
-// outer correctors of the step use the same K.
+// Moves the valve to its position at the end of the step, marks the cells, and computes K. The marking happens once in a step, so
+// all outer correctors of the step use the same K.
 void riisValve::mark() {
   const Time &time = mesh_.time();
   const riis_surface_options placementBefore = placement_;

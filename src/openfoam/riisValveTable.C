@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defines riisValveTable, a function object that writes a table of a valve: postProcessing/NAME/TIME/riisValve.dat.
 //
-// A row has the opening, the pressure difference, the flow and its volumes, the areas, the largest speed at the band, and the
-// force and moment of the flow on each leaflet. README.md lists keys and columns. Volumes grow in each time step, so they do not
-// depend on how often the table is written, and they continue after a restart.
+// A row has the opening, the pressure difference, the flow and its volumes, the areas, and the largest speed at the band. It also
+// has the force and moment of the flow on each leaflet. README.md lists keys and columns. Volumes grow in each time step, so the
+// interval of writing does not change the volumes. Volumes also continue after a restart.
 #include "addToRunTimeSelectionTable.H"
 #include "fvMeshFunctionObject.H"
 #include "fvOptions.H"

@@ -6,8 +6,8 @@
 //
 // Q is the flow out of the domain through the patch, and p_c is the pressure of the compliance C. Rp and Rd are the proximal and
 // distal resistances, and p_v is the pressure behind them. p_c advances by backward Euler. Each pressure equation of a step uses
-// the latest Q, and begins with p_c of the last step. If blood flows back through a face, p is the total pressure there, because
-// a static pressure would let returning blood gain speed without bounds.
+// the latest Q, and begins with p_c of the last step. At a face with backflow, p is the total pressure, because a static pressure
+// would let returning blood gain speed without bounds.
 #include "addToRunTimeSelectionTable.H"
 #include "fixedValueFvPatchFields.H"
 #include "riisValve.H"

@@ -216,7 +216,7 @@ class Page(unittest.TestCase):
         self.assertIn("at 5.00 ns a pair of a node and a triangle", text.replace("\n", " "))
         self.assertIn("A step on one thread takes 66,667 ns for each marked node.", text.replace("\n", " "))
         one_line = " ".join(text.split())
-        self.assertIn("This machine has 1 processor. So 4 to 16 threads with a processor each were not measured", one_line)
+        self.assertIn("This machine has 1 processor. 4 to 16 threads with a processor each, and 4 to 16 ranks, were", one_line)
         self.assertIn("Left out: CGAL (not found).", text)
         text = self.details()
         one_line = " ".join(text.split())

@@ -267,7 +267,7 @@ TEST(test_patches) {
       "\"d\": [[1,0,0],[0,1,0]]}}}");
   run_program(EXPORT, "--time-step", "0.01", RAMPS, "--valve", scratch_path("shrinks.json"), NULL);
   assert_int_equal(program_exit_code, 0);
-  assert_non_null(strstr(program_err, "left out, because the area is 0 in some frames"));
+  assert_non_null(strstr(program_err, "left out: the area is 0 in some frames"));
   uris_valve valve = take_export();
   assert_non_null(strstr(program_out, "<!-- riis, shrinks valve\n"));
   assert_string_equal(valve.face[0].name, "leaflet_0");

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines riisValve for the Foundation's OpenFOAM, as an fvModel: it adds a heart valve to the momentum equation, and a volume
-// source to the equation of p.
+// Defines riisValve for the Foundation's OpenFOAM, as an fvModel. The model adds a heart valve to the momentum equation, and a
+// volume source to the equation of p.
 //
-// It moves the valve by a law in time, and marks the cells once in a step. It adds K (U - U_valve) / rho to the equation of a
-// solver with kinematic pressure, such as the module incompressibleFluid. The source comes from ../riisNetSource.H. The solver
-// takes it by fvModels().sourceProxy(p), so no solver of matrices is needed here. ../../README.md lists the entries.
+// The model moves the valve by a law in time, and marks the cells once in a step. The model adds K (U - U_valve) / rho to the
+// equation of a solver with kinematic pressure, such as the module incompressibleFluid. The source comes from ../riisNetSource.H.
+// The solver takes it by fvModels().sourceProxy(p), so no solver of matrices is needed here. ../../README.md lists the entries.
 #include "addToRunTimeSelectionTable.H"
 #include "fvMatrices.H"
 #include "fvModel.H"
@@ -97,7 +97,7 @@ riisModel::riisModel(const word &name, const word &modelType, const fvMesh &mesh
 
 void riisModel::readAll(const dictionary &whole) {
   // OpenFOAM reads the keys from a part of the entry, if the entry has such a part. If the entry has a subdictionary for the
-  // keys, OpenFOAM reads them from there.
+  // keys, OpenFOAM reads the keys from it.
   const word part = type() + "Coeffs";
   if (whole.found(part)) refuseOthers(whole, {"type", "libs", part.c_str()});
   const dictionary &dict = whole.optionalSubDict(part);
@@ -151,8 +151,8 @@ void riisModel::printForce() const {
        << " N" << endl;
 }
 
-// Moves the valve to its position at the end of the step, marks the cells, and computes K. This happens once in a step, so all
-// outer correctors of the step use the same K.
+// Moves the valve to its position at the end of the step, marks the cells, and computes K. The marking happens once in a step, so
+// all outer correctors of the step use the same K.
 void riisModel::correct() {
   const Time &time = mesh().time();
   if (timeIndex_ == time.timeIndex()) return;
@@ -193,7 +193,7 @@ void riisModel::addSup(const volVectorField &U, fvMatrix<vector> &eqn) const {
   if (withVelocity_) eqn += KU_ / rho;
 }
 
-// Gives the solver's equation of p the volume source. One source serves all valves, so the first of them gives it.
+// Gives the solver's equation of p the volume source. One source serves all valves, so the first valve gives this source.
 void riisModel::addSup(fvMatrix<scalar> &eqn) const {
   if (!mesh().conformal()) {
     FatalErrorInFunction << "valve " << name() << " at time " << timeName(mesh())

@@ -10,7 +10,7 @@
 namespace riis::program {
 namespace {
 
-// The samples of a surface whose triangles are coarse. Each triangle has one at least.
+// The samples of a surface whose triangles are coarse. Each triangle has at least one point.
 constexpr double n_wanted = 20'000;
 
 double area_of(const double *a, const double *b, const double *c) {

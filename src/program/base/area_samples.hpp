@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a surface. Out: points on it that stand for equal shares of its area, as nearly as its triangles allow.
+// In: a surface. Out: points on the surface that stand for equal shares of its area, as nearly as its triangles allow.
 #pragma once
 
 #include <riis/riis.h>
@@ -18,7 +18,7 @@ struct AreaSamples {
   std::vector<std::int32_t> leaflet;
 };
 
-// Leaves out the skirt and the housing. Each triangle is cut into equal ones, with a point in each.
+// Leaves out the skirt and the housing. Each triangle is cut into equal triangles, with a point in each.
 AreaSamples area_samples(const riis_surface *surface);
 
 }  // namespace riis::program

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of each command as the user gave them. Only their form is checked here. The library checks the values.
+// The options of each command as the user gave them. Only the options' form is checked here. The library checks the values.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -39,7 +39,7 @@ struct ValveOptions {
   std::optional<Unit> unit, surface_unit;  // units of the mesh and of the surface's file; they give the scale
   std::optional<Unit> placed_unit;         // unit of the file of a placed valve
   bool takes_placed_unit = false;          // the user named no unit, so `unit` is that of the placed valve
-  bool has_doubted_unit = false;           // the sizes contradict `unit`, so no text calls the mesh's lengths by it
+  bool has_doubted_unit = false;  // the sizes contradict `unit`, so no text names this unit for the mesh's lengths
   // Whether the user gave the values as numbers. A case and the checks of the command line set these members.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
   std::int32_t n_threads = 0;  // 0: the library chooses by the amount of work
@@ -203,7 +203,7 @@ struct PlaceOptions : ValveOptions {
   std::string output, foam_output, c_output, fortran_output;  // "" if not wanted, "-" for stdout
 };
 
-// The options of riis patient. `wall` is the file of the wall. Points have its unit, and so have lengths without a unit.
+// The options of riis patient. `wall` is the file of the wall. Points, and lengths without a unit, have the wall's unit.
 struct PatientOptions : ValveOptions {
   std::string landmarks, folder;             // a file, and the folder for the results
   bool has_valve = false;                    // whether the user named the kind

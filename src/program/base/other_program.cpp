@@ -35,7 +35,7 @@ class Files {
   void read_nothing() { posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0); }
   void pass(int from, int to) { posix_spawn_file_actions_adddup2(&actions_, from, to); }
 
-  // Starts the words as a program. Returns 0, or why it could not be run.
+  // Starts the words as a program. Returns 0, or the error of a program that could not be run.
   int start(const std::vector<std::string> &words, pid_t &process) const {
     std::vector<char *> arguments;
     for (const std::string &word : words) arguments.push_back(const_cast<char *>(word.c_str()));
@@ -47,7 +47,7 @@ class Files {
   posix_spawn_file_actions_t actions_;
 };
 
-// Waits for the end of a program. Returns its exit status, or -1 if a signal ended it.
+// Waits for the end of a program. Returns the exit status, or -1 if a signal ended the program.
 int status_of(pid_t process) {
   int status = 0;
   while (waitpid(process, &status, 0) < 0)

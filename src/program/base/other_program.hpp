@@ -13,7 +13,7 @@ namespace riis::program {
 struct CloseFile {
   void operator()(std::FILE *file) const { std::fclose(file); }
 };
-// A file without a name. It is gone when it is closed.
+// A file without a name. Its closing removes the file.
 using TemporaryFile = std::unique_ptr<std::FILE, CloseFile>;
 // Returns NULL, and sets errno, if the file cannot be made.
 TemporaryFile temporary_file();
@@ -25,7 +25,7 @@ struct ProgramEnd {
   std::vector<std::string> messages{};  // all these lines
 };
 // Runs the words as a program and waits for its end. A first word without a slash is looked for in PATH. The program reads
-// `input` from its position, or nothing if it is NULL. `read` gets each line of the output.
+// `input` from the file's position, or nothing if `input` is NULL. `read` gets each line of the output.
 ProgramEnd run_program(
     const std::vector<std::string> &words, std::FILE *input = nullptr,
     const std::function<void(const std::string &)> &read = [](const std::string &) {});
@@ -33,11 +33,11 @@ ProgramEnd run_program(
 // Returns the path of the program with that name on the PATH, or "" if there is none.
 std::string program_on_path(const std::string &name);
 
-// Returns the Python that the program starts: `python3`, or the one that the environment variable RIIS_PYTHON names.
+// Returns the Python that the program starts: `python3`, or the value of the environment variable RIIS_PYTHON.
 std::string python_of_user();
 
 // Implements `riis view`: replaces this process by `python3 -m riis view` with the same words. Returns only by a Refusal, which
-// says how to install the Python package riis if it is missing.
+// says how to install a missing Python package riis.
 [[noreturn]] void run_view(int argc, char **argv);
 
 }  // namespace riis::program

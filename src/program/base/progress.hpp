@@ -12,7 +12,7 @@
 
 namespace riis::program {
 
-// The time for which a stage prints nothing. It depends on whether stderr is a terminal or a log.
+// The time for which a stage prints nothing. This time depends on whether stderr is a terminal or a log.
 struct Silence {
   std::chrono::milliseconds on_terminal{1000}, in_log{30000};
 

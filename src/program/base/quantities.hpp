@@ -3,7 +3,8 @@
 // In: a number as the user wrote it, perhaps with a unit. Out: the number in the units of a mesh, and the names of units.
 //
 // Beside metres a mesh has kilograms, and beside centimetres and millimetres it has grams. If the mesh's unit of length is known,
-// a number without a unit is in SI units. Otherwise it is in the units of the mesh, and a number with a unit is refused.
+// a number without a unit is in SI units. If this unit is unknown, the number is in the units of the mesh, and a number with a
+// unit is refused.
 #pragma once
 
 #include <optional>

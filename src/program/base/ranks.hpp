@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The processes of a run. There is one, unless the program was built with MPI and started by mpirun. Then every process, a rank,
-// takes its share of a mesh's pieces. Only ranks.cpp calls MPI.
+// The processes of a run. There is one process, unless the program was built with MPI and started by mpirun. With mpirun, every
+// process, a rank, takes its share of a mesh's pieces. Only ranks.cpp calls MPI.
 
 // The ranks call the same exchanges in the same order. Each exchange begins with an agreement that no rank has failed. A rank
-// that fails outside an exchange makes one more agreement, at the end of the program. So it meets the next agreement of the
-// others. All ranks end with the message of the lowest failed rank, and none waits forever.
+// that fails outside an exchange makes one more agreement, at the end of the program. This agreement meets the next agreement of
+// the other ranks. All ranks end with the message of the lowest failed rank, and none waits forever.
 #pragma once
 
 #include <cstddef>
@@ -54,7 +54,7 @@ void agree(const Refusal *failure = nullptr);
 
 // Bytes of all ranks in the order of ranks.
 std::vector<std::byte> gather_bytes(const void *own, std::size_t n_bytes, std::size_t element_size);
-// Sends element i of the outer list to rank i. Returns what all ranks sent here.
+// Sends element i of the outer list to rank i. Returns the data that all ranks sent to this rank.
 std::vector<std::byte> exchange_bytes(const void *sent, const std::vector<std::size_t> &n_for_rank,
                                       std::size_t element_size);
 

@@ -11,14 +11,14 @@ namespace riis::program {
 // Throws a Refusal if the system does not say.
 std::string path_of_this_program();
 
-// Makes a pipe whose ends no other program inherits. Returns whether it did; otherwise errno says why.
+// Makes a pipe whose ends no other program inherits. Returns true after success; otherwise errno has the reason.
 bool make_pipe(int ends[2]);
 
-// Lets this process, a child by fork(), get the signal when its parent ends. A parent that has ended before is not noticed.
+// The end of the parent sends the signal to this process, a child by fork(). A parent that has ended before is not noticed.
 void end_with_parent(int signal);
 
-// Returns the bytes that this process counts towards a limit of its memory (RLIMIT_AS), or nothing if the system does not say or
-// does not keep the limit.
+// Returns the bytes of this process that count towards the limit of its memory (RLIMIT_AS). Returns nothing if the system does
+// not say, or ignores the limit.
 std::optional<std::uintmax_t> limited_memory();
 
 }  // namespace riis::program

@@ -36,7 +36,7 @@ bool make_pipe(int ends[2]) {
 
 void end_with_parent(int signal) {
   const int queue = kqueue();
-  if (queue < 0) return;  // without it, this process goes on until its work is done
+  if (queue < 0) return;  // without the watch, this process goes on until its work is done
   std::thread([queue, signal, parent = getppid()] {
     struct kevent parents_end {
     }, seen{};

@@ -21,7 +21,7 @@ namespace {
 
 template <class Number>
 std::optional<Number> whole_number_in(const std::string &text) {
-  // std::from_chars does not accept a plus sign, so it is skipped.
+  // A plus sign is skipped, because std::from_chars does not accept it.
   const char *first = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
   const char *last = text.data() + text.size();
   Number number{};
@@ -151,7 +151,7 @@ std::string text_of_file(const std::string &path) {
   std::ifstream file(path);
   std::ostringstream text;
   if (file) text << file.rdbuf();
-  // Opening a folder as a file succeeds. Only reading it fails, so folders are recognised here.
+  // Opening a folder as a file succeeds. Only reading the folder fails, so folders are recognised here.
   if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + system_text(errno));
   if (text.str().empty()) refuse_file(path, "is empty");
   if (text.str().rfind("version https://git-lfs.github.com/spec/", 0) == 0)

@@ -41,7 +41,7 @@ std::vector<std::string> split(const std::string &text, const char *marks);
 // Returns the parts with a text between them. one_of returns a list for a sentence, such as "m, cm or mm".
 std::string joined_by(const std::vector<std::string> &parts, const char *between);
 std::string one_of(const std::vector<std::string> &names);
-// Returns ", did you mean NAME?" with the name that is nearest to a word, between two marks, or "" if none is near.
+// Returns ", did you mean NAME?" with the name nearest to a word, between two marks, or "" if no name is near.
 std::string did_you_mean(const std::string &word, const std::vector<std::string> &names, const char *before = "",
                          const char *after = "");
 
@@ -54,7 +54,7 @@ inline bool is_control(unsigned char c) { return c < ' ' || c == 127; }
 // Returns the system's message for errno.
 std::string system_text(int error);
 
-// In: a path. Out: its ending, or the text of the file. Refusals name the file.
+// In: a path. Out: the path's ending, or the text of the file. Refusals name the file.
 
 // Returns the ending of a path, from the point on and in small letters.
 std::string ending_of(const std::string &path);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<Unit, 3> all_units = {Unit::metre, Unit::centimetre, Unit::millimetre};
 
-// The results are whole numbers, so that the quotient of two of them is the number that a user would write, such as 0.01.
+// The results are whole numbers, so that a quotient of two results is the number that a user would write, such as 0.01.
 double millimetres_of(Unit unit) { return unit == Unit::metre ? 1000 : unit == Unit::centimetre ? 10 : 1; }
 
 bool is_about(double a, double b) { return std::abs(a - b) <= 1e-9 * b; }
@@ -68,7 +68,7 @@ namespace {
 
 // A valve fits its vessel if the valve's largest side is between these limits. The mesh's middle side is at least the least
 // width, because the valve is no wider than the vessel. The mesh's shortest side is at most the largest width, because the vessel
-// is not much wider than the valve. Both are numbers of valves, and they span a decade, so two units seldom fit.
+// is not much wider than the valve. Both widths are measured in valves and span a decade, so two units seldom fit.
 constexpr double least_width = 0.4, largest_width = 4;
 // Edges longer than this share of the valve's largest side do not show the valve.
 constexpr double longest_edge = 0.3;
@@ -76,15 +76,15 @@ constexpr double longest_edge = 0.3;
 constexpr double usual_edge = 3;
 // Edges near the valve are seldom shorter than this number of half thicknesses.
 constexpr double shortest_edge = 0.3;
-// A mesh whose edges are longer than this number of half thicknesses, or this share of the valve's largest side, was made for
-// another valve.
+// A mesh with edges longer than this number of half thicknesses, or this share of the valve's largest side, was made for another
+// valve.
 constexpr double most_edge = 10, most_edge_of_valve = 0.4;
 // The least half thickness, as a share of the mesh's edge length. A thinner band falls between two layers of nodes and contains
 // few nodes.
 constexpr double smallest_half_thickness = 0.3;
 // A vessel that is too narrow or too wide by more than these ratios is impossible. The valve may stand in a wide basin.
 constexpr double most_too_narrow = 1.5, most_too_wide = 10;
-// A unit is possible if it is at most this much odder than the likeliest one. Oddities are logarithms of ratios.
+// A unit is possible if it is at most this much odder than the likeliest unit. Oddities are logarithms of ratios.
 constexpr double most_odd = 1;
 // The present unit of a wide basin is right if each other unit is odder by at least this much.
 constexpr double surely_odder = 0.3;
@@ -101,7 +101,7 @@ double wideness_at(double factor, const Sizes &s) {
 }
 
 // Returns how odd the sizes are if the mesh's lengths are multiplied by the factor. The default half thickness has the valve's
-// unit, so it says how long and how short the mesh's edges may be.
+// unit, and thus limits the mesh's edges from above and below.
 double oddity_at(double factor, const Sizes &s, double edge) {
   double oddity = narrowness_at(factor, s) + wideness_at(factor, s) +
                   excess(factor * edge / (longest_edge * s.surface.largest_side()));

@@ -20,7 +20,7 @@ const char *words_of(Unit unit);
 // Returns the unit with one of the names in unit_names(), or none for "".
 std::optional<Unit> unit_of(const std::string &name);
 
-// Returns the factor from one unit to the other. For example, it is 0.01 from centimetres to metres.
+// Returns the factor from one unit to the other. For example, this factor is 0.01 from centimetres to metres.
 double factor_between(Unit from, Unit to);
 // Returns the paper's half thickness, which is 0.1 cm, in the given unit.
 double paper_half_thickness(Unit unit);
@@ -67,8 +67,8 @@ inline Box empty_box() {
   return {{far, far, far}, {-far, -far, -far}};
 }
 
-// Sums over points. They tell how far the points reach along their principal axes, so a vessel that lies obliquely is not taken
-// for a wide one.
+// Sums over points. These sums tell how far the points reach along their principal axes, so a vessel that lies obliquely is not
+// taken for a wide one.
 struct Moments {
   double n = 0, sum[3]{}, squares[6]{};  // squares has xx, yy, zz, xy, xz, yz
 
@@ -93,16 +93,16 @@ struct Sizes {
   double unnamed_factor = 1;    // the factor that stands for a run without a unit
 };
 
-// Both limits of the half thickness are shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of the
-// largest side of its aortic valve.
+// These two limits of the half thickness are shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of
+// the largest side of its aortic valve.
 inline constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
 
-// is_too_large returns whether the half thickness is larger than a quarter of the surface. is_too_small returns whether it is so
-// small that the band falls between the mesh's nodes.
+// is_too_large returns whether the half thickness exceeds a quarter of the surface. is_too_small returns whether the band falls
+// between the mesh's nodes.
 bool is_too_large(double half_thickness, const Sizes &sizes);
 bool is_too_small(double half_thickness, const Sizes &sizes);
-// Returns a half thickness that fits: the present one times a power of ten. If none fits, returns the mesh's edge length, or 0 if
-// this length does not fit either.
+// Returns a half thickness that fits: the present one times a power of ten. If no usual value fits, returns the mesh's edge
+// length, or 0 if this length is also unfit.
 double better_half_thickness(const Sizes &sizes);
 
 // The judgement of the unit. A factor stands for a unit: it makes the mesh's lengths fit the surface's.
@@ -114,8 +114,8 @@ struct UnitJudgement {
   bool is_possible(double factor) const { return std::find(factors.begin(), factors.end(), factor) != factors.end(); }
 };
 
-// Judges the present unit, and each of `factors`. The factor 1 need not be among them. A coarse basin in centimetres and a vessel
-// in millimetres can have the same numbers, so the unit of a run without a unit stays possible beside a likelier one.
+// Judges the present unit, and each of `factors`. These factors need not contain 1. A coarse basin in centimetres and a vessel in
+// millimetres can have the same numbers. The unit of a run without a unit therefore stays possible beside a likelier unit.
 UnitJudgement judge_units(const Sizes &sizes, const std::vector<double> &factors);
 // Returns whether the mesh is about as wide as the surface if the mesh's lengths are multiplied by the factor.
 bool is_as_wide(const Sizes &sizes, double factor);

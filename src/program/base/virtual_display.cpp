@@ -38,7 +38,7 @@ constexpr const char *name_of_server = "Xvfb";
 // The numbers that the files have in Xvfb.
 enum ServerFile : int { display_file = 3, key_file = 4, n_server_files = 5 };
 
-// A file descriptor. Its number is above those of the server's files, so that none of these replaces it.
+// A file descriptor. Its number is above the numbers of the server's files, so that no such file replaces this one.
 class File {
  public:
   explicit File(int low) : number_(low < 0 ? -1 : fcntl(low, F_DUPFD_CLOEXEC, 10)) {
@@ -175,7 +175,7 @@ std::string reason_of(int messages) {
 struct Server {
   pid_t process = -1;
   std::string display{};  // its number, or "" if the process has ended
-  int error = 0;          // why it could not be started, as errno has it, or 0
+  int error = 0;          // the errno of the failed start, or 0
 };
 
 // Starts Xvfb with more options, and waits until it is ready. Xvfb finds a free number for its display by itself.

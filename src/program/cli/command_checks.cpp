@@ -119,7 +119,7 @@ void check_distance(const Command &command, const MarkOptions &options) {
     refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
 }
 
-// Refuses looks of pictures that nothing has, or that a movie or a picture without a mesh cannot have.
+// Refuses looks that no picture has, and looks that a movie or a picture without a mesh cannot have.
 void check_style(const Command &command, const MarkOptions &options) {
   const std::string &movie = options.series.movie;
   const PictureStyle &style = options.style;
@@ -157,7 +157,7 @@ void check_solver_scale(const ExportOptions &options) {
                " in place of --scale, and riis export converts");
 }
 
-// svMultiPhysics gets grams, centimetres and seconds. Without --unit, plain numbers are in its units.
+// svMultiPhysics gets grams, centimetres and seconds. Without --unit, plain numbers are in the solver's units.
 void finish_solver_units(ExportOptions &options) {
   check_solver_scale(options);
   const auto in_solver_units = [&](const std::optional<Amount> &given, const Quantity &quantity, double usual) {
@@ -206,7 +206,7 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
     options.series.all_cells = true;  // centres have no parts
   }
   if (options.n_steps > 0 && (has_case || !options.series.times.empty()))
-    refuse_usage("--steps has no effect with --times and --case: it moves one valve by itself, step by step");
+    refuse_usage("--steps has no effect with --times and --case, because --steps itself moves one valve");
   if (has_case) return options;
   apply_amounts(options);
   if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
@@ -254,7 +254,7 @@ AreaOptions finish_from_area(const Command &command, AreaOptions options) {
   if (!options.given_area && options.areas.empty()) refuse_usage("nothing to do: --area or --areas is needed");
   if (!options.areas.empty() && options.output.empty()) refuse_usage("--areas needs --output, the file of the cycle");
   if (options.solve == "opening" && sets_opening(options))
-    refuse_usage("an opening has no effect, because it is found; --solve scale or NAME finds a size at that opening");
+    refuse_usage("an opening has no effect: --solve opening finds it; --solve scale or NAME finds a size");
   finish_valve(command, options);
   finish_areas(options);
   return options;

@@ -26,8 +26,8 @@ using Request = std::variant<MarkOptions, SizeFieldOptions, StatesOptions, AreaO
 // for wrong usage.
 std::optional<Request> parse_command_line(int argc, char **argv);
 
-// Declares options of a command. CLI11 passes on each value as text. This program parses the numbers itself, so that they do not
-// depend on the locale.
+// Declares options of a command. CLI11 passes on each value as text. This program parses the numbers itself, so that the locale
+// does not change numbers.
 class Command {
  public:
   explicit Command(CLI::App *app) : app_(app) {}

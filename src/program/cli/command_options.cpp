@@ -106,13 +106,13 @@ void declare_opening(Command &command, ValveOptions &options) {
 // Declares the options of a valve's shape besides its opening.
 void declare_shape(Command &command, ValveOptions &options) {
   command.text("--params-open", "FILE.json", "Parameters of the state that the valve opens to", options.params_open);
-  command.text("--warp", "FILE.json|.csv", "Landmarks on the valve and in the patient, to which it is warped",
+  command.text("--warp", "FILE.json|.csv", "Landmarks on the valve, and in the patient, to which the valve is warped",
                options.warp);
   CLI::Option *const skirt =
       command.parsed("--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, the longest",
                      options.skirt, parse_positive_finite);
   command
-      .text("--wall", "FILE", "A surface in the mesh's frame that the skirt reaches, as --surface reads it",
+      .text("--wall", "FILE", "A surface in the mesh's frame that the skirt reaches, in a format of --surface",
             options.wall)
       ->needs(skirt);
 }
@@ -134,7 +134,7 @@ CLI::Option *declare_surface_files(Command &command, ValveOptions &options) {
       command
           .values("--surface", "FILE",
                   "A file in place of a valve: .vtp, .vtu, .vtk, .stl, .obj, .ply, or a motion, .pvd or .dat; may be "
-                  "repeated, a leaflet a file",
+                  "repeated, one leaflet per file",
                   [&options](const std::vector<std::string> &files) { set_surface(options, files, "--surface"); })
           ->allow_extra_args(false);
   command
@@ -309,7 +309,8 @@ void declare_style(Command &command, PictureStyle &style) {
   command.choice("--picture-panels", "both (default), valve or marks", panel_names, style.panels, "WHICH");
 }
 
-// --view is declared after --picture, so CLI11 passes the pictures first. Their number is then known when the views are read.
+// --view is declared after --picture, so CLI11 passes the pictures first. The number of pictures is then known when the views are
+// read.
 void declare_pictures(Command &command, MarkOptions &options) {
   CLI::Option *const pictures =
       command
@@ -448,7 +449,7 @@ void declare_leaks(Command command, MarkOptions &options) {
   declare_mesh(command, options);
   command.flag("--cells", "Take the centres of the cells as the nodes, as riis mark --cells does", options.at_cells);
   command
-      .values("--between", "X,Y,Z X,Y,Z", "Say whether unmarked nodes join these two points, and where",
+      .values("--between", "X,Y,Z X,Y,Z", "Say whether and where unmarked nodes join these two points",
               [&options](const std::vector<std::string> &ends) {
                 options.check_leaks = LeakCheck{{}, "--between"};
                 for (const std::string &end : ends)
@@ -615,16 +616,16 @@ void declare_place(Command command, PlaceOptions &options) {
       ->required();
   command.text("--output", "OUT.json", "The placed valve, for --valve of the other commands; - is stdout",
                options.output);
-  command.text("--foam", "OUT", "The valve and its placement as OpenFOAM reads them, in metres", options.foam_output);
+  command.text("--foam", "OUT", "The placed valve as OpenFOAM reads it, in metres", options.foam_output);
   command
       .parsed("--skirt", "L", "The longest skirt that OpenFOAM accepts, in the mesh's unit (default 6 mm)",
               options.skirt, parse_positive_finite)
       ->needs(command.option("--foam"));
-  command.text("--c", "OUT", "The valve and its placement as lines of C", options.c_output);
-  command.text("--fortran", "OUT", "The valve and its placement as lines of Fortran", options.fortran_output);
+  command.text("--c", "OUT", "The placed valve as lines of C", options.c_output);
+  command.text("--fortran", "OUT", "The placed valve as lines of Fortran", options.fortran_output);
   declare_loudness(command, options);
   command.group("Landmarks");
-  command.text("--mesh", "MESH", "Refuse landmarks that are not at this mesh", options.mesh);
+  command.text("--mesh", "MESH", "Refuse landmarks that do not lie at this mesh", options.mesh);
   declare_cells_where(command, options);
   command.option("--cells-where")->needs(command.option("--mesh"));
   declare_unit_of(command, "--unit", "Unit of the mesh (default that of the landmarks)", options.unit);
@@ -690,7 +691,7 @@ void declare_patient(Command command, PatientOptions &options) {
                options.valve);
   command.text("--params", "FILE.json", "Parameters of the valve that serves as the template", options.params);
   declare_settings(command, "Set and keep one parameter, in cm; may be repeated", options);
-  command.parsed("--skirt", "L", "The longest skirt from the valve to the wall to accept (default 6 mm)",
+  command.parsed("--skirt", "L", "The longest acceptable skirt from the valve to the wall (default 6 mm)",
                  options.given_skirt, positive_amount_of(a_length));
   command.group("Mesh and flow");
   command.parsed("--half-thickness", "L", "Half thickness of the band (default 1 mm, and 1.5 mm for a mitral valve)",

@@ -323,7 +323,7 @@ file beside it, and --time-step is the time between two frames. Several files ar
 --surface-output then has the velocities of the points, riis_velocity, in the mesh's unit over the unit of T.
 Triangles in .stl files must have the same order in all files.
 )"},
-    {"warnings", "what they mean, and which comes first",
+    {"warnings", "what warnings mean, and which comes first",
      R"(
 A line on stderr names a suspicious result and the options to write instead. It is printed if no node, all nodes or hardly
 any nodes are marked. It is also printed if the half thickness does not fit the surface or the edges of the mesh, or if the

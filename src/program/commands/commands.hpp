@@ -21,8 +21,8 @@ riis_surface_options own_frame(const ValveOptions &options);
 // size at which the orifice has it. For areas in time, a cycle of openings.
 void run_from_area(const AreaOptions &options);
 
-// riis place. In: landmarks of a patient. Out: the sizes and the placement of the valve, as a report, as a file that every
-// command takes, and as text for OpenFOAM, C and Fortran.
+// riis place. In: landmarks of a patient. Prints the sizes and the placement of the valve as a report, as a file for every
+// command, and as text for OpenFOAM, C and Fortran.
 void run_place(const PlaceOptions &options);
 
 // riis patient. In: a patient's wall and landmarks. Out: a folder with the placed valve, a mesh with named boundaries, marks that
@@ -32,10 +32,10 @@ ExitCode run_patient(const PatientOptions &options);
 // riis export. Writes a valve's opening and closing to a folder as files for svMultiPhysics, and prints the block of the solver's
 // input that names these files.
 void export_uris(const ExportOptions &options);
-// The files of an export, written. The block names them in `named_folder`, the folder as the solver sees it.
+// The files of an export, written. The block names the files in `named_folder`, the path of the folder for the solver.
 struct UrisExport {
   std::string block;
-  std::string failure;  // why the drop was not found; "": it was, or there is no mesh
+  std::string failure;  // why the drop was not found; "" if it was found, or without a mesh
 };
 UrisExport write_uris(const ExportOptions &options, const std::string &named_folder);
 

@@ -36,7 +36,7 @@ void print_params(const ParamsOptions &options) {
 
 // Runs the command to which the options belong.
 ExitCode run_command(const Request &request) {
-  // riis mark, riis surface and both of riis check
+  // riis mark, riis surface and the two commands of riis check
   if (const auto *options = std::get_if<MarkOptions>(&request)) return run_mark(*options);
   if (const auto *options = std::get_if<SizeFieldOptions>(&request)) return run_size_field(*options);
   if (const auto *options = std::get_if<StatesOptions>(&request)) run_states(*options);

@@ -52,7 +52,7 @@ Case case_of(const SizeFieldOptions &options) {
 }
 
 // The edge lengths around one valve: `band` up to `band_reach` from its surface, and `beside_rims` up to `band_reach` from its
-// rims. They grow with the distance, up to `largest`.
+// rims. Farther away, the lengths grow with the distance, up to `largest`.
 struct Edges {
   double half_thickness, offset, band_reach, band, beside_rims, growth, largest;
 
@@ -68,7 +68,7 @@ std::vector<Edges> edges_of(const SizeFieldOptions &options, const std::vector<M
     const riis_surface_info info = info_of(valve.surface());
     const double half_thickness = info.half_thickness, o = info.offset, band = options.band_edge * half_thickness;
     // With an offset, edges beside rims leak from 2 sqrt(1 - o^2) half thicknesses on, elsewhere from 2 (docs/theory/marks.md,
-    // "Offset"). Such an edge has an end at most as far from the rim as the band reaches.
+    // "Offset"). Every leaking edge has an end at most as far from the rim as the band reaches.
     edges.push_back({half_thickness, o, (1 + std::abs(o)) * half_thickness, band, band * std::sqrt((1 - o) * (1 + o)),
                      options.growth, 0});
     thickest = std::max(thickest, info.half_thickness);
@@ -230,8 +230,8 @@ std::string text_of(const Grid &grid, const std::vector<double> &lengths) {
   return text;
 }
 
-// Returns the lines that load the field in a .geo file. gmsh takes the least length of all sources, so the other sources are
-// switched off.
+// Returns the lines that load the field in a .geo file. gmsh takes the least length of all sources, so the lines switch the other
+// sources off.
 std::string gmsh_lines(const SizeFieldOptions &options, double largest) {
   return "gmsh      Field[1] = Structured;\n"
          "          Field[1].FileName = \"" +

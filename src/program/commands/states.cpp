@@ -122,7 +122,7 @@ class Measured {
   Keyframes keyframes_;
   std::vector<double> times_;
   Surface surface_;
-  Surface wall_;  // null unless it bounds the orifice of a surface from a file
+  Surface wall_;  // the wall that bounds the orifice of a surface from a file, or null
 };
 
 State state_at(Measured &valve, double place, bool has_contacts) {
@@ -201,7 +201,7 @@ std::string rounded(double value) { return shown(std::round(value * 1e4) / 1e4);
 
 std::string at(const State &state) { return " at " + shown(state.opening); }
 
-// Returns the opening or the time of the first state. For a valve, this is the closed state.
+// Returns the opening or the time of the first state. For a valve, this state is the closed state.
 std::string at_first(const States &states) {
   if (states.is_of_file && states.states.size() == 1) return "";
   return at(states.states.front());
@@ -368,7 +368,8 @@ std::string summary_of(const States &states, const StatesOptions &options) {
 
 riis_surface_options own_frame(const ValveOptions &options) {
   // The orifice of the triangles differs from that of the smooth surface. At the program's usual tolerance, the difference is up
-  // to 0.3 % for the prosthesis. At this tolerance it is at most about 0.1 % for the prosthesis and for the aortic valve.
+  // to 0.3 % for the prosthesis. At this tolerance the difference is at most about 0.1 % for the prosthesis and for the aortic
+  // valve.
   constexpr double fine_tolerance = 0.01;
   riis_surface_options own = options.surface_options;
   if (!options.has_tolerance) own.tolerance = fine_tolerance;

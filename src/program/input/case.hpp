@@ -32,8 +32,8 @@ struct Case {
   std::string surface_of(std::size_t valve) const;
 };
 
-// Returns the valve or the surface of the command line as a case. It has the options' opening and time, or their times and
-// cycle. Reads a surface only for a series, whose outputs must not replace its frames.
+// Returns the valve or the surface of the command line as a case. The case has the options' opening and time, or the options'
+// times and cycle. Reads a surface only for a series, whose outputs must not replace its frames.
 Case case_of_command_line(const MarkOptions &options);
 // Reads the surfaces of the valves that are in files and not read yet.
 void read_surfaces(Case &all);

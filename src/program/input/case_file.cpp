@@ -84,8 +84,8 @@ class CaseReader {
     }
   }
 
-  // Gives R of each valve in the units of the mesh. K is a sum over the valves, so they must agree about the mesh's unit. Without
-  // "unit", a placed valve has the unit of its file.
+  // Gives R of each valve in the units of the mesh. K is a sum over the valves, so all valves must agree about the mesh's unit.
+  // Without "unit", a placed valve has the unit of its file.
   void apply_resistances(const CaseValues &values) {
     const ValveSource *first = nullptr;
     for (ValveSource &valve : all_.valves) {
@@ -409,7 +409,7 @@ void read_surfaces(Case &all) {
       continue;
     }
     KeyframeFiles read = read_keyframes(options, all.seconds);
-    // Outputs are written after all frames are read, so the user would not notice that one replaces a frame.
+    // Outputs are written after all frames are read, so the user would not notice an output that replaces a frame.
     check_no_output_is("a frame of --surface " + options.surface, read.files, options);
     source.keyframes = std::move(read.keyframes);
     all.files.insert(all.files.end(), read.files.begin(), read.files.end());

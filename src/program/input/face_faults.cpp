@@ -41,7 +41,7 @@ class Pieces {
     const std::int64_t as_it_is = sets_.root(face), turned = sets_.root(n_ + face);
     return {std::min(as_it_is, turned), turned < as_it_is};
   }
-  // Joins two faces. They face the same way, or one is turned over. Two faces of one piece stay as they are.
+  // Joins two faces. The two faces face the same way, or one is turned over. Two faces of one piece stay as they are.
   void join(std::int64_t one, std::int64_t other, bool turned) {
     if (find(one).piece == find(other).piece) return;
     sets_.unite(one, turned ? n_ + other : other);

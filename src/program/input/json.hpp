@@ -18,8 +18,8 @@ namespace riis::program {
 
 using Json = nlohmann::ordered_json;
 
-// `content` names the expected content of the file, such as "parameters". It appears in the message if the file is nested too
-// deeply.
+// `content` names the expected content of the file, such as "parameters". This name appears in the message if the file is nested
+// too deeply.
 Json parse_json_file(const std::string &path, const std::string &content);
 Json parse_json(const std::string &path, const std::string &text, const std::string &content);
 

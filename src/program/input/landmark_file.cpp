@@ -61,7 +61,7 @@ bool is_number(const std::string &text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// Takes a leaflet's name from the start of the text. Returns its leaflet id, or -1.
+// Takes a leaflet's name from the start of the text. Returns the leaflet id of a name, or -1.
 std::int32_t take_leaflet(std::string &text) {
   for (const auto &[name, leaflet_id] : leaflet_words) {
     const std::string word = name;
@@ -241,7 +241,7 @@ Unit slicer_unit(const std::string &path, const Json &list, const std::string &w
   return stated_unit(path, unit.get<std::string>());
 }
 
-// A file of 3D Slicer has many keys, which change from version to version. Only those needed here are read.
+// A file of 3D Slicer has many keys, which change from version to version. Only the keys needed here are read.
 void read_slicer(const Json &root, LandmarkFile &file) {
   const std::string &path = file.path;
   const Json &lists = root["markups"];
@@ -274,7 +274,7 @@ void read_slicer(const Json &root, LandmarkFile &file) {
       const Json &point = (*points)[k];
       const std::string at = where + ", control point " + std::to_string(k);
       if (!point.is_object()) refuse_file(path, at + " must be an object, not of type " + point.type_name());
-      // A closed curve is an annulus, whatever its points are called. An open curve is one too, except for points that have the
+      // A closed curve is an annulus, whatever its points are called. An open curve is also an annulus, except for points with
       // names of landmarks.
       const std::string given = is_closed_curve ? "" : text_in(point, "label", at);
       const bool is_annulus = is_closed_curve || (is_curve && !is_landmark(given));

@@ -33,7 +33,7 @@ bool may_crash(const std::string &path) {
   return endings.count(ending_of(path)) != 0;
 }
 
-// A folder for the mesh that a child process passes on. Signals that end the process remove it.
+// A folder for the mesh that a child process passes on. Signals that end the process remove the folder.
 class PassingFolder {
  public:
   PassingFolder() { remove_if_ended(folder_.path(), mesh()); }
@@ -47,8 +47,8 @@ class PassingFolder {
   const TemporaryFolder folder_;
 };
 
-// Limits the memory of this process, because damaged files may claim any size. Sound files need a few times their size, and
-// compressed ones up to a thousand times. The address sanitizer reserves terabytes, so there is no limit under it.
+// Limits the memory of this process, because damaged files may claim any size. A sound file needs a few times its size in memory,
+// and a compressed file up to a thousand times. The address sanitizer reserves terabytes, so its builds have no limit.
 void limit_memory([[maybe_unused]] const std::string &path) {
 #ifndef __SANITIZE_ADDRESS__
   std::error_code error;
@@ -76,9 +76,9 @@ struct Answer {
 
 // Reads the mesh, writes it to a .vtu, and answers through the pipe.
 [[noreturn]] void read_as_child(const std::string &path, const std::string &passed, int answer, pid_t parent) {
-  // Readers print errors of their own. This process's message goes through the pipe.
+  // Readers print errors of their own. The message of the child process goes through the pipe.
   const int nowhere = open("/dev/null", O_WRONLY);
-  // This process ends with its parent, and removes nothing of its parent's.
+  // The child process ends with its parent, and removes no file of its parent.
   for (const int ending : UnbrokenWrite::signals)
     if (signal(ending, SIG_DFL) == SIG_IGN) signal(ending, SIG_IGN);
   end_with_parent(SIGKILL);

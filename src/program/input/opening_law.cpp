@@ -16,7 +16,7 @@ namespace riis::program {
 
 namespace {
 
-// Checks a law. Reports its faults as bad data, because all its values come from the user.
+// Checks a law. Reports the law's faults as bad data, because all values of the law come from the user.
 void check_law(riis_status status, const std::string &subject) {
   if (status == RIIS_INVALID_ARGUMENT) refuse_data(subject + ": " + riis_last_error());
   check(status, subject);

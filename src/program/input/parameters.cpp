@@ -156,7 +156,7 @@ std::vector<Part> parts_of(const riis_valve *valve) {
   return parts;
 }
 
-// Returns whether two parts differ by their numbers only.
+// Returns whether two names of parts differ by their numbers only.
 bool are_alike(const Part &a, const Part &b) {
   const auto without_number = [](const Part &part) {
     std::string text = part.name.substr(0, part.name.find_last_not_of("0123456789") + 1);

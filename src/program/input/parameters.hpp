@@ -22,11 +22,11 @@ void set_from_json(riis_valve *valve, const Json &parameters, const std::string 
 // Sets the parameter of one --set.
 void set_from_text(riis_valve *valve, const std::string &setting);
 
-// Returns all parameters of the valve with their values. If they are read back, all parameters are set, and none follows from
-// others. Of the bumps at no place, only bump_0 is shown.
+// Returns all parameters of the valve with their values. Reading these values back sets all parameters, so no parameter follows
+// from others. Of the bumps at no place, only bump_0 is shown.
 std::string json_template(const riis_valve *valve);
 // Returns the parameters as a table for people. Each line has a parameter's name, value, unit, range and description. One line
-// stands for all parts, such as bumps, that are like the part before them.
+// stands for all like parts, such as bumps.
 std::string parameter_table(const riis_valve *valve);
 
 }  // namespace riis::program

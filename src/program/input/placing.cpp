@@ -24,8 +24,8 @@ std::string option_text(Reader reader, const char *name, const std::string &valu
   return reader == Reader::program ? "--" + (name + (" " + value)) : name + ("='" + value + "'");
 }
 
-// Returns the names of the parameters that keep their values, by the options or by the landmarks' file. The library
-// refuses names that are not a parameter's.
+// Returns the names of the parameters that keep their values, by the options or by the landmarks' file. The library refuses names
+// of no parameter.
 std::string held_names(std::vector<std::string> given, const LandmarkFile &landmarks, const riis_valve *valve) {
   if (landmarks.parameters.is_object())
     for (const auto &[name, value] : landmarks.parameters.items()) {
@@ -71,7 +71,7 @@ std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
   return text;
 }
 
-// Refuses the landmarks with the library's message, if it refused them.
+// Passes the library's refusal of the landmarks on, with its message.
 void check_landmarks(riis_status status, const LandmarkFile &landmarks, Reader reader) {
   if (status == RIIS_OK) return;
   if (status != RIIS_INVALID_ARGUMENT && status != RIIS_INVALID_PARAMETER) return check(status);
@@ -112,7 +112,7 @@ Warp unfolded_warp(const Placed &placed, riis_valve *valve, double noise, Reader
   return warp;
 }
 
-// Returns what helps if a warp that meets the landmarks folds. A warp that is smoothed by the landmarks' noise is tried.
+// Returns a cure for a warp that meets the landmarks but folds. A warp that is smoothed by the landmarks' noise is tried.
 std::string cure_of_folds(const Placed &placed, const riis_valve *valve, Reader reader) {
   const std::string smoothed = option_text(reader, "warp", "smoothed"),
                     look = "look for a landmark that is not at its place";
@@ -134,7 +134,7 @@ void adapt(LandmarkFile &landmarks, const PlaceRequest &request) {
     if (request.axes != "LPS" && request.axes != "RAS")
       refuse_usage(axes + " is " + quoted(request.axes) + "; it must be LPS or RAS");
     if (landmarks.axes == Axes::mesh)
-      refuse_usage(axes + ": " + landmarks.path + " states the axes mesh, so it is not known how to turn it");
+      refuse_usage(axes + ": " + landmarks.path + " states the axes mesh, so its turn into other axes is not known");
     landmarks.convert(request.axes == "LPS" ? Axes::LPS : Axes::RAS);
   }
   if (request.noise) landmarks.noise = *request.noise;
@@ -292,7 +292,7 @@ std::string filled(const std::string &text, std::size_t width) {
   return text + std::string(std::max(width, text.size()) - text.size(), ' ');
 }
 
-// A distance from the valve, or 0 if it is within the error of such distances.
+// A distance from the valve, or 0 for a distance within the error of such distances.
 std::string distance_text(double distance, double centimetre) {
   return distance > distance_error * centimetre ? digits(distance, 3) : "0";
 }

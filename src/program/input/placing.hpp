@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: landmarks of a patient. Out: the sizes and the placement of the valve, as a report and as the file of a placed valve. The
-// program and the Python package share this.
+// program and the Python package share this code.
 #pragma once
 
 #include <array>
@@ -31,13 +31,13 @@ struct LandmarkFile {
   std::vector<double> xyz;                // (3, n), in the file's unit and axes
   std::vector<std::int32_t> roles;        // RIIS_LANDMARK_*
   std::vector<std::int32_t> leaflet_ids;  // (2, n)
-  std::string valve;                      // its kind, or "" if the file does not say
+  std::string valve;                      // the valve's kind, or "" without a statement in the file
   Unit unit = Unit::millimetre;
   Axes axes = Axes::mesh;
   std::optional<double> noise;
   std::optional<std::array<double, 3>> flow;
   std::vector<double> flow_ends;  // (3, 2), flow_from and flow_to; empty if they are not given
-  Json parameters;                // an object of sizes that are known, in centimetres; null if there are none
+  Json parameters;                // an object of known sizes, in centimetres; null without known sizes
 
   // Changes lengths to another unit, and coordinates to other axes.
   void convert(Unit to);
@@ -46,13 +46,13 @@ struct LandmarkFile {
 
 // Reads the text of a file, whose format follows from the ending of its path.
 LandmarkFile read_landmarks(const std::string &path, const std::string &text);
-// Reads landmarks in memory from an object with the keys of a file. `subject` stands for them in refusals.
+// Reads landmarks in memory from an object with the keys of a file. `subject` stands for the landmarks in refusals.
 LandmarkFile landmarks_of_json(const std::string &subject, const Json &root);
 
 // Who reads a message. Options are written like --unit mm for the program, and like unit='mm' for Python.
 enum class Reader { program, python };
 
-// What the user says of the landmarks besides their file.
+// The user's statements about the landmarks, besides the file.
 struct PlaceRequest {
   Reader reader = Reader::program;
   std::optional<Unit> unit;     // to which lengths are converted
@@ -71,7 +71,7 @@ struct Size {
   std::vector<double> values;
   double standard_error;
   int32_t state;
-  bool follows;  // it was not set, and has the value of another parameter
+  bool follows;  // the parameter was not set, and has the value of another parameter
 };
 
 struct Placed {
@@ -84,7 +84,7 @@ struct Placed {
   std::vector<double> places;                                     // (3, n), of the landmarks on the valve
   riis_surface_options where = defaults<riis_surface_options>();  // the placement
   bool is_warped = false;
-  double warp_noise = 0;          // by which the warp is smoothed; 0: it meets the landmarks
+  double warp_noise = 0;          // the noise that smooths the warp; 0: the warp meets the landmarks
   std::vector<double> still_off;  // distances of the landmarks from the warped closed valve, right to a micrometre
 };
 
@@ -93,9 +93,9 @@ struct Placed {
 Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, const std::string &kind,
                           const std::vector<std::string> &held, Reader reader);
 
-// Warps the valve to the landmarks, and returns the warp. It is smoothed by the noise; at 0 it meets the landmarks. A warp that
-// folds at one of five openings is refused, and the message says whether smoothing it helps. Other commands check each opening
-// that they take.
+// Warps the valve to the landmarks, and returns the warp. The noise smooths the warp; a noise of 0 makes a warp that meets the
+// landmarks. A warp that folds at one of five openings is refused, and the message says whether smoothing it helps. Other
+// commands check each opening that they take.
 Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader reader);
 
 // Refuses landmarks that are not at these nodes of a mesh, (3, n_nodes). `of`, such as " of mesh.vtu", names the mesh. If other

@@ -29,7 +29,7 @@ struct ValveFile {
 };
 
 // A placed valve: a JSON file of riis place, with the kind, the parameters and the placement of a patient's valve. Every command
-// takes it as --valve FILE.json, and Python's read_placed reads it.
+// takes this file as --valve FILE.json, and Python's read_placed reads it.
 struct PlacedFile {
   std::string kind;
   Unit unit = Unit::centimetre, own_unit = Unit::centimetre;      // of the placement, and of the file

@@ -326,14 +326,14 @@ const std::set<std::string> meshes_of_gmsh = {".unv", ".bdf", ".nas"};
 // gmsh 4 leaves the prisms of a .mesh out, without a word.
 const std::set<std::string> meshes_of_meshio = {".inp", ".su2",  ".med", ".mesh", ".meshb", ".avs", ".dat", ".f3grid",
                                                 ".h5m", ".mdpa", ".vol", ".node", ".ele",   ".xml", ".post"};
-// ParaView opens these. They hold blocks, or grids that are not unstructured.
+// ParaView opens the files with these endings. Such files hold blocks, or grids that are not unstructured.
 const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".pvti", ".pvtr",
                                                   ".pvts", ".plt",  ".tec",   ".vtmb",   ".vtpc", ".vtpd"};
 // CAD files, which gmsh fills with cells or covers with triangles.
 const std::set<std::string> cad_files = {".step", ".stp", ".iges", ".igs", ".brep"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2", ".med", ".wrl"};
 const std::set<std::string> surfaces_of_meshio = {".off"};
-// meshio writes all faces of these to a .vtu. To a .stl it writes triangles only.
+// meshio writes all faces of such files to a .vtu. To a .stl, meshio writes triangles only.
 const std::set<std::string> faces_of_meshio = {".xdmf", ".xmf", ".inp", ".e", ".exo", ".avs", ".mdpa", ".vol"};
 const std::set<std::string> surfaces_of_paraview = {".vtkhdf", ".pvtp", ".vtm"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
@@ -392,7 +392,7 @@ std::string first_file_of_list(const std::string &path) {
   return ", such as " + path_in_shell((fs::path(path).parent_path() / name).string());
 }
 
-// A .msh may be of another version of gmsh, or of Ansys Fluent. A damaged one cannot be converted. SimVascular calls the
+// A .msh may be of another version of gmsh, or of Ansys Fluent. A damaged file cannot be converted. SimVascular calls the
 // description of a mesh .msh, which is XML.
 std::string hint_for_msh(const std::string &path, const std::string &refusal) {
   if (has_text(refusal, "is of gmsh's type")) return at_order_2(path);
@@ -408,7 +408,7 @@ std::string hint_for_msh(const std::string &path, const std::string &refusal) {
 
 std::string conversion_hint(const std::string &path, Content wanted, const std::string &refusal) {
   const std::string ending = ending_of(path);
-  // A refusal replaces control characters. So a path with such characters gets no hint, because the command would not work.
+  // A refusal replaces control characters. A path with control characters gets no hint, because the command would not work.
   if (std::any_of(path.begin(), path.end(), is_control) || has_text(refusal, "Git LFS")) return "";
   if (wanted == Content::mesh) {
     if (ending == ".msh") return hint_for_msh(path, refusal);

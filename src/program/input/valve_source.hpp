@@ -47,8 +47,8 @@ Valve make_kind(const std::string &kind, const std::string &subject);
 // `yes`: make_valve refuses a file of patches that cannot open far enough. `no`: such a file is refused only when the surface is
 // made.
 enum class OpeningCheck { no, yes };
-// Makes the valve of --valve, --params and the options that belong to them. `moving` receives the warp. If it is NULL, a warp
-// that moves is refused.
+// Makes the valve of --valve, --params and the options that belong to them. `moving` receives the warp. With NULL, a warp that
+// moves is refused.
 Valve make_valve(const ValveOptions &options, OpeningCheck opening = OpeningCheck::yes, WarpSource *moving = nullptr);
 // Returns how refusals of a valve's shape begin: with its file, or "" for a kind.
 std::string subject_of(const ValveOptions &options);
@@ -76,7 +76,7 @@ SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds);
 
 // The velocities that a surface from a file gets.
 enum class FileVelocity { none, zero };
-// Makes the surface. A motion gives it the place at options.time, with velocities.
+// Makes the surface. A motion gives the surface the place at options.time, with velocities.
 Surface make_surface(const ValveSource &source, FileVelocity velocity);
 
 // Returns the name of a leaflet, or its number after a word. If each leaflet has a file, its name is that of the file.
@@ -88,7 +88,7 @@ int64_t count_leaflets(const riis_surface *surface);
 
 // --surface FILE.pvd or FILE.dat: the surface of a motion given by frames.
 
-// Returns whether --surface is a motion. Its files end in .pvd or .dat.
+// Returns whether --surface is a motion. Files of motions end in .pvd or .dat.
 bool is_motion(const ValveOptions &options);
 
 // The motion of --surface, the paths of the files with its frames, and their times.
@@ -99,7 +99,7 @@ struct KeyframeFiles {
 };
 KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds);
 
-// In: a file in a format that the program does not read. Out: a command that converts it.
+// In: a file in a format that the program does not read. Out: a command that converts the file.
 
 enum class Content { mesh, surface };
 

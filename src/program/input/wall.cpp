@@ -22,18 +22,18 @@ namespace {
 
 // The openings at which the wall must be within reach.
 constexpr std::int32_t n_openings = 11;
-// The gap is measured at other points than the skirt's length, so it may exceed the longest skirt by this share.
+// Gap and skirt are measured at different points, so the gap may exceed the longest skirt by this share.
 constexpr double most_beyond = 0.01;
 // An open line of the wall is a hole if it is shorter than this share of the attachment. The end of a vessel is longer.
 constexpr double longest_hole = 0.3;
 
-// How a wall differs from the file's: a factor of its lengths, and half a turn about z, by which the axes LPS and RAS differ.
+// The difference between a wall and the file's wall: a factor of lengths, and the half turn about z between the axes LPS and RAS.
 struct Change {
   const char *factor;
   bool is_turned;
 };
 
-// Makes the wall. It is already in the mesh's frame, so no other placement applies to it.
+// Makes the wall. The wall is already in the mesh's frame, so no other placement applies to it.
 Surface make_wall(const ValveOptions &options, const SurfaceFile &file, Change change = {"1", false}) {
   const auto arrays = get<riis_surface_arrays>(riis_vtk_surface_get_arrays, file);
   auto how = defaults<riis_surface_options>();
@@ -168,7 +168,7 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   if (!options.skirt) return;
   if (options.wall.empty()) {
     check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
-    // The library knows the length in the valve's own unit only. It tests the length before it makes triangles.
+    // The library knows the length in the valve's own unit only. The library tests the length before the triangles are made.
     riis_surface_options how = options.surface_options;
     how.triangulation = RIIS_TRIANGULATION_ADAPTED;
     Surface trial;

@@ -47,7 +47,7 @@ class WarpSource {
   bool moves() const;
   // The landmarks of the closed state, and of the open state if it has its own.
   const std::vector<LandmarkPairs> &pairs() const { return pairs_; }
-  bool is_in_mesh() const { return is_in_mesh_; }  // whether they are in the mesh's coordinates
+  bool is_in_mesh() const { return is_in_mesh_; }  // whether the landmarks are in the mesh's coordinates
   double noise() const { return noise_; }
   // Gives the valve its warp at a time.
   void apply(double time, riis_valve *valve);

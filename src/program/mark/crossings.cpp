@@ -96,8 +96,8 @@ std::optional<CrossingReport> check_shape(const ValveOptions &options, const rii
                                           const std::string &part) {
   if (!is_valve_file(options.valve) && !has_open_state && has_default_values(valve, {"opening"})) return std::nullopt;
   const Valve copy = copy_of(valve);
-  // Hinges reach into recesses of the housing, and the model of the housing lacks these recesses. So crossings with the housing
-  // do not count.
+  // Hinges reach into recesses of the housing, and the model of the housing lacks these recesses. Crossings with the housing
+  // therefore do not count.
   if (options.valve == "bileaflet") check(riis_valve_set_scalar(copy, "ring_height", 0));
   const riis_surface_options how = by_triangles(options, RIIS_TRIANGULATION_ADAPTED);
   CrossingReport report;

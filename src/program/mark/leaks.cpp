@@ -64,8 +64,8 @@ double closing_half_thickness(const riis_valve *valve, double half_thickness, co
       wanted = rounded_up(std::max(*needed, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // The warning is valid even without advice. There is no advice, for example, if a half thickness allows no surface, or if an
-    // end of a passage lies in the thicker band.
+    // The warning is valid even without advice. For example, a half thickness that allows no surface gets no advice, and neither
+    // does a passage with an end in the thicker band.
   }
   return 0;
 }
@@ -84,7 +84,7 @@ double closing_skirt(const MarkOptions &options, const riis_surface *surface, do
     try {
       if (closes(create<Surface>(riis_surface_create_from_arrays, &arrays, &how))) return arrays.skirt_length;
     } catch (const Refusal &) {
-      return 0;  // there is no advice if the attachment is not known, or if the surface is too small for such a skirt
+      return 0;  // an unknown attachment, or a surface too small for such a skirt, gets no advice
     }
   }
   return 0;
@@ -153,7 +153,7 @@ void MeshLeaks::add(Piece &piece, riis_marks *marks) {
 
 void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks, double half_thickness,
                     bool is_complete, std::vector<KeyedEdge> &to) const {
-  // Short edges may also leak if marks may be missing, or if distances are not measured to the triangles.
+  // Short edges may also leak where marks may be missing or distances are not distances to the triangles.
   const bool is_exact = is_complete && options_.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const std::int32_t n_threads = options_.mark_options.n_threads;
   Adjacency adjacency;

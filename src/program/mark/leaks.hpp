@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a marked mesh. Out: the number of its edges that cross the surface between unmarked nodes, and a half thickness that
+// In: a marked mesh. Out: the number of the mesh's edges that cross the surface between unmarked nodes, and a half thickness that
 // closes these leaks.
 #pragma once
 
@@ -31,7 +31,7 @@ KeyedEdge edge_between(NodeKey p, NodeKey q, double length);
 // Returns the edges of all ranks in order, each once.
 std::vector<KeyedEdge> gathered(const std::vector<KeyedEdge> &own);
 
-// Returns the half thickness that the surface needs, or nothing if the given one closes it.
+// Returns the half thickness that the surface needs, or nothing if the given half thickness closes the surface.
 using Left = std::function<std::optional<double>(double half_thickness)>;
 // Returns a half thickness that closes the surface, or 0 if none is found. `valve` is null for a surface from a file.
 double closing_half_thickness(const riis_valve *valve, double half_thickness, const Left &left);
@@ -94,7 +94,7 @@ class PassageCheck {
              Report &report);
 
  private:
-  // Returns the node of all pieces that is nearest to an end. Its longest edge may be in another piece.
+  // Returns the node of all pieces that is nearest to an end. The longest edge of this node may be in another piece.
   std::optional<PieceEnd> nearest(int end, bool has_ids) const;
   PassageReport find(const riis_surface *surface) const;
   double longest_edge_at(const riis_passage &found, const MeshCounts &counts) const;

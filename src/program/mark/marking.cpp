@@ -69,7 +69,7 @@ void report_leak(const MovingValve &valve, FlowReport &flow) {
   double leak = 0;
   check(riis_surface_get_leak(valve.surface(), &how, 1, &leak), "--resistance");
   if (flow.closed_area) leak = info_of(valve.surface()).half_thickness / *R * *flow.closed_area;
-  // The leak is per unit of the pressure as the user gives it, which is Pa if the unit of the mesh is known.
+  // The leak is per unit of the user's pressure, which is Pa if the unit of the mesh is known.
   const std::optional<Unit> &unit = valve.options().unit;
   flow.leak_per_drop = unit ? leak * factor_from_si(a_pressure, *unit) : leak;
   const std::optional<Amount> &drop = valve.options().given_drop;
@@ -200,7 +200,7 @@ ValveReport Marking::report_of(std::size_t i) {
 // Leaks matter where a valve is least open. An open valve is not meant to stop the flow.
 void Marking::move_to_least_openings() { move_to_first(times_, valves_, std::less<>()); }
 
-// The leaflets may reach beyond the wall where the valve is closed, and also where it is open.
+// The leaflets of both the closed and the open valve may reach beyond the wall.
 void Marking::take_states_for_outside() {
   for (std::size_t i = 0; i < valves_.size(); ++i) sums_[i].outside.emplace_back(valves_[i]);
   if (!all_.is_series()) return;
@@ -262,7 +262,7 @@ void Marking::measure(Piece &piece) {
     combine(sums.marks, valves_[i].stats());
     sums.leaks.add(piece, valves_[i].result());
     for (LeafletsOutside &state : sums.outside) state.add(piece);
-    // The closed valve matters only if the open one is outside, which a mesh in pieces tells after the last piece.
+    // The closed valve matters only if the open valve is outside. In a mesh in pieces, this is known after the last piece.
     const bool may_be_outside =
         !mesh_.is_whole() || std::any_of(sums.outside.begin(), sums.outside.end(), [](const LeafletsOutside &state) {
           return state.share_so_far() > most_outside;
@@ -364,7 +364,7 @@ void Marking::judge() {
   report_.seconds.leaks += stage.seconds();
 }
 
-// Fills the report of a valve. The marks were found at its least opening.
+// Fills the report of a valve. The marks were found at the valve's least opening.
 void Marking::report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts) {
   ValveReport &report = report_.valves[i];
   const MovingValve &valve = valves_[i];

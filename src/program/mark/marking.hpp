@@ -29,7 +29,7 @@ class Marking {
   // Makes the surfaces of the valves. The case and the mesh must outlive this object.
   Marking(Case &all, const MeshPieces &mesh);
 
-  // Marks a piece by all valves at all times, and notes what the report needs. Without a series, the piece gets its arrays.
+  // Marks a piece by all valves at all times, and notes the numbers for the report. Without a series, the piece gets its arrays.
   void measure(Piece &piece);
   // Completes the report, except for times and files, and warns. All ranks must have measured their pieces.
   void judge();
@@ -41,7 +41,7 @@ class Marking {
   std::vector<MovingValve> &valves() { return valves_; }
   Report &report() { return report_; }
   const std::vector<double> &times() const { return times_; }
-  // Both functions need a judged marking. n_marked is the number of marked nodes of all pieces.
+  // The next two functions need a judged marking. n_marked is the number of marked nodes of all pieces.
   std::int64_t n_marked(std::size_t step, std::size_t valve) const { return view(n_marked_)[marked_at(step, valve)]; }
   bool has_marks() const;
   // Returns the nodes of the last piece that are within the distance limit at some time of a series.
@@ -50,7 +50,7 @@ class Marking {
   const Box &swept() const { return swept_; }
 
  private:
-  // What one valve needs of all pieces.
+  // The numbers of one valve from all pieces.
   struct ValveSums {
     MeshLeaks leaks;
     riis_mark_stats marks = no_stats();
@@ -62,7 +62,7 @@ class Marking {
   };
 
   const MarkOptions &options() const { return all_.options; }
-  // A single time has no time before it, and thus no velocities.
+  // A single time has no earlier time, and thus no velocities.
   bool has_velocities() const { return times_.size() > 1; }
   std::int32_t fields() const;
   std::vector<std::string> names_of_arrays() const;
@@ -82,7 +82,7 @@ class Marking {
   void report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts);
   void warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts);
   void report_outside(std::size_t i, const MeshCounts &counts);
-  // Prints how many nodes each unit marks that remains possible, for a valve at its present position.
+  // Prints the number of marked nodes for each possible unit, with the valve at its present position.
   void compare_units(std::size_t i, const std::vector<PossibleUnit> &units) const;
   void report_orifices();
 
@@ -104,8 +104,8 @@ class Marking {
   PassageCheck passage_;
 };
 
-// The driver of riis mark, surface, check leaks and check crossings. A run is valves x times x pieces: a whole mesh is one piece,
-// one state is one time, and the valve of the command line is a case of one. Without a mesh there are no pieces.
+// The driver of riis mark, surface, check leaks and check crossings. A run is valves x times x pieces. A whole mesh is one piece,
+// one state is one time, and the valve of the command line is a case of one valve. Without a mesh there are no pieces.
 //     case -> surfaces -> pieces, read one by one -> marks, leaks, measures -> files -> report
 
 // Reads the case or the valve of the options, marks the mesh, writes the files and prints the report. Returns exit_none_marked if

@@ -74,9 +74,9 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Measures for --steps the cost of a time step of a moving valve, in a mesh that is prepared for many markings. It moves the
-// opening of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step. Throws a
-// Refusal for a valve that cannot move.
+// Measures for --steps the cost of a time step of a moving valve, in a mesh that is prepared for many markings. The function
+// moves the opening of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step.
+// Throws a Refusal for a valve that cannot move.
 StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file) {
   const Stage stage("timing " + std::to_string(options.n_steps) + " steps", options.quiet);
   const riis_mark_options &how = options.mark_options;
@@ -162,8 +162,8 @@ class MarkingRun {
   }
 
   void begin_writing() {
-    // In a series, a signal such as Ctrl-C waits for the end of a step. So even then the lists are written and the movie's frames
-    // are removed.
+    // In a series, a signal such as Ctrl-C waits for the end of a step. The lists are thus written, and the movie's frames
+    // removed, even after a signal.
     if (all_.is_series()) unbroken_.emplace();
     if (ranks::is_first()) {
       files_.make_folder();
@@ -363,7 +363,7 @@ Report mark_case(Case &all, const MeshPieces &mesh) {
 
 namespace {
 
-// Returns whether the checks leave no doubt that no flow passes the valves.
+// Returns whether the checks prove that no flow passes the valves.
 bool is_sealed(const Report &report) {
   if (report.passage) return report.passage->found.state == RIIS_PASSAGE_CLOSED && !report.passage->is_unknown;
   return std::all_of(report.valves.begin(), report.valves.end(), [](const ValveReport &valve) {

@@ -99,7 +99,8 @@ class FileNodes {
   }
   double longest_edge(std::int64_t node) const;
 
-  // While an object of this type lives, the library's mesh has neighbours: these, or other rows. A grid always has its own.
+  // While an object of this type lives, the library's mesh has these neighbours, or other rows. A grid always has its own
+  // neighbours.
   class Lent {
    public:
     explicit Lent(const FileNodes &nodes) : Lent(nodes, nodes.rows_) {}

@@ -304,7 +304,7 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
       refuse_data("the node with the global id " + std::to_string(static_cast<std::int64_t>(first.key[0])) +
                   " is at one place in " + view(files)[first.piece] + " and at another in " +
                   view(files)[nodes[end].piece] +
-                  "; the ranks of dolfinx write a function's nodes so, in the last digit: VTKFile.write_mesh does not");
+                  "; ranks of dolfinx write a function's nodes with other last digits: use VTKFile.write_mesh");
     ++own.n_nodes;
     own.n_in_several += in_several;
     if (own.joined.size() > 2 * n_kept) {

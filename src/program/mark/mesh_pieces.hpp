@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a mesh, one file or several pieces. Out: its pieces, read one by one, and the nodes that a piece shares with others. A mesh
-// of one file is one piece. Each node has a key, and nodes of two pieces are the same node if their keys are equal.
+// In: a mesh, one file or several pieces. Out: the mesh's pieces, read one by one, and the nodes that a piece shares with other
+// pieces. A mesh of one file is one piece. Each node has a key, and nodes of two pieces are the same node if their keys are
+// equal.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -46,7 +47,7 @@ class MeshPieces {
   const std::vector<std::string> &files() const { return files_; }
   bool is_whole() const { return is_whole_; }
   const std::string &cells_where() const { return options_.cells_where; }
-  // Warns of domains that touch, if the user chose none of them. This rank has read its pieces.
+  // Warns of domains that touch, if the user chose none of them. The function needs the pieces that this rank has read.
   void warn_of_regions() const;
   // Calls `work` with each of this rank's pieces, in ascending order, or only with those whose numbers `is_wanted` accepts. A
   // failure ends all ranks. Adds to the seconds of reading, unless they are NULL.
@@ -160,7 +161,7 @@ class JoinedSets {
 // A node that several pieces may have, in one of them.
 struct SharedNode {
   NodeKey key;
-  std::int32_t region;  // its open region, numbered within the piece; -1 if it is in none
+  std::int32_t region;  // the node's open region, numbered within the piece, or -1
   std::int32_t piece;
 };
 
@@ -188,7 +189,7 @@ struct MatchedNodes {
   std::int64_t n_joins() const;
 };
 
-// Matches the nodes of all ranks. `has_ids` says whether keys have global ids. Then one id at two places is refused. `files`
+// Matches the nodes of all ranks. `has_ids` says whether keys have global ids. With ids, one id at two places is refused. `files`
 // names the pieces.
 MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has_ids,
                          const std::vector<std::string> &files);
@@ -196,7 +197,7 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
 // Warns if no piece shares a node with another.
 void warn_of_apart(const MeshCounts &counts, const MatchedNodes &matched, const MeshPieces &mesh);
 
-// The nodes that no cell of their piece uses. They count if no other piece has them inside.
+// The nodes that no cell of their piece uses. Such nodes count if no other piece has them inside.
 class LooseNodes {
  public:
   void add(const PieceNodes &nodes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One valve of a run: its surface at the present time, with or without velocities, and its marks.
+// One valve of a run, with its marks and its surface at the present time, which may have velocities.
 #pragma once
 
 #include <riis/riis.h>
@@ -19,14 +19,15 @@ namespace riis::program {
 
 class MovingValve {
  public:
-  // Borrows the source, and makes the surface at the given time. `moves` says whether it will have other times, and velocities.
+  // Borrows the source, and makes the surface at the given time. `moves` states whether the valve will have other times, and
+  // velocities.
   MovingValve(ValveSource &source, double time, bool moves);
 
   // Moves the surface to a time. If an earlier time is given, also computes the mean velocities since then.
   void move_to(double time, std::optional<double> since = std::nullopt);
   // Marks with `fields`, a sum of RIIS_FIELD_*. Velocities need a last move with an earlier time.
   void mark(FileNodes &nodes, int32_t fields);
-  // Forgets the last marks. Otherwise a search in another mesh would begin at their nodes.
+  // Forgets the last marks. With the old marks, a search in another mesh would begin at wrong nodes.
   void forget_marks() { result_ = new_result(); }
 
   const MarkOptions &options() const { return source_.options; }
@@ -54,10 +55,10 @@ class MovingValve {
 };
 
 // Makes the valves of a case, at the first time, and looks for crossings in their shapes. Tries each valve's options on a single
-// node, so that bad ones are refused early.
+// node, so that bad options are refused early.
 std::vector<MovingValve> moving_valves(Case &all);
 
-// Triangles of several surfaces, or of one at several times.
+// Triangles of several surfaces, or of one surface at several times.
 class JoinedTriangles {
  public:
   // Adds triangles, whose leaflets are numbered from `first_leaflet` on.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a surface and the pieces of a mesh. Out: the share of its leaflets' area that is farther than the half thickness outside
-// the mesh. Skirts and the housing of a bileaflet valve do not count, because they may reach beyond the wall.
+// In: a surface and the pieces of a mesh. Out: the share of the leaflets' area that lies more than the half thickness outside the
+// mesh. Skirts and the housing of a bileaflet valve do not count, because they may reach beyond the wall.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ class LeafletsOutside {
 };
 
 // Warns if more than a small share is outside. Open leaflets may lie against the wall and reach into it at the right place, so
-// `closed` decides whether the valve stands wrongly. It is empty for a surface from a file. `name` is the surface's name.
+// `closed` decides whether the valve stands wrongly. For a surface from a file, `closed` is empty. `name` is the surface's name.
 void warn_of_outside(const OutsideReport &report, const std::optional<OutsideReport> &closed, double half_thickness,
                      const std::string &name);
 // Returns a text such as "26 % of the leaflets' area (right 61 %)".

@@ -63,8 +63,8 @@ void warn_of_passage(const MarkOptions &options, const PassageReport &report, co
     warn(text + "wide everywhere: no place on it is nearer to " + surface + " than its end at " + report.place + ", " +
          (has_offset ? "which a half thickness of " + shown(found.distance) + " marks"
                      : shown(found.distance) + " from it") +
-         ". Either the points are beside " + surface +
-         ", or it does not stand in their way: give points on both sides of it, farther away");
+         ". Either the points are beside " + surface + ", or " + surface +
+         " does not stand between the points: give points on both sides, farther away");
   else if (report.closing_half_thickness > 0 && opening == 0)
     warn({{Cause::leaks, text + "at " + report.place,
            ", and --half-thickness " + shortest(report.closing_half_thickness) +
@@ -100,11 +100,11 @@ riis_passage passage_in(const Piece &piece, const MarkOptions &options, const ri
 
 // ---- The widest passage in pieces ----
 //
-// Each piece is reduced to the ways between its shared nodes. A node's distance is the half thickness that marks it, which is its
-// distance from the surface if the band has no offset. All nodes beyond a limit are open at first, and their connected
-// regions are labelled. Then the nearer nodes open one by one, from far to near. A node that joins two sets, each with a shared
-// node or an end, is a link with the node's distance. Regions with a common node are joined. Links are then opened from far to
-// near, until both ends are joined. If the ends are joined before any link opens, the limit was too small.
+// Each piece is reduced to the ways between its shared nodes. A node's distance is the least half thickness that marks the node.
+// In a band without an offset, it is the distance from the surface. All nodes beyond a limit are open at first, and their
+// connected regions are labelled. After that, the nearer nodes open one by one, from far to near. A node that joins two sets,
+// each with a shared node or an end, is a link with the node's distance. Regions with a common node are joined. Links are then
+// opened from far to near, until both ends are joined. If the ends are joined before any link opens, the limit was too small.
 
 namespace {
 
@@ -133,7 +133,7 @@ struct Link {
   PassageNode node;
 };
 
-// The place of an end, and its node if it is within the limit.
+// The place of an end, and the node of an end within the limit.
 struct PlacedEnd {
   std::int64_t end;
   Place place;
@@ -297,7 +297,7 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
 PassageReport find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
                            const PieceEnd (&ends)[2]) {
   const riis_surface_info info = info_of(surface);
-  // A path comes at least as near to the surface as its ends, which are marked by a half thickness below this.
+  // A path comes at least as near to the surface as its ends, and a half thickness below this marks the ends.
   double farthest = 0;
   for (const PieceEnd &end : ends)
     for (int k = 0; k < 3; ++k)
@@ -383,7 +383,7 @@ void PassageCheck::judge(const riis_surface *surface, const riis_valve *valve, c
   }
   PassageReport passage = find(surface);
   const riis_passage &found = passage.found;
-  // Unknown edges cannot close an open path, but may make one where the known edges have none.
+  // Unknown edges cannot close an open path, but may make a path where the known edges make none.
   passage.is_unknown = found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
   if (found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty()) {
     passage.closing_half_thickness = closing_half_thickness(valve, found.distance, [&](double wanted) {

@@ -26,7 +26,7 @@ Cause first_cause = Cause::outside;  // the cause whose advice was printed
 // Smaller meshes are not judged, because all nodes of a small mesh may well lie near the surface.
 constexpr int64_t fewest_judged_nodes = 100;
 
-// Returns a coordinate as text, rounded to a tenth of the edge or finer. It has no trailing zeros, and 0 has no sign.
+// Returns a coordinate as text, rounded to a tenth of the edge or finer. The text has no trailing zeros, and 0 has no sign.
 std::string coordinate_text(double x, double edge) {
   constexpr int most_digits = 17;  // the most digits of a double
   int n_digits = 6;
@@ -81,7 +81,7 @@ std::string marked_text(const Situation &s) {
   return has_hardly_any(s) ? "only " + text : text + ", which looks wrong";
 }
 
-// Returns a warning that names the positions of mesh and surface. It is used if sizes do not explain the marks.
+// Returns a warning that names the positions of mesh and surface. This warning is used if sizes do not explain the marks.
 Warning warning_of_places(const Situation &s) {
   return {Cause::place,
           "the mesh is in " + text_of(s.mesh, s.median_edge) + ", the surface in " + text_of(s.surface, s.median_edge) +
@@ -168,8 +168,8 @@ std::string sides_text(const Box &box) {
   return joined_by(sides, " x ");
 }
 
-// Returns a warning if the sizes suggest other units than the present ones. It names each possible unit, and the options to
-// write, such as "the mesh looks as if it were in metres, ...: write --unit m".
+// Returns a warning if the sizes suggest other units than the present ones. The warning names each possible unit, and the options
+// to write, such as "the mesh looks as if it were in metres, ...: write --unit m".
 std::optional<Warning> warning_of_units(const Situation &s) {
   const UnitJudgement units = judgement_of(s, s.is_unit_known);
   const bool is_same = units.factors == std::vector<double>{1};
@@ -188,7 +188,7 @@ std::optional<Warning> warning_of_units(const Situation &s) {
                  ": write " + joined_by(write, " or ") + in_place_of(s.options)};
 }
 
-// Returns a warning if the half thickness is too large or too small. It names the option to write.
+// Returns a warning if the half thickness is too large or too small. The warning names the option to write.
 std::optional<Warning> warning_of_half_thickness(const Situation &s) {
   const bool is_large = is_too_large(s.half_thickness, s);
   if (!is_large && !is_too_small(s.half_thickness, s)) return std::nullopt;
@@ -292,13 +292,13 @@ std::string place_text(const ValveOptions &options, const double *point, double 
 
 namespace {
 
-// Differences below this share of the outline's area come from the triangles. What the bands leave of both valves has a smaller
-// error, because it is mostly 0.
+// Differences below this share of the outline's area come from the triangles. The area that both valves' bands leave has a
+// smaller error, because this area is mostly 0.
 constexpr double least_share = 1e-3, least_share_left = 1e-5;
 // The width of a gap is found to this share of the bridge.
 constexpr int n_halvings = 10;
 
-// Takes all bumps from their places. Returns whether one had a place.
+// Takes all bumps from their places. Returns whether a bump had a place.
 bool remove_bumps(riis_valve *valve) {
   bool has_bump = false;
   for (const riis_parameter &parameter : all_parameters(valve)) {
@@ -322,7 +322,7 @@ Surface closed_surface(const ValveOptions &options, riis_valve *valve) {
   return surface_at(valve, 0, how);
 }
 
-// Returns the orifice, and as effective area what is left of it after its edge along the leaflets has moved inwards.
+// Returns the orifice. The effective area is the rest of the orifice after its edge along the leaflets has moved inwards.
 riis_orifice orifice_of(const riis_surface *surface, double moved, double rim_reach) {
   auto resistance = defaults<riis_resistance>();
   resistance.half_thickness = moved / rim_reach;

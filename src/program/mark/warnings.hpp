@@ -28,7 +28,7 @@ struct Situation : Sizes {
 };
 
 // The possible causes, in the order in which to correct them. A wrong unit also makes the half thickness wrong, and both can
-// cause leaks. All of them may put a part of the leaflets outside the mesh.
+// cause leaks. All these causes may put a part of the leaflets outside the mesh.
 enum class Cause { units, half_thickness, place, leaks, outside };
 
 // The texts of a warning, without line breaks. The advice begins with the punctuation that joins it to the text, such as ":
@@ -51,8 +51,8 @@ struct PossibleUnit {
   double placement;  // the factor of the placement's lengths
 };
 
-// Returns the units that remain possible if the user named one of them, or none if no other is possible. The present unit comes
-// first. A run without a unit advises the same units.
+// Returns the other possible units of a run whose unit the user named, or none. The present unit comes first. A run without a
+// unit advises the same units.
 std::vector<PossibleUnit> units_left_open(const Situation &situation);
 
 // Prints the line on stderr, on the first rank.

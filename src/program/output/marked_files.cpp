@@ -196,7 +196,7 @@ void SeriesLists::end() {
   write_(true);
 }
 
-// After each writing, the thread pauses twenty times as long as the writing took. So lists take little of the run's time.
+// After each writing, the thread pauses twenty times as long as the writing took. Lists therefore take little of the run's time.
 void SeriesLists::follow() {
   using Clock = std::chrono::steady_clock;
   constexpr Clock::duration longest_pause = std::chrono::milliseconds(500);

@@ -29,10 +29,10 @@ class SeriesFiles {
   bool is_wanted() const { return !pvd_.empty(); }
   // Refuses a folder that cannot be written to, and a path that is a file.
   void check_folder() const;
-  // Finds files of an earlier run that would be taken for further steps of this run's series. They are files of steps that this
-  // run does not write, and an earlier list by riis names them. Refuses further steps that this list does not name, and files
-  // that another list names. `parts` are those of path_of, and `has_pieces` says whether each step also has files of pieces,
-  // whose parts are p0000 and so on.
+  // Finds files of an earlier run that would be taken for further steps of this run's series. Such files are of steps that this
+  // run does not write, and an earlier list by riis names these files. Refuses further steps that this list does not name, and
+  // files that another list names. `parts` are those of path_of, and `has_pieces` says whether each step also has files of
+  // pieces, whose parts are p0000 and so on.
   void find_earlier(const std::vector<std::string> &parts, bool has_pieces);
   // Makes the folder if it is wanted and does not exist, and removes the files of an earlier run.
   void make_folder() const;
@@ -59,13 +59,13 @@ class SeriesFiles {
   std::vector<std::string> earlier_;  // files of an earlier run
 };
 
-// Writes the lists of a series within half a second after its files, even during a long step. So a killed process leaves lists
+// Writes the lists of a series within half a second after its files, even during a long step. A killed process thus leaves lists
 // of nearly all its files. The lists are not written after every file, because writing a long list takes longer than writing a
 // file.
 
 class SeriesLists {
  public:
-  // `write` must write all lists. The object's thread calls it with false, and end() calls it with true.
+  // `write` must write all lists. The object's thread calls the function with false, and end() calls it with true.
   explicit SeriesLists(std::function<void(bool is_last)> write);
   ~SeriesLists();
   SeriesLists(const SeriesLists &) = delete;
@@ -97,7 +97,7 @@ class MarkedFiles {
   bool is_wanted() const { return !path_.empty(); }
   // Returns whether the files of a series are in a list.
   bool has_list() const { return is_wanted() && is_series_ && !is_foam_case_; }
-  // Finds the files that an earlier run left, if this one writes a series.
+  // For a series, finds the files that an earlier run left.
   void find_earlier();
   // Makes the folder of the files, if there is more than one file.
   void make_folder() const;
@@ -108,7 +108,7 @@ class MarkedFiles {
   void list_pieces();
   void write_list() const;
   const std::string &folder() const { return steps_.folder(); }
-  // Adds what is written to the report.
+  // Adds the written files to the report.
   void report(Report &report) const;
 
  private:

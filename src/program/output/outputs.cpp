@@ -44,7 +44,7 @@ void check_ending(const std::string &path, const std::string &ending, const std:
   refuse_data(path + ": cannot be written: " + reason);
 }
 
-// Returns whether the path is a device or a pipe. The program writes into these, and replaces any other file as a whole.
+// Returns whether the path is a device or a pipe. The program writes into such files, and replaces any other file as a whole.
 bool is_special(const std::string &path) {
   std::error_code error;
   return fs::exists(path, error) && !fs::is_regular_file(path, error);
@@ -109,8 +109,8 @@ NamedFiles outputs_of(const MarkOptions &options) {
   return outputs;
 }
 
-// Returns a text that is the same for all paths to one file. It consists of the device and the inode, or of the path if the file
-// does not exist.
+// Returns a text that is the same for all paths to one file. The text consists of the device and the inode, or of the path if the
+// file does not exist.
 std::string identity_of(const std::string &path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
@@ -159,7 +159,7 @@ OutputLocks locks_of(const NamedFiles &outputs) {
   return OutputLocks(written);
 }
 
-// Refuses a picture early, before all other work, if there is no display and no program that makes one.
+// Refuses a picture early, before all other work, if there is neither a display nor a program that makes one.
 void check_display() {
   const char *display = std::getenv("DISPLAY");
   if (!display || !*display) check_virtual_display();
@@ -231,7 +231,7 @@ void check_files(const NamedFiles &outputs) {
 }  // namespace
 
 OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs) {
-  // The ranks of a run share their outputs. The first one checks and locks these.
+  // The ranks of a run share their outputs. The first object checks and locks the files.
   if (!ranks::is_first()) return OutputLocks({});
   const KnownFiles inputs = known(inputs_of(options, more_inputs));
   const NamedFiles outputs = outputs_of(options);
@@ -254,7 +254,7 @@ OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::str
 
 namespace {
 
-// Checks the outputs of a command that writes texts. One of them may be "-", stdout.
+// Checks the outputs of a command that writes texts. One of the texts may be "-", stdout.
 OutputLocks check_texts(const NamedFiles &inputs, const NamedFiles &texts) {
   NamedFiles files;
   std::string on_stdout;
@@ -337,8 +337,8 @@ TemporaryFolder::~TemporaryFolder() {
 
 namespace {
 
-// The lock files of this process. Only the process's first OutputLocks object has lock files. It fills this list before it sets
-// the signal handlers.
+// The lock files of this process. Only the process's first OutputLocks object has lock files. This object fills the list before
+// the signal handlers are set.
 std::vector<std::string> held_locks;
 
 // A file of this process and its folder, which a signal that ends the process removes. Empty names stand for none.
@@ -368,7 +368,7 @@ void set_handlers(void (*from)(int), void (*to)(int)) {
   }
 }
 
-// While an object of this type lives, signals that end the process are blocked. So no signal can come after a lock file is
+// While an object of this type lives, signals that end the process are blocked. No signal can therefore come after a lock file is
 // made and before the handlers are set.
 class SignalsWait {
  public:
@@ -406,11 +406,12 @@ bool is_at(int file, const std::string &path) {
          opened.st_dev == there.st_dev;
 }
 
-// Takes the lock, and returns its file. Returns -1 on a file system without locks.
+// Takes the lock, and returns the file of the lock. Returns -1 on a file system without locks.
 int take(const std::string &output, const std::string &lock) {
   for (;;) {
     int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    // The lock file may be left from a killed run of another user. Then this user may only read it, which suffices for a lock.
+    // The lock file may be left from a killed run of another user. In this case the present user may only read the file, which
+    // suffices for a lock.
     if (file < 0 && errno == EACCES) file = open(lock.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) refuse_lock(output, "its lock " + lock + " cannot be made: " + system_text(errno));
     if (flock(file, LOCK_EX | LOCK_NB) == 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program's outputs. Before any long work, the program checks that it can write them. A text is written completely or not at
-// all.
+// The program's outputs. Before any long work, the program checks that the outputs can be written. A text is written completely
+// or not at all.
 #pragma once
 
 #include <csignal>
@@ -12,10 +12,10 @@
 
 namespace riis::program {
 
-// Names a file of this process and its folder. Signals that end the process remove both. Empty names stand for none.
+// Names a file of this process and its folder. Signals that end the process remove file and folder. Empty names stand for none.
 void remove_if_ended(const std::string &folder, const std::string &file);
 
-// A folder among the temporary files. The destructor removes it with its content.
+// A folder among the temporary files. The destructor removes the folder with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -29,7 +29,7 @@ class TemporaryFolder {
   std::string path_;
 };
 
-// Locks on the program's outputs. If two runs would replace the same file, only the first one continues.
+// Locks on the program's outputs. Of two runs that would replace the same file, only the first run continues.
 
 // For each output NAME, holds an empty file .riis-NAME.lock next to it, locked by flock. When the process ends for any reason,
 // the kernel releases the lock. The destructor removes the file, and so do the handlers of SIGINT, SIGTERM and SIGHUP. A killed
@@ -52,9 +52,9 @@ class OutputLocks {
 // Delays Ctrl-C and similar signals while a file is written. Every file is first written under a temporary name and then moved.
 // If the process ended in between, the unfinished file would stay behind.
 
-// While an object of this type lives, the first SIGINT, SIGTERM or SIGHUP waits. It ends the process when the object is
-// destroyed. A second signal acts at once. Signals that were ignored stay ignored. Objects made while another one lives do
-// nothing. Other threads may make objects only while one lives.
+// While an object of this type lives, the first SIGINT, SIGTERM or SIGHUP waits. The waiting signal ends the process when the
+// object is destroyed. A second signal acts at once. Signals that were ignored stay ignored. Objects made during another object's
+// life do nothing. Other threads may make objects only during the life of one.
 class UnbrokenWrite {
  public:
   UnbrokenWrite();
@@ -64,7 +64,7 @@ class UnbrokenWrite {
 
   // The signals that end the process.
   static constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
-  // Returns whether a signal waits. If so, callers that work in several parts stop after the present part.
+  // Returns whether a signal waits. After such a signal, callers that work in several parts stop after the present part.
   static bool has_signal();
 
  private:
@@ -88,7 +88,7 @@ std::filesystem::path folder_of(const std::filesystem::path &place);
 // Throws a Refusal for an output that is one of these files. `what` describes the files in the message.
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options);
 
-// Returns whether a later text can replace an earlier one. This is impossible on stdout, in a device and in a pipe.
+// Returns whether a later text can replace an earlier one. Replacing is impossible on stdout, in a device and in a pipe.
 bool can_be_replaced(const std::string &path);
 // Writes a file, or stdout if the path is "-", on the first rank. Afterwards the file is complete or, after a failure, unchanged.
 void write_text(const std::string &path, const std::string &text);

@@ -35,7 +35,7 @@ bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve
 }
 
 // Returns the unit for the scale bar and the captions, or none if it is not known. Without --unit, the centimetres of a valve's
-// parameters and the scale of its placement tell the unit of the mesh. If two valves tell different units, it is not known.
+// parameters and the scale of its placement tell the unit of the mesh. If two valves tell different units, the unit is not known.
 std::optional<Unit> unit_of_mesh(const std::optional<Unit> &given, const std::vector<MovingValve> &valves) {
   if (given) return given;
   std::optional<Unit> told;
@@ -107,7 +107,7 @@ std::string fixed(double number, int decimals) {
 }
 
 // Returns a text such as ", orifice 2.10 cm2". Returns "" for a surface without an outline. Slits of a closed valve do not count.
-// Areas are in cm2 and the half thickness is in mm, as people give them, unless the unit of the mesh is not known.
+// If the unit of the mesh is known, areas are in cm2 and the half thickness is in mm, as people give them.
 std::string orifice_text(const riis_surface *surface, const std::optional<Unit> &unit) {
   const auto orifice = get<riis_orifice>(riis_surface_get_orifice, surface, nullptr);
   if (orifice.outline == RIIS_OUTLINE_NONE) return "";
@@ -245,8 +245,8 @@ void RunPictures::draw_pictures(const std::vector<MovingValve> &valves, const st
   const UnbrokenWrite unbroken;
   riis_vtk_picture_options options = how(valves);
   options.title = title.c_str();
-  // Draws the leaking edges of a single valve in red. If there are none, and the edges of all cells are known, the picture says
-  // so.
+  // Draws the leaking edges of a single valve in red. If no edge leaks, and the edges of all cells are known, the picture states
+  // that there is no leak.
   static constexpr int64_t none = 0;
   const LeakReport &leaks = report.valves[0].leaks;
   if (valves.size() == 1 && mesh_ && !all_.is_series()) {
@@ -309,7 +309,7 @@ namespace {
   refuse_data(path + ": the movie cannot be made: " + reason);
 }
 
-// Returns the name of a frame's file. It contains the frame's number in the form that ffmpeg reads.
+// Returns the name of a frame's file. The name contains the frame's number in the form that ffmpeg reads.
 std::string frame_name(std::size_t number) {
   char text[32];
   std::snprintf(text, sizeof text, "frame_%06zu.png", number);
@@ -325,7 +325,8 @@ std::string frame_pattern(const std::string &folder) {
 
 std::vector<std::string> encoding_of(const std::string &path, bool has_size) {
   if (has_ending(path, ".gif")) {
-    // The movie repeats for ever, and all its frames share one palette of colours. It is small unless the user gave a size.
+    // The movie repeats for ever, and all its frames share one palette of colours. The movie is small unless the user gave a
+    // size.
     return {"-filter_complex",
             std::string(has_size ? "" : "scale='min(800,iw)':-2:flags=lanczos,") +
                 "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",
@@ -334,7 +335,7 @@ std::vector<std::string> encoding_of(const std::string &path, bool has_size) {
             "-f",
             "gif"};
   }
-  // This kind of H.264 plays in every player.
+  // H.264 with these options plays in every player.
   return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"};
 }
 
@@ -365,7 +366,7 @@ void Movie::encode() const {
   if (end.status == 0 && std::rename(temporary.c_str(), place.c_str()) == 0) return;
   const int error = errno;
   std::remove(temporary.c_str());
-  // The user's Ctrl-C also reaches ffmpeg. Then the failure needs no message.
+  // The user's Ctrl-C also reaches ffmpeg. After Ctrl-C the failure needs no message.
   if (UnbrokenWrite::has_signal()) return;
   if (end.status == 0) refuse_movie(path_, system_text(error));
   refuse_movie(path_, "ffmpeg ends with status " + std::to_string(end.status) + ": " + end.last_message.substr(0, 200));

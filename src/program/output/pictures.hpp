@@ -20,8 +20,8 @@
 
 namespace riis::program {
 
-// Refuses views by the valve's axes if there are several valves, or if the only one is a file of triangles without axes.
-// `valve` has the options of the first valve.
+// Refuses views by the valve's axes for several valves, and for a file of triangles, which has no axes. `valve` has the options
+// of the first valve.
 void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOptions &valve);
 
 // In: frames, which are files in a folder of their own. Out: a movie, made by the program ffmpeg.
@@ -48,8 +48,8 @@ class Movie {
   std::size_t n_frames_ = 0;
 };
 
-// Draws the pictures of a run at its first time, and the movie of a series. Both show all valves as one surface, and their marks
-// in the whole mesh.
+// Draws the pictures of a run at its first time, and the movie of a series. Pictures and movie show all valves as one surface,
+// and the marks in the whole mesh.
 
 class RunPictures {
  public:
@@ -59,7 +59,7 @@ class RunPictures {
   // Returns whether the user wants a picture or a movie.
   static bool are_wanted(const MarkOptions &options);
   // Draws the pictures at the first step, and a frame of the movie at each step. The valves must be at the step's time. In a
-  // series, the call changes their marks.
+  // series, the call changes the valves' marks.
   void draw(std::size_t step, std::vector<MovingValve> &valves, Report &report);
   void encode(Report &report);
 

@@ -57,8 +57,8 @@ void add_surface(const ValveReport &valve, std::ostringstream &out) {
   out << line("surface", valve.name) << surface_title(valve) << ": " << counted(valve.surface.n_triangles, "triangle");
   if (valve.n_leaflets > 0) out << ", " << counted(valve.n_leaflets, "leaflet");
   out << ", area " << valve.surface.area;
-  // Triangles without area are mentioned only for a surface from a file, which should have none. A valve has them at every
-  // collapsed side.
+  // Triangles without area are mentioned only for a surface from a file, which should have none. A valve has such triangles at
+  // every collapsed side.
   if (!valve.opening && valve.surface.n_zero_area > 0)
     out << ", " << grouped(valve.surface.n_zero_area) << " without area left out";
   out << "\n";
@@ -407,7 +407,7 @@ std::string json_of(const Report &report) {
   return json.dump(2) + "\n";
 }
 
-// For a series, each valve has a line about its times; for one state, it has lines about surface and marks.
+// A series has a line about its times for each valve. One state has lines about surface and marks.
 std::string table_of(const Report &report) {
   std::ostringstream out = table_stream();
   const bool is_series = !report.times.empty(), has_mesh = !report.mesh_name.empty();

@@ -35,7 +35,7 @@ struct Seconds {
 struct PassageReport {
   riis_passage found{};
   bool is_end = false;                // true if the position is an end of the path, so that the passage may be wider
-  double closing_half_thickness = 0;  // for the user to type; 0 if none was found or if the passage is not open
+  double closing_half_thickness = 0;  // for the user to type; 0: none was found, or the passage is closed
   double closing_skirt = 0;           // likewise, for a surface from a file
   std::string place{};                // the position, as text
   bool is_unknown = false;  // true if the passage is closed along the known edges, but unknown edges may open it
@@ -81,13 +81,13 @@ struct OutsideReport {
   };
   double share = 0;               // of the area of all leaflets
   std::vector<Leaflet> leaflets;  // with a share above 0
-  std::optional<double> opening;  // set if it differs from that of the marks
+  std::optional<double> opening;  // set if it differs from the opening of the marks
 };
 
 // Returns a text such as "12.3 MB".
 std::string bytes_text(double n);
 
-// Returns whether an orifice has an area but hardly a perimeter, because slits have none, and the text about them.
+// Returns whether an orifice has an area but hardly a perimeter, because slits have no perimeter, and the text about slits.
 bool has_slits(const riis_orifice &orifice);
 inline constexpr const char *slits_text =
     ", where slits narrower than a fifth of the half thickness do not count: they are in the open area only";
@@ -106,7 +106,7 @@ struct TimeReport {
   double largest_speed;
 };
 
-// One valve of a run. In a series, the numbers hold at its least opening.
+// One valve of a run. In a series, the numbers hold at the valve's least opening.
 struct ValveReport {
   std::string name;               // the valve's name among several, or "" for the only one
   std::string surface_name;       // the valve's kind, or a file

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the writers of cases share: checks of a SolverCase, the folder, and texts with names such as @NAME@.
+// The common parts of the writers of cases: checks of a SolverCase, the folder, and texts with names such as @NAME@.
 #pragma once
 
 #include <map>
@@ -19,7 +19,7 @@ struct Ends {
 // Refuses a case without exactly one inlet, one wall, and an outlet, and a case in another unit.
 Ends ends_of(const SolverCase &solver, Unit unit);
 
-// Makes the solver's folder. Refuses one that holds a case already.
+// Makes the solver's folder. Refuses a folder that holds a case already.
 void make_case_folder(const SolverCase &solver);
 // Copies a file of the case's folder into the solver's folder, under a name that may begin with folders.
 void copy_into(const SolverCase &solver, const std::string &from, const std::string &to);
@@ -34,7 +34,7 @@ std::string filled(std::string text, const std::map<std::string, std::string> &n
 std::string duration_text(double seconds);
 
 // The texts of beat_table.py and of the files in the folders fenicsx, openfoam and svmultiphysics, by names such as
-// "openfoam/Allrun". CMake writes them into the program, so the program needs no path to them.
+// "openfoam/Allrun". CMake writes the texts into the program, so the program needs no path to the texts.
 const std::map<std::string, std::string> &case_texts();
 
 }  // namespace riis::program

@@ -21,7 +21,7 @@ namespace {
 
 using FlatPart = flat_parts::Part;
 
-// A refusal lists so many flat parts.
+// The largest number of flat parts that a refusal lists.
 constexpr std::size_t most_listed = 6;
 
 // Chooses the ends among the flat parts.

@@ -10,11 +10,12 @@ inline constexpr double mmHg = 133.322;         // Pa
 inline constexpr double beat_period = 0.8;      // s
 inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and in which it closes
 // The dwell time of the law. The leaflets push blood back while they close, and must not open for the pressure that this makes.
-// So a motion ends before the next may begin, as svMultiPhysics does it by itself.
+// A motion therefore ends before the next may begin, as in svMultiPhysics.
 inline constexpr double dwell_seconds = motion_seconds;
-inline constexpr double opening_pressure = 50;  // Pa; above it, rounding cannot open a valve between equal pressures
+inline constexpr double opening_pressure =
+    50;  // Pa; at this difference, rounding cannot open a valve between equal pressures
 inline constexpr double closing_flow_of_mitral =
-    1e-4;  // m3/s; below it a mitral valve closes, so that less blood returns
+    1e-4;  // m3/s; below this flow a mitral valve closes, so that less blood returns
 
 // A pressure in time, linear between its keys. It repeats after beat_period.
 struct PressureCurve {
@@ -37,7 +38,7 @@ inline const PressureCurve &pressure_of_left_ventricle() {
       {{0, 8}, {0.04, 8}, {0.09, 78}, {0.14, 108}, {0.2, 120}, {0.27, 112}, {0.32, 95}, {0.38, 8}, {0.8, 8}}};
   return curve;
 }
-// The ventricle of a beat that begins before the filling. It fills through a mitral valve from the atrium.
+// The ventricle of a beat that begins before the filling. This ventricle fills through a mitral valve from the atrium.
 inline const PressureCurve &pressure_of_filling_ventricle() {
   static const PressureCurve curve{{{0, 12}, {0.03, 12}, {0.08, 4}, {0.4, 4}, {0.5, 100}, {0.76, 100}, {0.8, 12}}};
   return curve;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the file of a placed valve. Out: its entries in OpenFOAM's dictionary of riisValve (examples/openfoam/README.md).
+// In: the file of a placed valve. Out: the valve's entries in OpenFOAM's dictionary of riisValve (examples/openfoam/README.md).
 #pragma once
 
 #include <optional>

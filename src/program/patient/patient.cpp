@@ -46,7 +46,7 @@ constexpr double usual_resistance = 1e4;  // kg/(m s)
 constexpr double shorter_by = 0.9;
 // Flow solvers on one computer take meshes up to about this size.
 constexpr std::int64_t many_nodes = 40000;
-// The number of nodes grows with this power of the shortness of edges in the band, by meshes of a root and of a ventricle.
+// The number of nodes grows with this power of 1 / (edge length in the band), by meshes of a root and of a ventricle.
 constexpr double power_of_nodes = 2.5;
 constexpr int n_marked_openings = 11;
 
@@ -164,7 +164,8 @@ class PatientRun {
     if (!options_.params.empty()) inputs_.push_back(fs::absolute(options_.params, error).string());
   }
 
-  // Returns a length of an option in the folder's unit. Without a unit it has that of the wall. The limits are in millimetres.
+  // Returns a length of an option in the folder's unit. Without a unit, a number has the unit of the wall. The limits are in
+  // millimetres.
   double length_of(const std::optional<Amount> &given, double usual_mm, double least_mm, double most_mm) const {
     if (!given) return usual_mm * millimetre_;
     const double mm = given->number * (given->has_unit ? 1000 : factor_between(frame_.unit, Unit::millimetre));
@@ -478,7 +479,7 @@ class PatientRun {
     }
   }
 
-  // Runs a command that also draws. If it cannot draw here, says so, and runs the command that does not draw.
+  // Runs a command that also draws. If the program cannot draw here, prints this, and runs the command that does not draw.
   void run_with_picture(const std::string &name, const Words &with_picture, const Words &words,
                         const std::string &output, const std::string &picture) {
     StepEnd end = steps_.run(name, with_picture);

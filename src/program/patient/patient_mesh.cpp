@@ -32,13 +32,14 @@ namespace fs = std::filesystem;
 
 // An end of the new surface may differ by this share in area: the rim has longer edges than before.
 constexpr double most_area_change = 0.05;
-// The edge length in the middle of an end, as a share of its radius: the rim of the end then has at least sixteen edges.
+// The edge length in the middle of an end, as a share of the end's radius. The rim of the end then has at least sixteen edges.
 constexpr double end_edge_share = 0.35;
-// gmsh gets so many seconds, and so many for each triangle. A surface that it cannot make anew may keep it busy for hours.
+// gmsh gets this time, and this time for each triangle, in seconds. A surface that gmsh cannot make anew may keep gmsh busy for
+// hours.
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
 // The wall goes through itself if triangles overlap by more than this share of its size.
 constexpr double least_crossing_share = 1e-5;
-// So many triangles of a new patch are compared with the wall.
+// The number of triangles of a new patch that are compared with the wall.
 constexpr std::size_t n_compared = 9;
 
 // The elements of a file of gmsh, with the numbers of their surfaces or volumes. Nodes are counted from 0.
@@ -288,7 +289,7 @@ class PatientMesher {
            "Mesh.MeshSizeFromCurvature = 0;\n";
   }
 
-  // Runs gmsh on a .geo file. Refuses with its last error if it does not write the mesh. `cure` follows that error.
+  // Runs gmsh on a .geo file. Without a written mesh, refuses with gmsh's last error. `cure` follows that error.
   GmshMesh run_gmsh(double seconds, const std::string &dimension, const std::string &geo, const std::string &mesh,
                     const std::string &cure) {
     const std::string log = in_gmsh(fs::path(geo).stem().string() + ".log");
@@ -344,7 +345,7 @@ class PatientMesher {
            ", and repair or smooth it, as by Surface Toolbox of 3D Slicer";
   }
 
-  // Says where the wall goes through itself, or "". This is what gmsh fails at most often.
+  // Says where the wall goes through itself, or "". Most failures of gmsh are at such a crossing.
   std::string crossing_text() const {
     auto arrays = defaults<riis_surface_arrays>();
     arrays.n_vertices = static_cast<std::int64_t>(old_.points.size());
@@ -390,7 +391,7 @@ class PatientMesher {
     return text.text();
   }
 
-  // gmsh gives its patches new numbers, and turns some. Each patch becomes a part of the boundary that it lies on.
+  // gmsh gives its patches new numbers, and turns some patches over. Each patch becomes a part of the boundary under the patch.
   void name_patches() {
     std::map<std::int64_t, std::vector<std::size_t>> patches;
     for (std::size_t i = 0; i < surface_.triangles.size(); ++i) patches[surface_.triangles[i].first].push_back(i);

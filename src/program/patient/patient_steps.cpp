@@ -71,7 +71,7 @@ PatientFolder::PatientFolder(const std::string &path, bool replace, const std::v
   std::error_code error;
   fs::current_path(path_, error);
   if (error) refuse_folder(path, "cannot be entered: " + error.message());
-  write_text(marker_file, "riis patient has not finished this folder. If it no longer runs, run it again.\n");
+  write_text(marker_file, "riis patient has not finished this folder. If riis patient no longer runs, run it again.\n");
   fs::create_directory("logs", error);
   if (error) refuse_folder(path, "cannot be written to: " + error.message());
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the folder of riis patient. Out: the steps that fill it. A step is a command of riis that the user could also type there.
+// In: the folder of riis patient. Out: the steps that fill the folder. A step is a command of riis that the user could also type
+// there.
 #pragma once
 
 #include <chrono>
@@ -12,8 +13,8 @@
 
 namespace riis::program {
 
-// The folder of one run, which becomes the present folder of the process. While it is not finished, it has the file
-// UNFINISHED.txt, and only such a folder and one of an earlier run are taken over.
+// The folder of one run, which becomes the present folder of the process. An unfinished folder has the file UNFINISHED.txt. Only
+// such a folder, or the folder of an earlier run, is taken over.
 class PatientFolder {
  public:
   // Makes the folder, or takes an empty or an unfinished one, and with `replace` that of an earlier run. `inputs` are absolute
@@ -38,12 +39,12 @@ struct StepEnd {
   std::string reason() const { return messages.empty() ? "" : messages.back(); }
 };
 
-// Runs commands of riis in the present folder, prints them, and keeps what they print in the folder `logs`.
+// Runs commands of riis in the present folder, prints the commands, and keeps their output in the folder `logs`.
 class PatientSteps {
  public:
   explicit PatientSteps(bool quiet);
 
-  // Prints a line: a label and what was found. With `seconds` the line ends with the time.
+  // Prints a line: a label and a result. With `seconds` the line ends with the time.
   void say(const std::string &label, const std::string &text, double seconds = -1);
   // Prints a command that is about to run.
   void announce(const std::string &command);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a patient's mesh with named boundaries, and the valve that is placed in it. Out: a folder in which a flow solver runs as it
-// is. riis patient fills a SolverCase, and each solver has one function that writes its folder.
+// In: a patient's mesh with named boundaries, and the valve that is placed in it. Out: a folder in which a flow solver runs
+// without changes. riis patient fills a SolverCase, and each solver has one function that writes this folder.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct Boundary {
 // What every solver needs to know. Lengths have the mesh's unit; R, density and viscosity are in SI units.
 struct SolverCase {
   std::string folder;       // of riis patient: mesh.msh, faces/NAME.vtp, wall.stl and placed.json lie here
-  std::string solver;       // its own folder, inside of `folder`
+  std::string solver;       // the solver's own folder, inside of `folder`
   Unit unit = Unit::metre;  // of the mesh: metres for OpenFOAM and FEniCSx, centimetres for svMultiPhysics
   std::string kind;         // of the valve
   bool is_mitral =
@@ -39,7 +39,7 @@ struct SolverCase {
   bool starts_closed = true;
   std::array<double, 3> upstream{},
       downstream{};                  // points in the blood before and after the valve, and the radius of balls
-  double ball_radius = 0;            // around them, in which pressures are read
+  double ball_radius = 0;            // of the balls around these points, in which pressures are read
   std::vector<Boundary> boundaries;  // the inlet, the outlets, the wall
   std::int64_t n_nodes = 0, n_cells = 0;
   double band_edge = 0;  // edge length in the band

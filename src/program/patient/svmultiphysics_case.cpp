@@ -33,7 +33,7 @@ std::string element(const std::string &name, const std::string &value) {
   return "<" + name + "> " + value + " </" + name + ">";
 }
 
-// Returns the curve as the solver reads it. It makes a Fourier series from the polygon.
+// Returns the curve as the solver reads it. The solver makes a Fourier series from this polygon.
 std::string temporal_values(const PressureCurve &curve) {
   std::string text = std::to_string(curve.keys.size()) + ' ' + std::to_string(n_modes) + '\n';
   for (const PressureCurve::Key &key : curve.keys)

@@ -20,11 +20,11 @@ namespace {
 constexpr std::int32_t n_sides_openings = 11;
 // Radii of the balls in millimetres: the largest that there is room for is taken.
 constexpr double ball_radii[] = {4, 3, 2, 1.5, 1};
-// The places that are tried for a ball, in millimetres: on the valve's axis and on lines beside it, at steps along the axis.
+// The places that are tried for a ball, in millimetres: steps along the valve's axis and along lines beside the axis.
 constexpr int most_along = 150, ring_step = 3, n_rings = 5, n_of_ring = 8;
 
-// Returns places on both sides of the centre, the nearest first. They depend on the placement only, so pressures in two meshes of
-// a patient are read at the same places.
+// Returns places on both sides of the centre, the nearest first. The places depend on the placement only, so pressures in two
+// meshes of a patient are read at the same places.
 std::vector<double> places_by_distance(const Vector3 &centre, const Vector3 &flow, double millimetre) {
   struct Candidate {
     int along, ring, number;

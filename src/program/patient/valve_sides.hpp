@@ -13,7 +13,7 @@ namespace riis::program {
 
 struct ValveSides {
   std::array<double, 3> upstream{}, downstream{};
-  double ball_radius = 0;  // of balls around both points that meet neither the wall nor the band at any opening
+  double ball_radius = 0;  // of balls around the two points that meet neither the wall nor the band at any opening
   bool are_apart = false;  // whether the closed valve parts the unmarked nodes on its two sides
   std::vector<std::string> before, after;  // the ends on either side, if the sides are apart
 };

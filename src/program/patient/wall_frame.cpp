@@ -11,9 +11,10 @@
 namespace riis::program {
 namespace {
 
-// Landmarks on a wall are nearer to it on average than this, in millimetres. Cusps and annuli are about 25 mm wide.
+// Landmarks on a wall have a smaller mean distance from the wall than this, in millimetres. Cusps and annuli are about 25 mm
+// wide.
 constexpr double at_wall = 5;
-// Another frame is excluded if its landmarks are so many times farther away.
+// Another frame is excluded if its landmarks are this many times farther away.
 constexpr double clearly_farther = 2;
 
 std::string mm_text(double length) { return printed("%.3g", length) + " mm"; }

@@ -19,7 +19,7 @@ struct WallFrame {
   std::string farthest;  // the landmark with this distance
 };
 
-// The wall has the lengths of its file. `unit` and `axes` are what the user says, if anything. Refuses landmarks that are not at
+// The wall has the lengths of its file. `unit` and `axes` are the user's statements, if any. Refuses landmarks that are not at
 // the wall, and asks if two units or axes fit about equally well.
 WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, std::optional<Unit> unit,
                         const std::string &axes);

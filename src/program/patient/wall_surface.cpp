@@ -125,7 +125,7 @@ class WallRepair {
     renumber(number);
   }
 
-  // Joins vertices of open sides that are so near that only rounding parts them.
+  // Joins vertices of open sides whose distance is only rounding.
   void join_near_points() {
     std::vector<std::int64_t> open;
     for_each_edge(sorted_sides(corners()), [&](const TriangleSide *side, std::size_t n) {
@@ -220,7 +220,7 @@ class WallRepair {
            ": the surface touches itself; repair it, as by the filter Repair non Manifold Edges of MeshLab");
   }
 
-  // Turns all triangles as the first one.
+  // Turns all triangles as the first triangle.
   void turn_alike() {
     const std::int64_t n = made_.triangles.n();
     struct Neighbour {
@@ -332,7 +332,7 @@ class WallRepair {
     for (const std::int64_t id : corner) view(is_locked_)[id] = 1;
   }
 
-  // Returns the triangle that has the side from a to b in this direction, or -1. One of the two is a vertex of a thin triangle.
+  // Returns the triangle that has the side from a to b in this direction, or -1. Either a or b is a vertex of a thin triangle.
   std::int64_t of_side(std::int64_t a, std::int64_t b) const {
     const auto found = around_.find(around_.count(a) > 0 ? a : b);
     for (const std::int64_t i : found->second)
@@ -341,7 +341,7 @@ class WallRepair {
     return -1;
   }
 
-  // Moves the end b of a side to its other end a. Returns whether the surface allows it.
+  // Moves the end b of a side to its other end a. Returns whether the surface allows this join.
   bool join_side(std::int64_t a, std::int64_t b) {
     const std::int64_t left = of_side(a, b), right = of_side(b, a);
     if (left < 0 || right < 0) return false;
@@ -387,7 +387,7 @@ class WallRepair {
     return true;
   }
 
-  // A line of open sides that ends where it begins. The triangles are on its left.
+  // A line of open sides that ends where it begins. The triangles are on the left of the line.
   using RimLoop = std::vector<std::int64_t>;
 
   std::vector<RimLoop> open_loops() const {
@@ -411,7 +411,7 @@ class WallRepair {
     return loops;
   }
 
-  // Closes holes whose rims are flat. Whether these are ends is decided later. Refuses other holes.
+  // Closes holes whose rims are flat. Whether such holes are ends is decided later. Refuses other holes.
   void close_holes() {
     std::vector<RimLoop> loops = open_loops();
     std::stable_sort(loops.begin(), loops.end(),

@@ -26,7 +26,8 @@ struct ClosedSurface {
   std::vector<std::string> remarks;  // what was changed, a line each
 };
 
-// Reads and repairs the surface. Vertices at equal places become one. Refuses what flat_ends.hpp says of read_patient_wall.
+// Reads and repairs the surface. Vertices at equal places become one. The refusals are the refusals of read_patient_wall
+// (flat_ends.hpp).
 ClosedSurface read_closed_surface(const std::string &path);
 
 // Returns a point as the user writes it after an option: X,Y,Z with digits down to a thousandth of the size.

@@ -105,7 +105,7 @@ std::vector<double> frames_of(const OpeningLaw &law, const TimeSpan &span, doubl
 
 LawWithSpans law_of_seconds(const ExportOptions &options) {
   auto times = defaults<riis_opening_times>();
-  // The opening ends at time 0, and the closing starts at time 0. With this choice, the times of both ends of both ramps are
+  // The opening ends at time 0, and the closing starts at time 0. This choice makes the times of the four ends of the two ramps
   // exact.
   times.opening_start = -*options.opening_duration;
   times.opening_duration = *options.opening_duration;
@@ -176,7 +176,7 @@ void check_whole_folder(const std::string &given, const std::string &option) {
   check_writable(option, path, path);
 }
 
-// A folder that receives its files only when all of them are written. Until then the files are in a folder inside it whose name
+// A folder that receives its files only when all files are written. Until then the files are in a folder inside it whose name
 // begins with a dot. If take_place() was not called, the destructor removes everything.
 class WholeFolder {
  public:
@@ -350,8 +350,8 @@ std::string as_name(std::string text) {
   return text;
 }
 
-// Returns the name of the valve in the solver's input. The solver also uses it in names of arrays and files, so two valves of one
-// run need two names. Their folders differ, so the name is that of the folder with its path.
+// Returns the name of the valve in the solver's input. The solver also uses the name for arrays and files, so two valves of one
+// run need two names. The folders of the valves differ, so the name is the folder's path.
 std::string block_name(const ExportOptions &options) {
   if (!options.name.empty()) return options.name;
   constexpr std::size_t longest = 64;
@@ -436,7 +436,7 @@ UrisExport write_uris(const ExportOptions &options, const std::string &named_fol
   stage.reset();
   if (leaflets.n_left_out() > 0) {
     warn(counted(leaflets.n_left_out(), "triangle") +
-         " left out, because the area is 0 in some frames and svMultiPhysics would divide by it");
+         " left out: the area is 0 in some frames, and svMultiPhysics would divide by 0");
   }
   check_shape(options, leaflets.valve(), !options.params_open.empty());
   const UrisForecast forecast = options.mesh.empty() ? UrisForecast{} : forecast_of(options, motion, leaflets);

@@ -44,7 +44,7 @@ class Arrays {
     write(numbers, bytes * n);
   }
 
-  // Returns the file, at its begin.
+  // Returns the file, at its beginning.
   std::FILE *file() {
     check_written(std::fflush(file_.get()) == 0);
     std::rewind(file_.get());

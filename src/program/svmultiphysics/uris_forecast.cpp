@@ -203,7 +203,7 @@ class Forecaster {
   std::string text_of_stiffness() const {
     const double stiffness = options_.resistance * options_.time_step / (options_.density * half_thickness_);
     return "With --resistance " + shown(options_.resistance) + ", R dt/(rho eps) is " + shown(stiffness) +
-           ", and in blood flows it is about 1 to 1,000: look at the unit of --resistance";
+           ", but about 1 to 1,000 in flows of blood: look at the unit of --resistance";
   }
 
   // Finds the half thickness by steps of a quarter, and then by halving the last step twice.
@@ -232,8 +232,9 @@ class Forecaster {
            text_of_finer_mesh(near, above);
   }
 
-  // Returns the edges that are as good as a half thickness that is larger by this factor, because the drop depends on the ratio
-  // of both. Elements become shorter by the same length everywhere, as with size fields of different edges in the band.
+  // Returns the edges that are as good as a half thickness larger by this factor, because the drop depends on the ratio of edge
+  // and half thickness. Elements become shorter by the same length everywhere, as with size fields of different edges in the
+  // band.
   std::string text_of_finer_mesh(const std::vector<double> &near, double factor) const {
     std::vector<double> lengths, volumes;
     const SolverElement &element = *mesh_.element;
@@ -267,7 +268,7 @@ class Forecaster {
     return grouped(static_cast<std::int64_t>(std::llround(count / unit) * std::llround(unit)));
   }
 
-  // The stabilisation can make the drop exceed (R / eps) u a little. A drop far above it, or below 0, is no forecast.
+  // The stabilisation can make the drop exceed (R / eps) u a little. A drop far above this value, or below 0, is no forecast.
   static bool is_sensible(double drop) { return drop > 0 && drop <= 1 / least_of_sensible; }
 
   // Returns a length as the user gives it, in the unit of the mesh.

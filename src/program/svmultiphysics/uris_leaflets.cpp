@@ -188,8 +188,8 @@ void UrisLeaflets::add_box(const UrisMotion &motion) {
 
 namespace {
 
-// The solver widens its box by solver_share. Its pressure bands end at end_of_bands half thicknesses. The additional 1e-6 keeps
-// a node at the end of the bands inside the box.
+// The solver widens its box by solver_share. The solver's pressure bands end at end_of_bands half thicknesses. The additional
+// 1e-6 keeps a node at the end of the bands inside the box.
 constexpr double solver_share = 0.1, end_of_bands = 5 * (1 + 1e-6);
 
 Box box_of(const std::vector<Corners> &triangles, const std::vector<double> &xyz) {
@@ -238,8 +238,8 @@ void UrisBox::append_nodes(std::vector<double> &xyz) const {
       const double sum = sum_of(triangles_[chosen_[axis]], xyz, k), at = sum / 3;
       const double half = (box.upper[k] - box.lower[k]) / 2,
                    wanted = std::max(half, (half + end_of_bands * half_thickness_) / (1 + 2 * solver_share));
-      // The triangle extends equally far in both directions along its axis. It also has a width across the axis, so that it has
-      // an area.
+      // The triangle extends equally far in both directions along its axis. The triangle also has a width across the axis, so
+      // that its area is not 0.
       const double reach = wanted + std::abs(at - middle(box, k));
       const double across = k == (axis + 1) % 3 ? half_thickness_ : 0;
       const double offsets[2] = {k == axis ? reach : across, k == axis ? -reach : across};
@@ -305,7 +305,7 @@ bool FinerTriangles::halve_longer(double length) {
       add(corners[k], middles[k], corners[other]);
       add(middles[k], corners[next], corners[other]);
     } else if (n_cut == 2) {
-      // The edge from a to b is not halved. There are two diagonals. The shorter one ends in the middle of the longer halved
+      // The edge from a to b is not halved. There are two diagonals. The shorter diagonal ends in the middle of the longer halved
       // edge.
       const std::size_t k = whole, next = (k + 1) % 3, other = (k + 2) % 3;
       const std::int64_t a = corners[k], b = corners[next], c = corners[other], bc = middles[next], ca = middles[other];

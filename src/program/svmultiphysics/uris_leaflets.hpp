@@ -17,7 +17,7 @@
 
 namespace riis::program {
 
-// Moving triangles that are cut into smaller ones. The cuts are the same at all times.
+// Moving triangles that are cut into smaller triangles. The cuts are the same at all times.
 
 using Corners = std::array<std::int64_t, 3>;
 using Point = std::array<double, 3>;
@@ -53,8 +53,8 @@ class FinerTriangles {
   void append_middles(std::vector<double> &xyz) const;
   // Measures all edges. `xyz` has all vertices at one time. The length of an edge is the largest one over all times.
   void measure(const std::vector<double> &xyz);
-  // Halves once each edge whose measured length exceeds `length`. Returns true if there was one. Triangles that share an edge
-  // also share its middle, so no gap opens between them.
+  // Halves once each edge whose measured length exceeds `length`. Returns true if there was such an edge. Triangles that share an
+  // edge also share its middle, so no gap opens between them.
   bool halve_longer(double length);
 
  private:
@@ -85,8 +85,8 @@ class FinerTriangles {
 // coordinates is exact, even in a box about ten times as large.
 double uris_grid(double largest);
 
-// Three triangles, one along each axis. The middle of each is exactly the middle of a triangle of the valve, so the solver never
-// finds it nearer than the valve. The corners extend beyond the valve's box at both ends.
+// Three triangles, one along each axis. The middle of each added triangle is exactly the middle of a triangle of the valve, so
+// the solver never finds the added triangle nearer. The corners extend beyond the valve's box at both ends.
 class UrisBox {
  public:
   static constexpr std::int64_t n_nodes = 9;
@@ -105,8 +105,8 @@ class UrisBox {
   std::array<std::size_t, 3> chosen_{};
 };
 
-// The openings of the frames. The solver plays the first list when the valve begins to open, and the second when it begins to
-// close. Each time step plays one frame.
+// The openings of the frames. The solver plays the first list from the start of opening, and the second list from the start of
+// closing. Each time step plays one frame.
 struct UrisMotion {
   std::vector<double> opening, closing;
   bool starts_closed = true;
@@ -118,7 +118,7 @@ struct UrisLeaflet {
   std::vector<Corners> triangles;   // corners as numbers of the leaflet's own nodes, from 0
 };
 
-// Lengths are in the solver's unit, cm, unless the unit of the mesh is not known.
+// If the unit of the mesh is known, lengths are in the solver's unit, cm.
 class UrisLeaflets {
  public:
   // Evaluates all frames, and cuts the triangles as the options require.
@@ -128,10 +128,11 @@ class UrisLeaflets {
   // Returns the library's surface at the last opening of vertices_at.
   const riis_surface *surface() const { return surface_.get(); }
   const std::vector<UrisLeaflet> &leaflets() const { return leaflets_; }
-  // Returns all vertices at an opening, xyz(3, n). They are multiples of a power of two, so that the solver's sums of them are
-  // exact.
+  // Returns all vertices at an opening, xyz(3, n). The coordinates are multiples of a power of two, so that the solver's sums of
+  // coordinates are exact.
   std::vector<double> vertices_at(double opening);
-  // Returns the direction of forward flow. It is the mean normal of the leaflets in the first frame, without the housing.
+  // Returns the direction of forward flow. This direction is the mean normal of the leaflets in the first frame, without the
+  // housing.
   const std::array<double, 3> &forward() const { return forward_; }
   double half_thickness() const { return half_thickness_; }
   double longest_edge() const { return longest_edge_; }

@@ -23,7 +23,7 @@ constexpr double widening = 0.1, far_in_half_thicknesses = 1e6;
 
 // ---- The nearest middle of a triangle ----
 
-// A tree over points. It finds the nearest point, and of equally near ones the first.
+// A tree over points. The tree finds the nearest point, and the first of equally near points.
 class PointTree {
  public:
   explicit PointTree(std::vector<Point> points) : points_(std::move(points)), order_(points_.size()) {
@@ -162,7 +162,7 @@ SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path, do
   check(riis_vtk_mesh_copy_cells(file, n_cells, offsets.data(), types.data(), 0, nullptr), path);
   resize(nodes, offsets.back());
   check(riis_vtk_mesh_copy_cells(file, n_cells, nullptr, nullptr, offsets.back(), nodes.data()), path);
-  // VTK's types of points, lines and faces. They bound the volume, and the solver has them in other files.
+  // VTK's types of points, lines and faces. Such cells bound the volume, and the solver has them in other files.
   constexpr std::uint8_t without_volume[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23, 28, 30, 34, 35, 36};
   for (std::int64_t i = 0; i < n_cells; ++i) {
     const std::uint8_t type = view(types)[i];
@@ -313,14 +313,15 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
   const SolverElement &element = *mesh.element;
   const std::vector<ReferencePoint> &points = at_solver_points ? element.gauss : element.fine;
   const std::vector<ShapeFunctions> &functions = at_solver_points ? element.at_gauss : element.at_fine;
-  // Most points of the elements near the band lie outside it: their distance is at least that of a node, less the way to it.
+  // Most points of the elements near the band lie outside: their distance is at least a node's distance minus the way to this
+  // node.
   const double reach = (1 + 1e-6) * half_thickness + error;  // rounding changes less
   const auto excludes = [&](std::int64_t node, const Point &point) {
     const Point off = difference(point, mesh.point(node));
     const double beyond = view(near)[node] - reach;
     return beyond > 0 && beyond < infinity && product(off, off) < beyond * beyond;
   };
-  // A linear element lies between its nodes, so a node that excludes all of them excludes the element.
+  // A linear element lies between its nodes, so a node that excludes all other nodes excludes the element.
   const bool is_linear = element.n_nodes == element.n_corners;
   std::vector<double> xyz, weights;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {

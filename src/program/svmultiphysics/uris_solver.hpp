@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What svMultiPhysics computes from exported leaflets in a mesh, by the rules of its own sources (docs/export.md).
+// The numbers that svMultiPhysics computes from exported leaflets in a mesh, by the rules of its own sources (docs/export.md).
 // In: a mesh, and the leaflets of a frame. Out: the solver's distances at nodes, its delta at Gauss points, and its bands.
 #pragma once
 
@@ -85,7 +85,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
 
 // Returns the solver's distance at a point of element e: the absolute distances at its nodes, interpolated. Quadratic shape
 // functions have negative values. At the box's border, nodes have the solver's large number, and some distances become negative.
-// The solver's condition for the band accepts them.
+// The solver's condition for the band accepts negative distances.
 double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
                              const std::vector<double> &distances);
 // Returns the solver's delta at a point of element e: K / R.
@@ -94,7 +94,7 @@ double solver_delta(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions
 // Returns (1 + cos(pi d / eps)) / (2 eps^2), or 0 beyond eps.
 double delta_of(double distance, double half_thickness);
 
-// The nodes whose signed distances lie in a range. Their places are measured along the direction of forward flow.
+// The nodes whose signed distances lie in a range. The places of these nodes are measured along the direction of forward flow.
 struct SolverBand {
   std::int64_t n_nodes = 0;
   double volume = 0, from = 0, to = 0;
@@ -105,8 +105,8 @@ SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances,
 // The largest speeds of a frame, from the vertices of this frame and of the frame before.
 struct SolverSpeeds {
   double of_leaflets = 0;  // of the leaflets' vertices
-  // The largest velocity that the solver gives to a node within the half thickness. It extrapolates the velocity in the plane of
-  // the nearest triangle.
+  // The largest velocity that the solver gives to a node within the half thickness. The solver extrapolates the velocity in the
+  // plane of the nearest triangle.
   double of_nodes = 0;
 };
 SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets, const SolverDistances &distances,

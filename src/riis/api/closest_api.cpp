@@ -27,7 +27,7 @@ const riis_closest_options default_closest_options{sizeof(riis_closest_options),
 const riis_closest_arrays default_closest_arrays{
     sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
 
-// Writes entry i for a closest point on the patches. Such points have no triangle id and no side.
+// Writes entry i for a closest point on the patches. Points on patches have no triangle id and no side.
 void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::PatchDistance &method,
                    const riis::ClosestOnPatches &found) {
   const riis::PlacedPatch &patch = riis::view(method.patches().patches)[found.patch];

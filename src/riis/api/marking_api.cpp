@@ -135,7 +135,7 @@ riis_flow_arrays checked_flow(const riis_flow_arrays *flow, const riis::Marks &m
   return whole;
 }
 
-// Checks the numbers of a reaction. Its leaflets and edges are checked later, against the marks.
+// Checks the numbers of a reaction. The reaction's leaflets and edges are checked later, against the marks.
 riis_reaction checked_reaction(const riis_reaction *reaction) {
   const riis_reaction whole = riis::completed(require(reaction, "reaction"), "reaction", default_reaction);
   for (int c = 0; c < 3; ++c)

@@ -72,8 +72,8 @@ constexpr std::int64_t first_size_of(const riis_coaptation *) { return 24; }
 constexpr std::int64_t first_size_of(const riis_gap *) { return 64; }
 constexpr std::int64_t first_size_of(const riis_direction *) { return 24; }
 
-// Refuses a struct of a wrong size. A right size is the first release's size or a larger multiple of 8, and at most the size of
-// the library's own struct.
+// Refuses a struct of a wrong size. A right size is a multiple of 8, from the first release's size to the size of the library's
+// own struct.
 template <class Struct>
 void check_struct_size(std::int64_t size, const char *name) {
   static_assert(std::is_trivially_copyable_v<Struct> && sizeof(Struct) % 8 == 0);

@@ -32,7 +32,7 @@ struct UserFaces {
   UserSkirt skirt;
 };
 
-// Copies the faces. `memory` is an object whose memory is reused. Both functions fail with RIIS_INVALID_ARGUMENT,
+// Copies the faces. `memory` is an object whose memory is reused. The next two functions fail with RIIS_INVALID_ARGUMENT,
 // RIIS_INVALID_SURFACE or RIIS_LIMIT_EXCEEDED. The message names the field, the face or vertex, and the value.
 UserFaces faces_from_arrays(const riis_surface_arrays &arrays, UserFaces memory = {});
 
@@ -51,8 +51,8 @@ class Keyframes {
   Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arrays &frames);
   Keyframes(Keyframes &&) = default;  // moving a vector leaves its elements, such as the times, at their address
 
-  // Writes positions and velocities (3, n_vertices). For dt == 0 the velocity is the derivative of the interpolation. At a
-  // linear key it is the derivative after the key. Otherwise the velocity is the mean from time - dt to time.
+  // Writes positions and velocities (3, n_vertices). For dt == 0 the velocity is the derivative of the interpolation. At a linear
+  // key the velocity is the derivative after the key. At other times the velocity is the mean from time - dt to time.
   void at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
   const UserFaces &faces() const { return faces_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A failure travels as an exception: fail() throws it, and guarded() turns it into a status and a message. The message is stored
-// in the exception and then in the thread's own memory, so reporting an error allocates nothing.
+// A failure travels as an exception: fail() throws the exception, and guarded() turns it into a status and a message. The message
+// is stored in the exception and then in the thread's own memory, so reporting an error allocates nothing.
 #pragma once
 
 #include <riis/riis.h>

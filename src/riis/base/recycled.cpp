@@ -41,7 +41,7 @@ constexpr int smallest_class = 6, largest_class = 22;
 constexpr std::size_t largest_block = std::size_t{1} << largest_class;
 
 // Each thread takes from its own pool first, so threads seldom wait for each other. A thread may give back memory that
-// another thread took. So a thread whose pool is empty looks into the other pools before it asks the system.
+// another thread took. A thread with an empty pool therefore looks into the other pools before the system is asked.
 constexpr unsigned n_pools = 16;
 
 // A lock for a few instructions, which two threads seldom want at once. A mutex would take half of the time that an array's
@@ -114,8 +114,8 @@ void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
   if (n_bytes <= largest_block) {
     Pool &to = pools[own_pool()];
     const std::lock_guard<ShortLock> lock(to.in_use);
-    // n_keepers counts the objects that keep memory. The last of them lowers this count first and then empties the pools under
-    // this lock. So if the count is above 0 here, the pool will still be emptied, and the block may be kept.
+    // n_keepers counts the objects that keep memory. The last keeper lowers this count first and then empties the pools under
+    // this lock. If the count is above 0 here, the pool will still be emptied, and the block may be kept.
     if (n_keepers.load(std::memory_order_acquire) > 0) {
       Block *&first = to.kept[static_cast<std::size_t>(size_class(n_bytes) - smallest_class)];
       first = new (memory) Block{first};

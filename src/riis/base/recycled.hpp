@@ -15,7 +15,7 @@ namespace riis {
 // Arrays whose resize() leaves new elements without a value. A large array is therefore written only once, when its owner
 // fills it.
 
-// This allocator takes its memory from the allocator `Memory`, and leaves new elements without a value.
+// An allocator that takes its memory from the allocator `Memory`, and leaves new elements without a value.
 template <class T, template <class> class Memory>
 struct UnfilledAllocator : Memory<T> {
   static_assert(std::is_trivially_default_constructible_v<T>);
@@ -41,10 +41,10 @@ using UnfilledVector = std::vector<T, UnfilledAllocator<T, std::allocator>>;
 void *take_memory(std::size_t n_bytes);
 void give_memory_back(void *memory, std::size_t n_bytes) noexcept;
 
-// Frees the memory that is kept now. Call it after work that took much more memory than a time step takes.
+// Frees the memory that is kept now. Call this function after work that took much more memory than a time step takes.
 void free_kept_memory() noexcept;
 
-// Memory is kept while at least one object of this type exists. The last object's destructor frees it.
+// Memory is kept while at least one object of this type exists. The last object's destructor frees the memory.
 class KeepsMemory {
  public:
   KeepsMemory() noexcept;

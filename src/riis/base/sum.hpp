@@ -5,8 +5,8 @@
 
 namespace riis {
 
-// Adds numbers by Neumaier's method (1974), which also adds up the rounding errors. For any number of nodes, the sums over the
-// leaflets therefore add up to the sum over the surface, up to a few units in the last place.
+// Adds numbers by Neumaier's method (1974), which also adds up the rounding errors. For any number of nodes, the total of the
+// leaflets' sums therefore differs from the surface's sum by a few units in the last place.
 class Sum {
  public:
   void add(double x) {

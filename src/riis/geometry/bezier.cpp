@@ -36,7 +36,7 @@ Two root(Two a) {
 #endif
 }
 
-// Computes |B'(t)| from the coefficients of B' in powers of t. This is the innermost loop of all arc lengths.
+// Computes |B'(t)| from the coefficients of B' in powers of t. This speed is computed in the innermost loop of all arc lengths.
 struct Speed {
   explicit Speed(const Bezier &curve) {
     const auto &q = curve.control;
@@ -116,7 +116,7 @@ double first_guess(const Speed &speed, double share) {
   return t;
 }
 
-// Integrates the speed over a range of t shorter than 1/1000. There the rule with 2 points is exact to rounding.
+// Integrates the speed over a range of t shorter than 1/1000. In such a short range the rule with 2 points is exact to rounding.
 double short_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double node = 0.57735026918962576451;
   const double middle = 0.5 * (t0 + t1), half = 0.5 * (t1 - t0);
@@ -159,7 +159,7 @@ bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t
                                              : stepwise_quadrature(speed, next, closer);
       next = closer;
     }
-    // Near a cusp, Newton's method may not have converged yet. Then this fast method gives up.
+    // Near a cusp, Newton's method may not have converged yet. In this case the fast method gives up.
     if (!(std::abs(made - wanted) <= 1e-13 * part.whole_length)) return false;
     at = t[k] = next;
     at_length += made;
@@ -259,8 +259,8 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // Bounds each quarter of the curve separately. The bound from control points is loose if they vary much. Within a quarter they
-  // vary little.
+  // Bounds each quarter of the curve separately. The bound from control points is loose if they vary much. Within a quarter the
+  // control points vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);

@@ -18,7 +18,7 @@ namespace riis {
 namespace {
 
 // Ball arithmetic: bounds a vector or a number on a range by a middle value and the largest distance from it.
-// In: ranges. Out: ranges that hold every value. Rounding of the bounds is ignored, because it is far smaller than they are.
+// In: ranges. Out: ranges that hold every value. Rounding of the bounds is ignored, because it is far smaller than the bounds.
 
 // All numbers within `radius` of `middle`.
 struct Interval {
@@ -128,7 +128,7 @@ std::optional<Along> along_span(const Bezier &span, double speed) {
   if (!(speed > 0)) return Along{};
   const Derivatives d(span);
   const bool is_cubic = d.n == 3;
-  // In the middle, B' is this vector. From there B'' changes it for half of the range of t, to either side.
+  // In the middle, B' is this vector. From the middle, B'' changes B' for half of the range of t, to either side.
   const Vec3 middle = is_cubic ? 0.25 * (d.first[0] + 2 * d.first[1] + d.first[2]) : 0.5 * (d.first[0] + d.first[1]);
   const double size = length(middle);
   if (!(size > 0)) return std::nullopt;
@@ -229,8 +229,8 @@ Bulge::Place Bulge::place(double u) const {
 OffsetBounds bound_offset(const ArcRange &range, double factor) {
   const Vec3 start = range.edge.front().first() - range.base.front().first();
   const Vec3 end = range.edge.back().last() - range.base.back().last();
-  // No point of a curve moves farther than the length of its part of the curve. The distance of W from the nearer of its two
-  // end values is therefore at most half the sum of both parts' lengths.
+  // No point of a curve moves farther than the length of its part of the curve. The distance of W from its nearer end value is
+  // therefore at most half the sum of the two parts' lengths.
   const double w_ends = std::max(length(start), length(end));
   const double w_far = w_ends + 0.5 * range.du * (range.base_length + range.edge_length);
   const OffsetBounds unknown{infinity, 2 * std::abs(factor) * w_far};

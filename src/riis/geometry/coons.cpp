@@ -37,7 +37,7 @@ Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &sid
 
 Vector<GridLine> lines_between(const Polyline &side0, const Polyline &side1, double max_merge_shift) {
   const double longer = std::max(side0.length, side1.length);
-  // A grid line that two vertices share stands at the mean of their parameters. So the point of each side moves by at most half
+  // A grid line that two vertices share stands at the mean of their parameters. The point of each side thus moves by at most half
   // the difference of the parameters.
   return merge_parameters(side0, side1, longer > 0 ? 2.0 * max_merge_shift / longer : 0.0);
 }
@@ -72,8 +72,8 @@ class ArcRefinement {
   }
 
  private:
-  // Returns the place at which a range is cut. A cut at a joint removes a kink, so joints come first unless they are too
-  // near an end. Without such a joint, the cut is in the middle.
+  // Returns the place at which a range is cut. A cut at a joint removes a kink, so joints come first, except joints too near an
+  // end. Without such a joint, the cut is in the middle.
   double cut(double from, double to) const {
     for (const double joint : bulge_.joints())
       if (joint > 0.875 * from + 0.125 * to && joint < 0.125 * from + 0.875 * to) return joint;
@@ -178,7 +178,8 @@ QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines) {
     sides_on_lines.u1.push_back(evaluate(*sides.side_u1, line.t1));
   }
   grid.points = coons_combination(grid.u, grid.v, sides_on_lines);
-  // The errors of four side points make the error of a point of the patch. Their weights follow from the points' positions.
+  // The errors of four side points make the error of a point of the patch. The weights of these errors follow from the points'
+  // positions.
   const Vector<double> error_v0 = errors_between(u_lines, *sides.side_v0, &GridLine::t0);
   const Vector<double> error_v1 = errors_between(u_lines, *sides.side_v1, &GridLine::t1);
   const Vector<double> error_u0 = errors_between(v_lines, *sides.side_u0, &GridLine::t0);

@@ -17,8 +17,8 @@ struct PatchSides {
   const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
 };
 
-// A line of the grid. If the parameters of two vertices on opposite sides nearly agree, they share a line, so no sliver quads
-// arise. Neither vertex moves. Neighbouring patches fit without cracks, because each vertex of a shared curve keeps its place.
+// A line of the grid. Two vertices on opposite sides whose parameters nearly agree share a line, so no sliver quads arise.
+// Neither vertex moves. Neighbouring patches fit without cracks, because each vertex of a shared curve keeps its place.
 struct GridLine {
   double t0, t1;                                // the line's parameters on the first and the second of its two sides
   double middle;                                // the mean of both, which is the line's u (or v) in the grid
@@ -65,8 +65,8 @@ QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLin
 QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
 
 // A patch of arcs consists of the straight lines from side_v0, the base, to side_v1, the edge, plus 2 v (1-v) O(u)
-// (geometry/bulge.hpp). Its grid is made in two steps, lines and then rows, because patches that share an arc must have equally
-// many rows.
+// (geometry/bulge.hpp). The grid of such a patch is made in two steps, lines and then rows, because patches that share an arc
+// must have equally many rows.
 struct ArcLines {
   Vector<GridLine> u_lines;
   Vector<Vec3> offsets;   // O on each line
@@ -88,7 +88,7 @@ ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset
 // Makes the grid with n_rows rows of equal height h. The distance of an arc from its chords is at most |O| h^2 / 2.
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);
 
-// A linear function is at0 at 0 and at1 at 1. Returns the larger of its values at `from` and `to`.
+// A linear function is at0 at 0 and at1 at 1. Returns the larger of the function's values at `from` and `to`.
 double larger_mix(double at0, double at1, double from, double to);
 // Returns the largest value of 2 v (1-v) between two values of v.
 double largest_arc_weight(double from, double to);
@@ -104,7 +104,7 @@ GridLines lines_of_arc_grid(const ArcLines &lines, const QuadGrid &grid);
 std::size_t interval_of(const Vector<double> &values, double x);
 
 // Returns S(u,v) by bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o as the
-// numerator of the weight. It must be u - u_{o-1}.)
+// numerator of the weight. The right numerator is u - u_{o-1}.)
 Vec3 evaluate(const QuadGrid &grid, double u, double v);
 
 }  // namespace riis

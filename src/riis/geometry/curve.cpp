@@ -12,7 +12,7 @@
 namespace riis {
 namespace {
 
-// A curve has at most 2^20 parts. A request with so many parts would make more triangles than this library can hold.
+// A curve has at most 2^20 parts. A request with more parts than this would make more triangles than the library can hold.
 constexpr int max_depth = 20;
 // The velocity does not halve parts narrower than this. If a curve nearly turns on the spot, such halving would not
 // end.
@@ -72,9 +72,9 @@ class Flattening {
     return bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
   }
 
-  // Compares points of the part and of its chord at equal shares of their own lengths. Their distance is at most length^2 / 8
-  // times the largest curvature, as for linear interpolation with that second derivative. Joints do not matter, because the
-  // direction is continuous there. If the curve may turn on the spot, the distance is at most the length.
+  // Compares points of the part and of the chord. Each pair has equal shares of the part's and the chord's own lengths. The
+  // distance of two such points is at most length^2 / 8 times the largest curvature, as for linear interpolation. Joints do not
+  // matter, because the direction is continuous there. If the curve may turn on the spot, the distance is at most the length.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {

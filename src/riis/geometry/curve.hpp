@@ -56,7 +56,7 @@ class Curve {
   std::array<PointOnSpan, 7> divide(const Place &from, const Place &to) const;
 
   // Returns a part of one span. If `after` is true, the part begins at this share of the length and ends with the span.
-  // Otherwise it begins with the span and ends at this share.
+  // If `after` is false, the part begins with the span and ends at this share.
   Bezier span_beside(double share, bool after) const;
 
   // Returns the part from share0 to share1, share0 < share1.
@@ -164,16 +164,16 @@ struct Polyline {
   double length;          // the length of that curve
 };
 
-// Returns the polyline through the points, parametrised by its own length. It replaces no curve, so its errors are 0. Drops
-// repeated points, so that t ascends strictly. Needs at least one point.
+// Returns the polyline through the points, parametrised by its own length. The polyline replaces no curve, so its errors are 0.
+// Drops repeated points, so that t ascends strictly. Needs at least one point.
 Polyline make_polyline(const Vector<Vec3> &points);
 
 // Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of the curve. The t of a vertex is its
 // share of the curve's length, not of the polyline's length as in the paper. For any tolerance, the vertex is therefore the
 // curve's point at its t.
 Polyline make_polyline(const Curve &curve, double max_error);
-// Makes the polyline of a curve that moves. It also keeps the estimated distance of the velocity from linear within max_bend on
-// each segment. `velocity` has the velocities of the spans' control points.
+// Makes the polyline of a curve that moves. On each segment, the estimated distance of the velocity from linear is at most
+// max_bend. `velocity` has the velocities of the spans' control points.
 Polyline make_polyline(const Curve &curve, double max_error, const Vector<Bezier> &velocity, double max_bend);
 
 // Returns the same polyline in the opposite direction.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The decision kernel finds the point of one triangle closest to a given point, in double precision. Every mark and every
-// reported distance comes from this function. It is compiled once, for the baseline instruction set and without
-// contraction. So every caller gets the same bits.
+// reported distance comes from this function. This function is compiled once, for the baseline instruction set and without
+// contraction. Every caller thus gets the same bits.
 #pragma once
 
 #include <array>

@@ -17,8 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Bounds the distance between a quad and its triangles at a level of subdivision. The bound is refined no further than `enough`
 // requires.
 double split_error_at(const Quad &quad, int level, double enough) {
-  // Below this level, all parts are checked, because there are few. From this level on, the bound only uses that each level
-  // divides the twist by exactly 4.
+  // Below this level, all parts are checked, because their number is small. From this level on, the bound only uses that each
+  // level divides the twist by exactly 4.
   constexpr int few = 5;
   const double at_equal_uv = std::ldexp(quad_flatness(quad), -2 * level);
   if (level >= few || (at_equal_uv <= enough && enough < infinity)) return at_equal_uv;
@@ -34,8 +34,8 @@ double split_error_at(const Quad &quad, int level, double enough) {
   return std::min(largest, at_equal_uv);
 }
 
-// A level of subdivision (how often the sides of a quad are halved), and a bound on the distance from the triangles to the
-// smooth patch.
+// A level of subdivision, which is the number of halvings of a quad's sides, and a bound on the distance from the triangles to
+// the smooth patch.
 struct Level {
   int level;
   double error;
@@ -51,8 +51,8 @@ Level subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, doub
   }
 }
 
-// Returns the quad with both ends of its shortest edge moved to the middle of this edge. So no point moves by more than half the
-// edge.
+// Returns the quad with both ends of its shortest edge moved to the middle of this edge. No point thus moves by more than half
+// the edge.
 Quad without_shortest_edge(const Quad &quad, double &shortest) {
   std::array<Vec3, 4> corner{quad.p00, quad.p10, quad.p11, quad.p01};
   std::size_t at = 0;
@@ -72,7 +72,7 @@ Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double m
   if (!(error <= left)) {
     double shortest = 0;
     const Quad merged = without_shortest_edge(quad, shortest);
-    // The quad and the merged quad are at most half the shortest edge apart, and so are their triangles. The sum therefore
+    // The quad and the merged quad, and also their triangles, are at most half the shortest edge apart. The sum therefore
     // includes the whole edge.
     error = std::min(split_error_at(quad, level, infinity), split_error_at(merged, level, infinity) + shortest);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quads of grids, and how often they are halved before they are split into triangles (docs/theory/triangles.md).
-// In: grids, the allowed error. Out: the level of each quad, and a bound on the error of its triangles.
+// Quads of grids, and the number of halvings before quads are split into triangles (docs/theory/triangles.md). In: grids, the
+// allowed error. Out: the level of each quad, and a bound on the error of its triangles.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,21 @@
 
 namespace riis {
 
-// A bilinear quad, given by its corners at (u,v) = (0,0), (1,0), (1,1) and (0,1). It is split into two triangles along p00 p11.
+// A bilinear quad, given by its corners at (u,v) = (0,0), (1,0), (1,1) and (0,1). The diagonal p00 p11 splits the quad into two
+// triangles.
 struct Quad {
   Vec3 p00, p10, p11, p01;
 
-  // On an edge, the result depends only on the two ends of the edge. So neighbouring quads agree to the last bit.
+  // On an edge, the result depends only on the two ends of the edge. Neighbouring quads therefore agree to the last bit.
   Vec3 at(double s, double t) const { return mix(mix(p00, p10, s), mix(p01, p11, s), t); }
 };
 
-// Returns kappa_quad, the distance between the middle of the bilinear quad and the middle of its diagonal p00 p11. It bounds the
-// distance between the quad and its two triangles at the same (u,v).
+// Returns kappa_quad, the distance between the middle of the bilinear quad and the middle of its diagonal p00 p11. kappa_quad
+// bounds the distance between the quad and its two triangles at the same (u,v).
 inline double quad_flatness(const Quad &quad) { return 0.25 * length((quad.p00 - quad.p10) + (quad.p11 - quad.p01)); }
 
-// Bounds the distance between the bilinear quad and its two triangles as surfaces. The bound is kappa_quad in general. If both
-// surfaces are graphs over a plane parallel to both diagonals, the bound is at most half the component of the twist across
+// Bounds the distance between the bilinear quad and its two triangles as surfaces. The bound is kappa_quad in general. For
+// surfaces that are graphs over a plane parallel to both diagonals, the bound is at most half the component of the twist across
 // that plane (docs/theory/triangles.md).
 double split_error(const Quad &quad);
 

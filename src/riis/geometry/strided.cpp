@@ -20,7 +20,7 @@ struct Spread {
   }
 };
 
-// Takes two points at once. x and y of each point are in one register, and the z of both are in a third.
+// Takes two points at once. The x and y of each point are in one register, and the two z are in a third register.
 struct PairSpread {
   Spread xy[2], z;
   Two sum{};

@@ -46,8 +46,8 @@ inline bool is_usable(double coordinate) { return std::abs(coordinate) <= max_co
 inline bool is_usable(Vec3 p) { return is_usable(p.x) && is_usable(p.y) && is_usable(p.z); }
 
 // Checks pointers, stride and every coordinate. Returns the points' box, which the same pass finds. Fails with
-// RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first unusable coordinate. Then the message names the point by `what`
-// ("node", "point") and its number. In messages, `prefix` precedes the names of arguments, such as "points.". Only the
+// RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first unusable coordinate. The message of such a failure names the point
+// by `what` ("node", "point") and its number. In messages, `prefix` precedes the names of arguments, such as "points.". Only the
 // calling thread runs, because more threads would save no time, and the caller may not want them.
 template <class Real>
 Bounds check_points(const StridedReals<Real> &points, const char *what, riis_status bad_coordinate,
@@ -61,8 +61,8 @@ void check_pointers(const StridedReals<Real> &points, const char *what, const ch
 template <class Real>
 void check_point(const StridedReals<Real> &points, std::int64_t i, const char *what, riis_status bad_coordinate);
 
-// Returns point i of points that were checked when the caller passed them. The caller may have changed them since then, so
-// the coordinates are checked again. Fails as check_points does.
+// Returns point i of points that were checked when the caller passed them. The caller may have changed the coordinates since
+// then, so they are checked again. Fails as check_points does.
 inline Vec3 checked_point(const StridedPoints &points, std::int64_t i, const char *what, riis_status bad_coordinate) {
   const Vec3 p = points[i];
   if (!is_usable(p)) check_points(points, what, bad_coordinate);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computations in double precision for eight triangles at a time. The decision kernel repeats geometry/point_triangle.cpp
-// operation by operation, so every lane has the same bits. The file also makes the triangles' frames for the filter. It is
+// operation by operation, so every lane has the same bits. The file also makes the triangles' frames for the filter. This file is
 // compiled for each instruction set and never contracted.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
@@ -69,10 +69,10 @@ RIIS_INLINE Doubles root(Doubles a) {
 }
 
 // Returns 1 / sqrt(a) with an error of a few units in the last place. `a` must be a normal positive number. The last bits depend
-// on the instruction set, so no result that a caller sees may depend on them.
+// on the instruction set, so no result for a caller may depend on these bits.
 RIIS_INLINE Doubles inverse_root(Doubles a) {
 #if defined(__AVX512F__)
-  // Newton's method doubles the 14 right bits of the estimate twice. It takes less time than a root and a division.
+  // Newton's method doubles the 14 right bits of the estimate twice. This method takes less time than a root and a division.
   count(&Counts::operations, Doubles::n);
   Doubles r{{(DoubleRegister)_mm512_rsqrt14_pd((__m512d)a.part[0])}};
   const Doubles half = Doubles::all(0.5) * a;
@@ -380,8 +380,8 @@ RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
 
 constexpr int halves = triangles_per_group / Doubles::n;
 
-// Moves a lower bound outwards by more than a number can change when it is rounded to single precision. So the result also bounds
-// numbers that were rounded to single precision.
+// Moves a lower bound outwards by more than a number can change when it is rounded to single precision. The result thus also
+// bounds numbers that were rounded to single precision.
 RIIS_INLINE float round_down(double x) {
   const double unit = (x < 0 ? -x : x) * 0x1p-22 + 0x1p-120;
   return static_cast<float>(x - unit);
@@ -467,7 +467,7 @@ RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles::Mask has_edge = normalize(along);
   const Doubles::Mask steep = magnitude(across.x) < Doubles::all(0.6);
   along = choose(has_edge, along, {choose(steep, one, zero), choose(steep, zero, one), zero});
-  // Removes the part along `across` that rounding has left. This part is large if the edge runs nearly along `across`.
+  // Removes the part along `across` that rounding has left. This remaining part is large if the edge runs nearly along `across`.
   for (int i = 0; i < 2; ++i) {
     along = take_across_away(along);
     normalize(along);
@@ -547,8 +547,8 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     const Doubles3 middle = one_half * (a + b);
     put_axis(e.unit, middle, group.e, group.e_origin, from);
     put(half_ab, group.half_ab + from);
-    // Returns the part of v at right angles to e. It is called twice, because in a needle-shaped triangle rounding leaves a
-    // part along e, which the second call removes.
+    // Returns the part of v at right angles to e. A second call removes the part along e that rounding leaves in a needle-shaped
+    // triangle.
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
     // If rounding left nothing of the triangle's height, the part at right angles to e is noise and may again run along e.
     Doubles3 over = across(ac);
@@ -597,7 +597,7 @@ void make_groups(const GroupCorners *corners, int32_t n, TriangleGroup *groups, 
   alignas(64) float rounded[groups_at_once][9][triangles_per_group];
   alignas(64) double across[3][groups_at_once] = {}, along[3][groups_at_once] = {};
   for (int32_t g = 0; g < n; ++g) {
-    // The frames of fine triangles do not fit in the cache. So the memory of the next group is requested here.
+    // The frames of fine triangles do not fit in the cache. The memory of the next group is therefore requested here.
     if (g + 1 < n)
       for (__SIZE_TYPE__ at = 0; at < sizeof *groups; at += 64)
         __builtin_prefetch(reinterpret_cast<const char *>(groups + g + 1) + at, 1);

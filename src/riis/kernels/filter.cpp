@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The filter dismisses pairs of nodes and triangles that cannot matter. It computes in single precision and is compiled for each
-// instruction set.
+// The filter dismisses pairs of nodes and triangles that cannot matter. The filter computes in single precision and is compiled
+// for each instruction set.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 
@@ -40,7 +40,8 @@ RIIS_INLINE ToGroup measure_to_group(const TriangleGroup &group, Floats3 p, Floa
   const Floats past_ab = beyond(e, Floats::load(group.half_ab));
   Floats in_plane = multiply_add(past_ab, past_ab, f * f), inside = f;
 
-  // Takes an edge into account. Its direction, the place of its middle, its place across and its half length are given.
+  // Takes an edge into account. The edge is given by its direction, the place of its middle, its place across and its half
+  // length.
   const auto offer_edge = [&](Floats x, Floats y, const float *unit_x, const float *unit_y, const float *middle,
                               const float *side, const float *half) RIIS_LAMBDA {
     const Floats to_x = Floats::load(unit_x), to_y = Floats::load(unit_y);
@@ -144,8 +145,8 @@ int32_t select(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t
     compress(lanes, numbers + k, to + n_selected);
     n_selected += __builtin_popcount(lanes);
   }
-  // Writes every number, but advances only after a number that is kept. This avoids a branch that the processor could not
-  // predict.
+  // Writes every number, but advances only after a number that is kept. Writing every number avoids a branch that the processor
+  // could not predict.
   for (; k < n; ++k) {
     to[n_selected] = numbers[k];
     n_selected += marks[k] >> bit & 1;
@@ -178,8 +179,8 @@ void nearest_groups(const FilterTask &task, const Boxes &boxes, const int32_t *c
 }
 
 // Take the square of the distance of a place from a box, minus the square of its distance from a point. This difference is a
-// concave function of the place. It is also a sum over the axes. So its least value in another box is the sum of the lesser
-// values at both ends of each axis.
+// concave function of the place. The difference is also a sum over the axes. Its least value in another box is therefore the sum,
+// over the axes, of the lesser value at the two ends.
 void competing_groups(const FilterTask &task, const Boxes &boxes, const PointsOfBoxes &points,
                       const int32_t *candidates, int32_t n_candidates, uint16_t *competes) {
   const Floats zero = Floats::all(0), tolerance = Floats::load(points.tolerance);
@@ -218,8 +219,8 @@ RIIS_INLINE int32_t first_node_of(const LeafTask &leaf) { return leaf.position *
 RIIS_INLINE uint32_t leaf_of(int32_t node) { return static_cast<uint32_t>(node) / nodes_per_leaf; }
 
 // Takes a leaf to the surface's frame. For every group and every node, computes the square of a lower bound on their distance.
-// Lists each node that may be within reach, with the group that has the least bound. If one side is wanted, a node counts only if
-// a group within reach does not leave it out.
+// Lists each node that may be within reach, with the group that has the least bound. For one side, a node counts only if a group
+// within reach keeps the node.
 template <bool is_one_sided>
 RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask &cluster, float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf), n_before = cluster.n_listed;
@@ -280,8 +281,8 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask 
   leaf.may_be_near = cluster.n_listed > n_before;
 }
 
-// Lists nodes of a leaf with groups other than their first, if the group may be as near as the best triangle so far. Begins with
-// the group cluster.next_group. Returns false if the list is full before the last group.
+// Lists nodes of a leaf with each group, except the first, that may be as near as the best triangle so far. Begins with the group
+// cluster.next_group. Returns false if the list is full before the last group.
 RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf);
   Floats limit[halves], first_group[halves];
@@ -289,7 +290,7 @@ RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const f
     limit[h] = Floats::load(cluster.best + first_node + 16 * h) + Floats::all(leaf.limits.tolerance);
     first_group[h] = Floats::load(cluster.first_group + first_node + 16 * h);
   }
-  // These are local variables, because the compiler must assume that a store to the list changes members.
+  // The numbers are local variables, because the compiler must assume that a store to the list changes members.
   int32_t n = cluster.n_listed, k = cluster.next_group;
   for (; k < leaf.n_groups && n <= most_listed - nodes_per_leaf; ++k) {
     const int32_t group = leaf.near_groups[k];
@@ -381,7 +382,7 @@ void begin_cluster(const FilterTask &task, ClusterTask &cluster) {
   task.one_side.end_of_band ? begin_leaves<true>(task, cluster) : begin_leaves<false>(task, cluster);
 }
 
-// Leaves a node out if all triangles that may be its closest leave it out of the band. All groups near the node must be in the
+// Leaves a node out if all its possible closest triangles leave the node out of the band. All groups near the node must be in the
 // list, so only the first n_leaves leaves count.
 RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   uint32_t stays[leaves_per_cluster] = {};
@@ -402,8 +403,8 @@ RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   }
 }
 
-// Compares the nodes with their first groups, unless an earlier call has done so. Then lists other groups for as many nodes
-// as there is room for, and compares them.
+// Compares the nodes with their first groups, unless an earlier call has done so. After that, lists other groups for as many
+// nodes as there is room for, and compares nodes and groups.
 template <bool is_one_sided>
 RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
   const bool is_first = cluster.next_leaf < 0;
@@ -445,8 +446,8 @@ int32_t filter_nodes(const FilterTask &task, ClusterTask &cluster, const PairArr
     compare_all<is_one_sided>(task, cluster);
     cluster.next_listed = 0;
   }
-  // Writes the listed nodes whose group is still near after the whole list was compared. The position advances only after
-  // such a node. This avoids a branch that the processor could not predict.
+  // Writes the listed nodes whose group is still near after the whole list was compared. The position advances only after such a
+  // node. Writing every node avoids a branch that the processor could not predict.
   const GroupBounds *const bounds = task.bounds;
   int32_t *const node_of_pair = pairs.node, *const triangle_of_pair = pairs.triangle;
   const int32_t n_listed = cluster.n_listed;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels compute sixteen floats or eight doubles at a time. They are compiled once for each instruction set, and one set is
-// chosen at run time. This header has only plain data and declarations, because the compiler would compile a function body
-// here for several instruction sets under one name.
+// Kernels compute sixteen floats or eight doubles at a time. Kernels are compiled once for each instruction set, and one set is
+// chosen at run time. This header has only plain data and declarations, because the compiler would compile a function body here
+// for several instruction sets under one name.
 //
 // filter_*: single precision, only to dismiss pairs that cannot matter. Results are accurate to filter_error
 // (docs/theory/clusters.md). Coordinates are in the surface's frame: relative to its middle, and scaled by a power of two so
@@ -20,8 +20,8 @@ constexpr int nodes_per_cluster = nodes_per_leaf * leaves_per_cluster;
 // Up to 16 neighbouring triangles abc, each in its own frame. The frame's axes are the unit vectors e along ab, f in the
 // triangle's plane, and g across the plane. A point p has the coordinates p.e + e_origin, p.f + f_origin and p.g + g_origin, and
 // the frame's origin is the middle of ab. In (e, f), the edge ac has the unit direction (ac_e, ac_f). Along ac, the point has the
-// coordinate e ac_e + f ac_f + ac_middle, counted from the middle of ac. Across ac, it has the coordinate e ac_f - f ac_e +
-// ac_side. This coordinate is positive on the side of the triangle. Across bc, the coordinate is f bc_e - e bc_f +
+// coordinate e ac_e + f ac_f + ac_middle, counted from the middle of ac. Across ac, the point has the coordinate e ac_f - f ac_e
+// + ac_side. The coordinate across ac is positive on the side of the triangle. Across bc, the coordinate is f bc_e - e bc_f +
 // bc_side. Lanes without a triangle repeat the first triangle, except that their g_origin is beyond_limits.
 struct alignas(64) TriangleGroup {
   float e[3][triangles_per_group], f[3][triangles_per_group], g[3][triangles_per_group];
@@ -80,7 +80,7 @@ struct OneSide {
   float twice_shift;  // twice the distance of the band's middle from the surface
   float least_depth;  // a node with less depth may be in front of the triangle
   float least_sum;    // a node is out of the band if the square of its distance + twice_shift * depth exceeds this
-  // For each group, the place along its first axis, times `behind`, beyond which the whole group leaves a node out. It is
+  // For each group, the place along its first axis, times `behind`, beyond which the whole group leaves a node out. This place is
   // infinity if the group leaves no node out. The pointer is null if nodes on both sides are wanted.
   const float *end_of_band = nullptr;
 };
@@ -100,7 +100,7 @@ struct alignas(64) PointsOfBoxes {
   float tolerance[16];  // the most by which the computed squares of two equal distances from a place in the box differ
 };
 
-// One leaf of a cluster, and the groups that may be near it.
+// One leaf of a cluster, and the groups that may be near this leaf.
 struct LeafTask {
   const Leaf *leaf;
   int32_t position;  // the number of the leaf in its cluster
@@ -112,7 +112,7 @@ struct LeafTask {
   uint32_t found;    // after the last call of filter_cluster, a bit for each node that had pairs in any call
 };
 
-// Cache lines for the decision. The filter requests some of them after every few distances. If it requested all at once, they
+// Cache lines for the decision. The filter requests some of these lines after every few distances. Requests for all lines at once
 // would fill the processor's queue, and other loads would wait.
 struct LinesAhead {
   int32_t n;
@@ -127,9 +127,10 @@ struct ClusterTask {
   LeafTask leaf[leaves_per_cluster];
   float *lower_bounds;  // room for nodes_per_leaf bounds for each near group of each leaf, aligned
   LinesAhead ahead;     // filter_cluster empties it
-  bool is_done;         // filter_cluster sets it in its last call
+  bool is_done;         // the last call of filter_cluster sets this
 
-  // These members belong to the filter. The arrays have room for whole registers. A node is given by its position in the cluster.
+  // The next members belong to the filter. The arrays have room for whole registers. A node is given by its position in the
+  // cluster.
   int32_t next_leaf, next_group;
   int32_t n_listed, next_listed;
   int32_t node[most_listed + 16], group[most_listed + 16];
@@ -199,9 +200,8 @@ struct FilterKernels {
   // For each candidate group, writes a bit for each box within its reach. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
-  // Clears the bits of boxes beyond the reach of a group's box along its own axes. If one side is wanted, clears all bits of a
-  // box that all groups leave out. Returns false if no box is left. `near` comes from near_boxes, so lanes without a box have no
-  // bits.
+  // Clears the bits of boxes beyond the reach of a group's box along its own axes. For one side, clears all bits of a box that
+  // all groups leave out. Returns false if no box is left. `near` comes from near_boxes, so lanes without a box have no bits.
   bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          uint16_t *near);
   // Copies each numbers[k] of n whose marks[k] has the given bit, without gaps, and returns their number. `to` must have room
@@ -224,7 +224,7 @@ struct FilterKernels {
   // surface's frame.
   void (*group_distances)(const TriangleGroup &group, const float *point, float margin, float *distance_sq);
   // For each key, counts the lesser keys among the first n, n <= keys_at_once. If no two keys are equal, the count is the
-  // key's position in ascending order. Both arrays are aligned to 64 bytes and have room for keys_at_once.
+  // key's position in ascending order. The arrays `key` and `n_less` are aligned to 64 bytes and have room for keys_at_once.
   void (*rank)(const int32_t *key, int32_t n, int32_t *n_less);
 };
 
@@ -233,8 +233,8 @@ struct DecisionKernels {
   // least and the greatest coordinates.
   void (*take_corners)(const double *vertices, const int64_t *vertex_id, int64_t n, double *corners, double *lower,
                        double *upper);
-  // Checks up to eight triangles, given by the ids of their vertices. Returns false if one may have no area, now or after its
-  // corners move by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 + |ac|^2)^2 + shift^2
+  // Checks up to eight triangles, given by the ids of their vertices. Returns false if a triangle may have no area, now or after
+  // its corners move by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 + |ac|^2)^2 + shift^2
   // (|ab|^2 + |ac|^2).
   bool (*have_area)(const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
   // Places n points (3, n). The results have the bits of place(placement, place(image, p)).
@@ -254,7 +254,7 @@ struct DecisionKernels {
   // May write up to 7 squares more than n.
   void (*decide)(int32_t n, const int32_t *point, const int32_t *triangle, const double *points, const double *corners,
                  double *distance_sq);
-  // Finds the closest points themselves. They have the bits of closest_point_on_triangle.
+  // Finds the closest points themselves. The closest points have the bits of closest_point_on_triangle.
   void (*locate)(const PointsAndTriangles &pairs, PointsOnTriangles &located);
   // Interpolates the numbers of three vertices by the weights of each located point. `vertex` has the ids of each pair's three
   // vertices.
@@ -267,7 +267,8 @@ struct DecisionKernels {
   void (*differentiate)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                         const double (&distance)[pairs_at_once], const int64_t *const *vertex,
                         const double *const *rates, int64_t n_directions, int32_t n_points, double *derivatives);
-  // Finds the side of each point, +1, -1 or 0. It is the sign of the point's height over the located point, along the normal.
+  // Finds the side of each point, +1, -1 or 0. The side is the sign of the point's height over the located point, along the
+  // normal.
   void (*find_sides)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                      const double (&normal)[3][pairs_at_once], int32_t *side);
   // Sums cubes of distances. The first function does not change the derivatives. All instruction sets give the same bits.

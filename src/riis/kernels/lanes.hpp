@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes with sixteen floats or eight doubles at once, in the registers of the instruction set that the including file is
 // compiled for. Everything has internal linkage. Files for different instruction sets must not share a function, because the
-// linker could take it from the wrong file. For the same reason, this file includes no header whose inline functions the
-// compiler may emit as separate functions.
+// linker could take it from the wrong file. This file also includes no header whose inline functions the compiler may emit as
+// separate functions.
 #pragma once
 
 // RIIS_PORTABLE_LANES selects the code for processors without SSE2 or NEON. Tests run that code on other processors.
@@ -61,8 +61,8 @@ struct ComparisonOf<DoubleRegister> {
   typedef LongRegister type;
 };
 
-// Returns a < b ? a : b. If a is NaN, b is therefore returned. NEON differs where b alone is NaN, or where both are zeros of
-// different signs. No result depends on this: b is NaN only where a is, and nothing reads the sign of a zero.
+// Returns a < b ? a : b. If a is NaN, b is therefore returned. NEON differs for a NaN in b alone, and for two zeros of different
+// signs. No result depends on this difference: where b is NaN, a is NaN too, and nothing reads the sign of a zero.
 RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_min_ps((__m512)a, (__m512)b);
@@ -120,7 +120,7 @@ RIIS_INLINE DoubleRegister greatest(DoubleRegister a, DoubleRegister b) {
 #endif
 }
 
-// Returns a * b + c. It is rounded only once if the instruction set can do that.
+// Returns a * b + c. The result is rounded only once if the instruction set can do that.
 RIIS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
@@ -133,7 +133,7 @@ RIIS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRe
 #endif
 }
 
-// Returns c - a * b. It is rounded only once if the instruction set can do that.
+// Returns c - a * b. The result is rounded only once if the instruction set can do that.
 RIIS_INLINE FloatRegister subtract_product(FloatRegister a, FloatRegister b, FloatRegister c) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_fnmadd_ps((__m512)a, (__m512)b, (__m512)c);
@@ -317,8 +317,8 @@ RIIS_INLINE Mask opposite(Mask a) {
 }
 
 #if defined(RIIS_NEON)
-// Takes 0 or -1 in each of eight lanes, and returns one bit for each. NEON has no instruction for this. So each lane keeps a bit
-// of its own, and the sum of the lanes has all bits.
+// Takes 0 or -1 in each of eight lanes, and returns one bit for each. NEON has no instruction for this. Each lane therefore keeps
+// a bit of its own, and the sum of the lanes has all bits.
 RIIS_INLINE uint32_t bits(uint16x8_t mask) {
   return vaddvq_u16(vandq_u16(mask, uint16x8_t{1, 2, 4, 8, 16, 32, 64, 128}));
 }
@@ -393,7 +393,7 @@ RIIS_INLINE uint32_t bits_different(Floats a, Floats b) {
 // Returns the distance of x from the interval -half..half, perhaps with a minus sign.
 RIIS_INLINE Floats beyond(Floats x, Floats half) {
 #if defined(__AVX512DQ__)
-  // One instruction limits the magnitude of x and keeps its sign.
+  // One instruction limits the magnitude of x and keeps the sign of x.
   count(&Counts::operations, Floats::n);
   constexpr int lesser_magnitude_with_sign_of_first = 2;
   const __m512 limited = _mm512_range_ps((__m512)x.part[0], (__m512)half.part[0], lesser_magnitude_with_sign_of_first);
@@ -457,7 +457,7 @@ struct LanesOfSets {
 constexpr LanesOfSets lanes_of_sets;
 #endif
 
-// Takes 16 integers, and copies the integers whose bits are set, without gaps. It may write to all 16 places, even if it copies
+// Takes 16 integers, and copies the integers whose bits are set, without gaps. The function may write to all 16 places, even for
 // fewer integers.
 RIIS_INLINE void compress(uint32_t lanes, const int32_t *from, int32_t *to) {
 #if defined(__AVX512F__)

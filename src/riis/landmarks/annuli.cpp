@@ -79,7 +79,7 @@ Vec3 nearest_on(const std::array<Bezier, n> &curve, Vec3 p) {
   return best;
 }
 
-// Refuses an outline that crosses itself, seen along the normal. Its edges join the points in their order.
+// Refuses an outline that crosses itself, seen along the normal. The outline's edges join the points in their order.
 void check_outline(const Landmarks &landmarks, const std::vector<std::size_t> &ring, Vec3 x, Vec3 y) {
   struct Flat {
     double x, y;
@@ -90,7 +90,7 @@ void check_outline(const Landmarks &landmarks, const std::vector<std::size_t> &r
   const std::size_t n = flat.size();
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 2; j < n; ++j) {
-      if (i == 0 && j == n - 1) continue;  // they have a point in common
+      if (i == 0 && j == n - 1) continue;  // the two edges have a common point
       const Flat &a = flat[i], &b = flat[i + 1], &c = flat[j], &d = flat[(j + 1) % n];
       if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0)
         fail(RIIS_INVALID_ARGUMENT, "the annulus crosses itself: the line from landmark ", ring[i], " to ", ring[i + 1],
@@ -150,7 +150,7 @@ Vec3 checked_forward(const Landmarks &landmarks, const Outline &outline, std::si
   return forward;
 }
 
-// The direction towards the atrium, by the flow or the commissures. It is 0 if the landmarks show no direction.
+// The direction towards the atrium, by the flow or the commissures. The vector is 0 if the landmarks show no direction.
 Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   const auto medial = landmarks.with_role(RIIS_LANDMARK_POSTEROMEDIAL),
              lateral = landmarks.with_role(RIIS_LANDMARK_ANTEROLATERAL);
@@ -274,8 +274,8 @@ struct HornHeights {
   double depth;             // between both ends
 };
 
-// Returns the cause of a fit that contradicts the landmarks. If one horn rises and the other falls, the annulus looks like one
-// that is turned, so the fitted valve leans, and the largest residual may be at a right landmark.
+// Returns the cause of a fit that contradicts the landmarks. An annulus whose one horn rises while the other falls looks turned.
+// The fitted valve then leans, and the largest residual may be at a right landmark.
 std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 normal, const HornHeights &heights) {
   const double degrees = lean_of(fit, normal);
   const double by_heights =
@@ -297,7 +297,7 @@ std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 no
 void check_depth(const LandmarkModel &fitted, const Landmarks &landmarks, const ShownDepth &shown,
                  const std::string &advice) {
   const FittedSize &ap = fitted.sizes[MitralModel::ap];
-  // Noise alone moves the horns, and so their distance.
+  // Noise alone moves the horns, and thus changes the horns' distance.
   const double most_apart = std::max(shown.depth / 12, 5 * landmarks.noise);
   if (ap.held || std::abs(ap.value - shown.depth) <= most_apart) return;
   fail(RIIS_INVALID_ARGUMENT, "AP_diameter of the fitted valve is ", rounded(landmarks.scale * ap.value, 3),
@@ -393,8 +393,8 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   made.n_as_annulus = are_behind ? static_cast<std::int32_t>(trigones.size()) : 0;
   made.starts.push_back({rotation, middle + rotation * (origin_there - by)});
   if (!is_side_known) {
-    // The points of the annulus alone do not tell the atrium's side from the ventricle's. But the horns of a healthy annulus are
-    // nearer to the atrium than its sides.
+    // The points of the annulus alone do not tell the atrium's side from the ventricle's. In a healthy annulus, however, the
+    // horns are nearer to the atrium than the sides.
     const bool is_turned = horn_there.z + posterior_z < 2 * low_z;
     if (is_turned) {
       const Rotation other = rotation * rotation_about({0, 1, 0}, 180);
@@ -404,7 +404,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
         made.models[0]->sizes[horn_size].value *= -1;
     }
   }
-  // A few points with noise can hold the fit at a lean that is not the best one.
+  // A few points with noise can hold the fit at a wrong lean.
   const Pose upright = made.starts[0];
   for (const double lean : {-10.0, 10.0})
     made.starts.push_back({upright.rotation * rotation_about({1, 0, 0}, lean), upright.translation});
@@ -441,7 +441,7 @@ constexpr SaddleKind tricuspid{"tricuspid",    "AP_diameter",    "SL_diameter",
 constexpr SaddleKind mitral_coapting{"mitral_coapting", "ALPM_diameter", "AP_diameter",
                                      "anterior_ratio",  nullptr,         FlatSide::at_positive_y};
 
-// Where each landmark is on the annulus, in laps from the middle of the flat side. Without laps, it may be anywhere.
+// Where each landmark is on the annulus, in laps from the middle of the flat side. Without laps, the landmark may be anywhere.
 using Laps = std::vector<std::optional<LinearValue>>;
 
 class SaddleModel : public LandmarkModel {

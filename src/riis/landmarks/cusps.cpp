@@ -197,8 +197,8 @@ double mean_radius(const Landmarks &landmarks, const std::vector<std::size_t> &n
   return sum / static_cast<double>(numbers.size());
 }
 
-// Returns a length for the fit, with `start` as its first value. Its expected value `grown` is the template's length times the
-// ratio of the valves' sizes.
+// Returns a length for the fit, with `start` as its first value. The length's expected value `grown` is the template's length
+// times the ratio of the valves' sizes.
 FittedSize length_size(const std::string &name, double start, double grown, double radius) {
   return {name, start, 1, 0.05 * radius, 10 * radius, grown, 0.3 * grown};
 }
@@ -250,7 +250,8 @@ class CircleSizes {
     for (double &sector : own_) sector *= 360 / sum;
   }
 
-  // Sectors stay the template's if all are held, and take part in the fit if some are. Otherwise the landmarks decide.
+  // If all sectors are held, they stay the template's. If some are held, sectors take part in the fit. If none is held, the
+  // landmarks decide.
   std::vector<bool> fits_sectors() const {
     if (!has_sectors()) return {false};
     const std::size_t n_held = count_held([](std::size_t cusp) { return of_cusp(cusp, "sector"); });
@@ -327,7 +328,7 @@ class CircleSizes {
     model.derived.push_back(mean);
   }
 
-  // The last sector that is not held has what the others leave of 360 degrees.
+  // The last sector that is not held is 360 degrees minus the other sectors.
   void add_sectors(CirclesModel &model, double commissure_radius) const {
     const std::vector<double> shown = shown_sectors(landmarks_, axes_);
     const double reach = 0.5 * commissure_radius * (pi / 180);  // a sector grows on both sides of its cusp's middle

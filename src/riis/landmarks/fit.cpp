@@ -12,15 +12,16 @@
 namespace riis {
 namespace {
 
-// Landmarks determine a size if its standard error, at the stated noise, moves the valve by at most this share of its radius.
-// Residuals do not count here: they are large for a patient who differs from the model, but the best sizes are still well
-// defined.
+// Landmarks determine a size whose standard error, at the stated noise, moves the valve by at most this share of the valve's
+// radius. Residuals do not count here. A patient who differs from the model has large residuals, but the best sizes are still
+// well defined.
 constexpr double determined_share = 1.0 / 15;
 
-// More sizes lower the residuals of noise alone. The sum of squares that they take away has chi-squared's distribution, with a
-// degree of freedom for each of them. It counts if it exceeds the mean by this many standard deviations.
+// More sizes lower the residuals of noise alone. The decrease of the sum of squares by these unknowns has chi-squared's
+// distribution, with a degree of freedom for each unknown. The decrease counts if it exceeds the mean by this many standard
+// deviations.
 constexpr double surely_more = 3;
-// Residuals below this share of the stated noise show that the landmarks have none.
+// Residuals below this share of the stated noise show landmarks without noise.
 constexpr double exact_share = 0.01;
 // Rounding of exact landmarks, as a share of the valve's radius.
 constexpr double rounding_share = 1e-9;
@@ -187,8 +188,8 @@ double LinearValue::at(const std::vector<double> &values) const {
 
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts) {
   const std::size_t n_landmarks = landmarks.list.size();
-  // In the first fit, every size is drawn to its expected value. So this fit ends near a real valve even if the landmarks say
-  // little.
+  // In the first fit, every size is drawn to its expected value. The first fit thus ends near a real valve even if the landmarks
+  // say little.
   Pose best{};
   std::vector<FittedSize> best_sizes;
   double least = std::numeric_limits<double>::infinity();
@@ -237,7 +238,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   }
   std::vector<double> r(problem.n_residuals());
   problem.residuals(x, r);
-  // Exact landmarks show less noise than was stated. Then the expected values count for less.
+  // Exact landmarks show less noise than was stated. With less noise, the expected values count for less.
   for (int i = 0; i < 12 && minimum.converged && model.n_equations() > n; ++i) {
     std::vector<double> unused(n_landmarks), before = x;
     const double seen = std::sqrt(sum_of_squares(problem, unused) / static_cast<double>(model.n_equations() - n));

@@ -20,7 +20,7 @@ namespace riis {
 // Small dense least squares (Levenberg 1944, Marquardt 1963) and symmetric eigenvalues (Jacobi 1846).
 // In: a function that gives residuals. Out: the unknowns for which the sum of their squares is least, and the covariance there.
 
-// Computes the residuals for the unknowns x. Their number is the same in each call.
+// Computes the residuals for the unknowns x. The number of residuals is the same in each call.
 using Residuals = std::function<void(const std::vector<double> &x, std::vector<double> &residuals)>;
 
 struct Minimum {
@@ -109,8 +109,8 @@ class LandmarkModel {
     std::size_t landmark;
     Vec3 vector;
   };
-  // Writes the offsets of landmarks whose coordinates in the valve's frame are `local`. Each call writes the same number, in the
-  // same order. `values` contains the values of the sizes.
+  // Writes the offsets of landmarks whose coordinates in the valve's frame are `local`. Each call writes the same number of
+  // offsets, in the same order. `values` contains the values of the sizes.
   virtual void offsets(const std::vector<double> &values, const std::vector<Vec3> &local,
                        std::vector<Offset> &out) const = 0;
   // Returns the number of independent equations that the landmarks give.

@@ -48,7 +48,7 @@ std::string words_for(const Landmarks &landmarks, std::size_t i);
 void check_unit(const Landmarks &landmarks);
 // Refuses a landmark whose role is not one of `roles`. `roles` contains the roles that this kind of valve uses.
 void check_roles(const Landmarks &landmarks, const char *kind, const std::vector<std::int32_t> &roles);
-// Refuses a number of landmarks with this role that is out of range. `most` is 0 if there is no upper limit.
+// Refuses a number of landmarks with this role that is out of range. `most` is 0 without an upper limit.
 void check_count(const Landmarks &landmarks, const char *kind, std::int32_t role, std::size_t least, std::size_t most);
 // Refuses two landmarks of the list whose distance is less than a share of their spread.
 void check_apart(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share);

@@ -10,7 +10,7 @@
 namespace riis {
 namespace {
 
-// The step of central differences, as a share of `size`. It balances two errors: the error of the differences, step^2, and
+// The step of central differences, as a share of `size`. This step balances two errors: the error of the differences, step^2, and
 // rounding, 1e-16 / step.
 constexpr double difference_step = 1e-5;
 // The iteration ends if a step is shorter than this share of `size`.
@@ -102,7 +102,7 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
       gradient[i] = std::inner_product(columns[i].begin(), columns[i].end(), r.begin(), 0.0);
       largest = std::max(largest, matrix[i * n + i]);
     }
-    // If an unknown would leave its bounds, this step leaves it out, so that it does not change the steps of the others.
+    // This step leaves out an unknown that would leave its bounds, so that this unknown does not change the other steps.
     for (std::size_t i = 0; i < n; ++i) {
       const bool rests = gradient[i] > 0 ? x[i] <= bounds.lower[i] : x[i] >= bounds.upper[i];
       if (!rests) continue;

@@ -47,7 +47,7 @@ std::vector<std::size_t> rotated(std::vector<std::size_t> numbers, std::size_t b
 }
 Order rotated(const Order &order, std::size_t by) { return {rotated(order.nadir, by), rotated(order.commissure, by)}; }
 
-// Returns the order for the opposite turn about the axis. Each commissure then follows the other of its two leaflets.
+// Returns the order for the opposite turn about the axis. Each commissure then follows its other leaflet.
 Order mirrored(Order order) {
   if (!order.nadir.empty()) std::reverse(order.nadir.begin() + 1, order.nadir.end());
   std::reverse(order.commissure.begin(), order.commissure.end());

@@ -14,9 +14,9 @@ namespace riis {
 // The leaflets of a kind, counter-clockwise seen from +z.
 struct LeafletsAround {
   std::vector<std::string> names;  // in the order of leaflet ids
-  const char *seen_along_flow;     // the direction in which they follow each other: "clockwise" if blood flows along +z
-  // The end of a message that refuses landmarks without names, or null if the leaflets need none. Then leaflet 0 is at the first
-  // nadir.
+  const char *seen_along_flow;     // the direction from leaflet to leaflet: "clockwise" if blood flows along +z
+  // The end of a message that refuses landmarks without names, or null if the leaflets need none. Without names, leaflet 0 is at
+  // the first nadir.
   const char *why_names;
 
   std::size_t n() const { return names.size(); }
@@ -35,8 +35,8 @@ void check_leaflet_ids(const Landmarks &landmarks, const LeafletsAround &leaflet
 // Returns whether the names fit the order around the axis, which points along z.
 bool names_fit(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle);
 
-// Returns the order around the axis. There are as many commissures as leaflets, and as many nadirs or none.
-// Refuses commissures and nadirs that do not alternate, and names that contradict the order.
+// Returns the order around the axis. The number of commissures is the number of leaflets, and the number of nadirs is this number
+// or 0. Refuses commissures and nadirs that do not alternate, and names that contradict the order.
 Order order_around(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle);
 
 }  // namespace riis

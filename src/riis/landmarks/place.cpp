@@ -90,7 +90,7 @@ std::pair<Vec3, double> axis_and_angle(const Rotation &r) {
   const double angle = arc_tangent(sine, trace - 1) * (180 / pi);
   if (sine > 1e-6) return {unit(twice), angle};
   if (trace > 1) return {{0, 0, 1}, 0};
-  // The angle is half a turn. Then each column of R + 1 that is not 0 has the direction of the axis.
+  // The angle is half a turn. For half a turn, each column of R + 1 that is not 0 has the direction of the axis.
   const Vec3 columns[3] = {{r.row_x.x + 1, r.row_y.x, r.row_z.x},
                            {r.row_x.y, r.row_y.y + 1, r.row_z.y},
                            {r.row_x.z, r.row_y.z, r.row_z.z + 1}};
@@ -135,8 +135,8 @@ struct OnAttachment {
   Vec3 point, tangent;
 };
 
-// Returns the point of the attachment that the map takes nearest to `wanted`. Only a named cusp counts. Returns nothing if the
-// cusp has no attachment, or if no distance is finite.
+// Returns the point of the attachment that the map takes nearest to `wanted`. Only a named cusp counts. Returns nothing for a
+// cusp without an attachment, or without a finite distance.
 std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, const WarpMap &map, Vec3 wanted,
                                        std::int32_t leaflet_id) {
   double least = std::numeric_limits<double>::infinity(), at = 0;
@@ -165,7 +165,7 @@ std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, cons
 // Two landmarks are in one place if they are at most this share of the valve's radius apart.
 constexpr double one_place_share = 0.02;
 
-// Landmarks that are in places of their own, as a warp takes them.
+// Landmarks in separate places, as a warp needs them.
 struct WarpPairs {
   WarpPairs(const Landmarks &landmarks, const std::vector<Vec3> &local, double radius, bool with_attachment,
             const std::vector<Vec3> &places) {
@@ -188,12 +188,12 @@ struct WarpPairs {
   Vector<std::size_t> landmark;  // the numbers of the landmarks
 };
 
-// Slides the places along the attachment, so that the warp that meets all landmarks bends least (F. L. Bookstein 1997). Then
-// neighbours neither crowd nor thin out, and the warp does not fold between them.
+// Slides the places along the attachment, so that the warp that meets all landmarks bends least (F. L. Bookstein 1997).
+// Neighbours then neither crowd nor thin out, and the warp has no folds between neighbours.
 void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                             const std::vector<Vec3> &local, double radius, std::vector<Vec3> &places) {
   constexpr int most_slides = 8;
-  constexpr double most_of_gap = 0.3;  // a place moves at most so far towards its neighbour at once
+  constexpr double most_of_gap = 0.3;  // the largest move of a place towards its neighbour at once
   for (int round = 0; round < most_slides; ++round) {
     const WarpPairs pairs(landmarks, local, radius, true, places);
     WarpLandmarks warp(pairs.sources, 0, "landmarks");
@@ -213,7 +213,8 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
       const auto here = nearest_on(parts, {}, pairs.sources[i], landmark.leaflet_ids[0]);
       if (here) sliding.push_back({i, here->tangent, map.at(pairs.sources[i]).along(here->tangent)});
     }
-    // A place that moves changes the displacement of its landmark. The bending is least where no such change lowers it further.
+    // A place that moves changes the displacement of its landmark. The bending is least where no such change lowers the bending
+    // further.
     const std::size_t n = sliding.size();
     std::vector<double> matrix(n * n), steps(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -238,7 +239,7 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
   }
 }
 
-// Moves places apart that are one place although their landmarks are not, such as beside a commissure that is off the valve's.
+// Moves equal places of different landmarks apart, such as beside a commissure that is off the valve's commissure.
 void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landmarks, const std::vector<Vec3> &local,
                      double radius, std::vector<Vec3> &places) {
   const double one_place = one_place_share * radius;
@@ -293,8 +294,8 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
     }
 }
 
-// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because the others
-// follow from them.
+// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because other sizes
+// follow from these.
 void check_sizes(const Valve &valve, const LandmarkModel &model) {
   try {
     valve.make_patches();
@@ -347,8 +348,8 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
 
   PlacedValve placed{valve, landmarks.scale, {0, 0, 1}, 0, {0, 0, 0}, {}, {}, 0, fitted.rotation_error, 0, {}, {}};
   placed.n_as_annulus = of_kind.n_as_annulus;
-  // First all lengths grow with the valve. Then the fitted sizes take their values. Last come the parameters that depend on
-  // several sizes.
+  // First all lengths grow with the valve. After that, the fitted sizes take their values. Last come the parameters that depend
+  // on several sizes.
   double size_now = value_of(valve, of_kind.size_name);
   for (const FittedSize &size : model.sizes)
     if (size.name == of_kind.size_name) size_now = size.value;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interpolates between keys in time, once or periodically. It serves openings (laws/opening_laws.hpp) and the vertices of
-// keyframes (arrays/user_arrays.hpp).
+// Interpolates between keys in time, once or periodically. The interpolation serves openings (laws/opening_laws.hpp) and the
+// vertices of keyframes (arrays/user_arrays.hpp).
 // In: times of keys, a period. Out: the keys around a time, and the values and rates between them.
 #pragma once
 
@@ -28,7 +28,7 @@ class KeyTimes {
   // arrays, so a time one period later has the same keys.
   struct KeysAround {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, after it
-    std::array<double, 3> width;      // the time from each of these keys to the next; infinite if one is missing
+    std::array<double, 3> width;      // the time from each of these keys to the next key; infinite without a next key
     double since;                     // time since the interval's first end
     bool is_at_rest;                  // true before the first key and after the last; key[1] then gives the value
   };

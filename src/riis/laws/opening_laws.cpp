@@ -19,8 +19,8 @@ constexpr double degree = pi / 180;
 
 void check_time(double time) { check_range("", "time", time, -largest_number, largest_number); }
 
-// Rises from 0 at x = 0 to 1 at x = 1. Its first two derivatives are 0 at both ends, so neither the valve's velocity nor its
-// acceleration jumps. Just below x = 1 the polynomial may round to more than 1. The result is limited to 1, because no valve
+// Rises from 0 at x = 0 to 1 at x = 1. The ramp's first two derivatives are 0 at both ends, so neither the valve's velocity nor
+// its acceleration jumps. Just below x = 1 the polynomial may round to more than 1. The result is limited to 1, because no valve
 // accepts an opening above 1.
 double ramp(double x) { return x <= 0 ? 0 : x >= 1 ? 1 : std::min(1.0, x * x * x * (10 + x * (-15 + 6 * x))); }
 double ramp_rate(double x) { return x <= 0 || x >= 1 ? 0 : 30 * x * x * (1 - x) * (1 - x); }
@@ -84,7 +84,7 @@ double checked_step(double before, double time, double pressure_difference, doub
   return time - before;
 }
 
-// Returns the new value of a first-order filter. `before` is NaN if there was no value yet.
+// Returns the new value of a first-order filter. `before` is NaN before the first value.
 double filtered(double before, double now, double step, double filter_time) {
   if (std::isnan(before) || filter_time == 0) return now;
   return before - exponential_minus_one(-step / filter_time) * (now - before);
@@ -116,8 +116,8 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
     now.pressure_difference = filtered(before.pressure_difference, pressure_difference, step, law.filter_time);
     now.flow = filtered(before.flow, flow, step, law.filter_time);
   }
-  // A valve that has just changed its phase does not change back within dwell_time. So noise in the solver's pressure and flow
-  // does not make the valve flutter.
+  // A valve that has just changed its phase does not change back within dwell_time. Noise in the solver's pressure and flow
+  // therefore does not make the valve flutter.
   const bool may_turn = std::isnan(before.turn_time) || time - before.turn_time >= law.dwell_time;
   const bool opens = before.phase == RIIS_PHASE_CLOSING && now.pressure_difference > law.open_above;
   const bool closes = before.phase == RIIS_PHASE_OPENING && now.flow < law.close_below;
@@ -214,8 +214,8 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
 
   const AngleLaw::Drive to{pressure_difference, flow};
   const AngleLaw angle_law(law, has_drive ? AngleLaw::Drive{before.pressure_difference, before.flow} : to, to);
-  // The error of the method falls with the fourth power of the step. With steps of this size, it is far below the error
-  // that a linear drive makes.
+  // The error of the method falls with the fourth power of the step. With steps of this size, the error is far below the error of
+  // a linear drive.
   constexpr double largest_step = 0.05;
   const double n_wanted = std::ceil(step * angle_law.fastest() / largest_step);
   constexpr double max_steps = 1e6;

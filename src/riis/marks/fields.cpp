@@ -101,7 +101,8 @@ class TriangleFields {
   }
 
   void write(const Range &range) const {
-    // The nodes of a list lie far apart in memory. So their coordinates are fetched while earlier nodes are computed.
+    // The nodes of a list lie far apart in memory. The coordinates of such nodes are therefore fetched while earlier nodes are
+    // computed.
     constexpr std::int64_t ahead = 4 * pairs_at_once;
     for (std::int64_t first = range.begin; first < range.end; first += pairs_at_once) {
       for (std::int64_t i = first + ahead; i < std::min(first + ahead + pairs_at_once, range.end); ++i)
@@ -187,7 +188,7 @@ class TriangleFields {
     for (std::int64_t lane = 0; has(RIIS_FIELD_GRADIENT) && lane < n; ++lane)
       for (std::int64_t k = 0; k < n_directions(); ++k) {
         const std::int64_t at = n_directions() * (first + lane) + k;
-        // At an edge or a vertex the way from the closest point is the normal, unless rounding decides its direction.
+        // At an edge or a vertex the normal is the way from the closest point, unless rounding decides the direction of this way.
         const bool has_way = (eight.on.at_border >> lane & 1) != 0 && !is_on_rim[lane] && distance[lane] > least_way_;
         view(made_.height_gradient)[at] = has_way ? (height[lane] > 0 ? 1 : -1) * view(made_.distance_gradient)[at]
                                                   : height_rate(eight, lane, k, is_on_rim[lane] != 0);
@@ -212,7 +213,7 @@ class TriangleFields {
 
   std::int64_t n_directions() const { return view(rates_).size(); }
 
-  // Writes the velocities and (u,v). They are interpolated from the vertices with the weights.
+  // Writes the velocities and (u,v). The weights interpolate these fields from the vertices.
   void write_mixed(const std::int64_t *triangle, const PointsOnTriangles &on, std::int64_t first,
                    std::int64_t n) const {
     const std::int64_t *vertex[pairs_at_once];
@@ -229,7 +230,7 @@ class TriangleFields {
     }
   }
 
-  // Returns the first position from `tie` on where the ties of a node begin, or the number of all ties if there is none.
+  // Returns the first position from `tie` on that begins the ties of a node, or the number of all ties at the end.
   std::int64_t next_node(std::int64_t tie) const {
     while (tie > 0 && tie < ties_.size() && ties_[tie].point == ties_[tie - 1].point) ++tie;
     return tie;
@@ -348,8 +349,8 @@ void FieldScratch::prepare(const SearchRequest &request, std::int32_t fields, co
   const auto is_one_leaflet = [&](const Tie &a, const Tie &b) {
     return rule.leaflet_id[a.triangle.triangle] == rule.leaflet_id[b.triangle.triangle];
   };
-  // Keeps the closest triangle of each leaflet. On each other patch of the leaflet, it also keeps a triangle that ties with
-  // the closest one.
+  // Keeps the closest triangle of each leaflet. On each other patch of the leaflet, the list also keeps a triangle that ties with
+  // the closest triangle.
   auto closest = ties.begin(), end = ties.begin();
   for (const Tie &tie : ties) {
     const bool is_first = end == ties.begin() || tie.point != closest->point || !is_one_leaflet(*closest, tie);

@@ -19,10 +19,10 @@
 
 namespace riis {
 
-// The arrays that a caller gets from a marking. They have one entry for each node, in ascending order.
+// The arrays that a caller gets from a marking. The arrays have one entry for each node, in ascending order.
 
-// Makes room for n elements. If it has to reserve memory, it reserves half as much again as needed. Without this reserve, a
-// moving valve would need new memory at each new maximum of its number of nodes.
+// Makes room for n elements. A new reserve is 1.5 times the needed memory. Without this reserve, a moving valve would need new
+// memory at each new maximum of its number of nodes.
 template <class Array>
 void reserve_amply(Array &array, std::int64_t n) {
   const auto needed = static_cast<std::size_t>(n);
@@ -129,8 +129,8 @@ void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields
 // Merges the lists of several threads into lists in ascending order of nodes.
 // In: found nodes. Out: the nodes within the limit and, if the limit is wider than the half thickness, the marked nodes.
 
-// A bin is a range of node numbers. The set holds nodes of one bin, with a bit for each number of the bin. It gives each node
-// a rank: the number of lesser nodes in the set. A stretch is 64 words of bits. Only stretches with nodes are written and
+// A bin is a range of node numbers. The set holds nodes of one bin, with a bit for each number of the bin. The set gives each
+// node a rank: the number of lesser nodes in the set. A stretch is 64 words of bits. Only stretches with nodes are written and
 // read.
 class NodeRanks {
  public:

@@ -124,7 +124,7 @@ void AreaSearch::part() {
     } else if (direction == 0) {
       direction = has_grown ? 1 : has_fallen ? -1 : 0;
     }
-    // Only the extreme in the present direction counts, so the other extreme starts from it.
+    // Only the extreme in the present direction counts, so the opposite extreme starts from this value.
     if (direction > 0) low = high;
     if (direction < 0) high = low;
   }

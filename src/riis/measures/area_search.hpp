@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inverse of an area that depends on one number, such as the orifice of a valve by its opening. The area may jump by a
-// little, may grow in one part and fall in another, and has no derivative.
+// The inverse of an area that depends on one number, such as a valve's orifice that depends on its opening. The area may jump by
+// a little, may grow in one part and fall in another, and has no derivative.
 // In: a function and a range. Out: numbers at which the area has given values.
 #pragma once
 
@@ -24,8 +24,8 @@ class AreaSearch {
     double value, area;
   };
 
-  // Tries n_samples values from `from` to `to`. Their distances are equal, or grow with the value if `grows`. Then it looks for
-  // the exact places at which the area stops growing or falling.
+  // Tries n_samples values from `from` to `to`. The distances between these values are equal, or grow with the value if `grows`.
+  // After that, the search looks for the exact places at which the area stops growing or falling.
   AreaSearch(Area area, double from, double to, std::int32_t n_samples, bool grows);
 
   bool has_area() const { return !points_.empty(); }
@@ -38,13 +38,13 @@ class AreaSearch {
   const std::vector<double> &turns() const { return turns_; }
   std::int64_t n_refused() const { return n_refused_; }
 
-  // Returns a value with this area, up to the tolerance as a share of the area. If several values have it, the value nearest to
+  // Returns a value with this area, up to the tolerance as a share of the area. Of several such values, the value nearest to
   // `near` is returned. If the area jumps over the wanted area, the nearer end of the jump is returned. Returns nothing if the
   // area is out of reach.
   std::optional<Point> find(double area, double near, double tolerance) const;
 
  private:
-  // The points from `first` to `last`, over which the area only grows or only falls, apart from jumps. No value between them
+  // The points from `first` to `last`, over which the area only grows or only falls, apart from jumps. No value between these two
   // was refused.
   struct Part {
     std::size_t first, last;

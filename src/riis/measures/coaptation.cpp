@@ -16,7 +16,7 @@
 namespace riis {
 namespace {
 
-// Returns the triangles of all leaflets except one leaflet and the omitted ones.
+// Returns the triangles of all leaflets except one leaflet and the omitted leaflets.
 TriangleSet others(const TriangleSet &set, std::int32_t leaflet_id, const std::vector<std::int32_t> &omitted) {
   TriangleSet made;
   made.xyz = set.xyz;
@@ -31,11 +31,11 @@ TriangleSet others(const TriangleSet &set, std::int32_t leaflet_id, const std::v
   return made;
 }
 
-// Measures the parts of one leaflet that are near the other leaflets. From one point to another, the distance from the other
-// leaflets changes by at most the distance of the two points. The distance at a part's middle therefore tells that the part is
-// wholly within reach or wholly out of reach, unless it is near the reach. Parts near the reach are halved until they are
-// small. On a small part, the distance counts as a linear function. A small part has an eighth of the reach, or 1/2000 of
-// the surface's extent if that is more. A tiny reach can therefore not cause endless work.
+// Measures the parts of one leaflet that are near the other leaflets. Between two points, the distance from the other leaflets
+// changes by at most the distance of the points. The distance at a part's middle, unless close to the reach, therefore tells
+// whether the whole part is within reach. Parts near the reach are halved until they are small. On a small part, the distance
+// counts as a linear function. A small part has an eighth of the reach, or 1/2000 of the surface's extent if that is more. A tiny
+// reach can therefore not cause endless work.
 class Measuring {
  public:
   Measuring(const TriangleScene &scene, double reach, double extent)

@@ -26,8 +26,8 @@ struct CommonSegment {
 };
 
 // Finds the least overlap of two triangles over the directions that are passed to along(). A face of the Minkowski difference of
-// two triangles has the normal of one triangle, or an edge of each triangle spans the face. So the least overlap over these
-// normals is the distance from the origin to the boundary of the difference. This distance is the penetration depth.
+// two triangles either has the normal of one triangle or is spanned by an edge of each. The least overlap over these normals is
+// the distance from the origin to the boundary of the difference. The distance to this boundary is the penetration depth.
 class Overlap {
  public:
   Overlap(const Triangle &a, const Triangle &b, double limit) : a_(a), b_(b), limit_(limit) {}
@@ -86,13 +86,13 @@ double penetration_depth(const Triangle &a, const Triangle &b, double limit) {
   return overlap.least();
 }
 
-// Returns the segment that two triangles have in common. Their depth must exceed the error of penetration_depth.
+// Returns the segment that two triangles have in common. The depth of the triangles must exceed the error of penetration_depth.
 CommonSegment common_segment(const Triangle &a, const Triangle &b) {
   const Vec3 normal = cross(b[1] - b[0], b[2] - b[0]);
   const Triangle from_b = moved(a, b[0]);
   std::array<double, 3> height{};
   for (std::size_t k = 0; k < 3; ++k) height[k] = dot(normal, from_b[k]);
-  // One corner is alone on its side of b's plane.
+  // One corner of a is alone on its side of b's plane.
   const auto is_below = [&](std::size_t k) { return height[k % 3] < 0; };
   std::size_t lone = 0;
   while (lone < 2 && (is_below(lone) == is_below(lone + 1) || is_below(lone) == is_below(lone + 2))) ++lone;
@@ -112,8 +112,8 @@ CommonSegment common_segment(const Triangle &a, const Triangle &b) {
 
 constexpr float nowhere = std::numeric_limits<float>::infinity();
 
-// A box in the groups' frame, in single precision. Rounding is monotone, so boxes with a common point still have one after
-// rounding.
+// A box in the groups' frame, in single precision. Rounding is monotone, so boxes with a common point still have a common point
+// after rounding.
 struct Box {
   float lower[3]{nowhere, nowhere, nowhere}, upper[3]{-nowhere, -nowhere, -nowhere};
 

@@ -164,7 +164,7 @@ class FarthestEdges {
     for (const Turn &turn : turns) add(turn);
   }
 
-  // Returns the parts, or nothing if no edge lies in directions over half a turn.
+  // Returns the parts, or nothing if directions over half a turn have no edge.
   std::vector<FarPart> parts() const {
     std::vector<FarPart> made;
     double gap = 0, widest = 0;
@@ -217,7 +217,7 @@ class FarthestEdges {
     return std::clamp(of_a / (of_a - of_b), 0.0, 1.0);
   }
 
-  // An edge turns by less than half a turn. So its distance from the centre is unique in each direction.
+  // An edge turns by less than half a turn. The edge's distance from the centre is therefore unique in each direction.
   void add(const Turn &turn) {
     const auto place = [&](double angle) {
       return static_cast<std::size_t>(std::lower_bound(angles_.begin(), angles_.end(), angle) - angles_.begin());
@@ -302,14 +302,14 @@ double roundness_of(const std::vector<PlanePoint> &corners) {
   return whole > 0 ? 4 * pi * area / (whole * whole) : 0;
 }
 
-// A view along the vector area of the farthest edges, and how round their outline is: 1 for a circle.
+// A view along the vector area of the farthest edges, and the roundness of their outline: 1 for a circle.
 struct FoundView {
   SeenParts parts;
   double roundness;
 };
 
-// From a good first axis few turns suffice. More would do harm where a free edge reaches as far out as the attachment, because
-// the farthest edge may then change with each turn. Other first axes need many turns.
+// From a good first axis few turns suffice. More turns would do harm at a free edge that reaches as far out as the attachment,
+// because each turn may then change the farthest edge. Other first axes need many turns.
 constexpr int few_turns = 4, many_turns = 40;
 
 // Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline, at most n_turns
@@ -377,8 +377,8 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const B
 }
 
 // Returns the factor by which the pieces grow about their centroids until the first two neighbours meet. Beyond 1.05 the pieces
-// stand apart on purpose, so the factor falls back to 1, which it reaches at 1.1. A part of the outline that is nearer to a ray
-// from the centre than to a right angle with it is the end of a piece, and not held.
+// stand apart on purpose, so the factor falls back to 1 at 1.1. A part of the outline at less than 45 degrees to a ray from the
+// centre is the end of a piece, and not held.
 double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
   struct Held {
     std::int64_t piece;

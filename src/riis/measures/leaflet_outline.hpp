@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The outline of the leaflets, which bounds the orifice: the farthest edges round a centre, seen along an axis that follows from
-// them (docs/theory/measures.md, "Outline").
-// In: triangles, of a valve or from arrays. Out: a polygon in a plane, and the axis along which it is seen.
+// The outline of the leaflets, which bounds the orifice. It consists of the farthest edges round a centre, seen along an axis
+// that follows from these edges (docs/theory/measures.md, "Outline"). In: triangles, of a valve or from arrays. Out: a polygon in
+// a plane, and the axis along which it is seen.
 #pragma once
 
 #include <cstdint>
@@ -61,14 +61,14 @@ struct SeenOutline {
   Outline outline;
 };
 
-// The direction in which a valve looks before its outline is known.
+// The directions of a valve before its outline is known.
 struct ValveDirections {
   Vec3 axis, sideways;  // its z axis, warped and placed, and its x axis, placed
   bool keeps_axis;      // the outline is seen along `axis`, and not along the vector area of its edges
 };
 
-// Returns the outline, with the axis on the side of the valve's axis. Triangles from arrays have no valve. Their axis is on the
-// side of the boundary's normal. Returns nothing if the edges do not surround a centre, or enclose no area.
+// Returns the outline, with the axis on the side of the valve's axis. Triangles from arrays have no valve. The axis of such
+// triangles is on the side of the boundary's normal. Returns nothing if the edges do not surround a centre, or enclose no area.
 std::optional<SeenOutline> outline_of_leaflets(const LeafletBoundary &boundary,
                                                const std::optional<ValveDirections> &valve);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measures of a surface and of its marks. Each part of this header has a file of its own.
+// The measures of a surface and of its marks. Each part of this header has its own file of source.
 #pragma once
 
 #include <riis/riis.h>

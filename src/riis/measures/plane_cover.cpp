@@ -240,7 +240,8 @@ double length_without(const Spans &spans, const Spans &covers) {
 
 // Measures the edges of the covers at the ends of the part of disjoint spans that no cover contains.
 double edge_without(const Spans &spans, std::vector<Interval<End>> covers) {
-  // Covers of folded leaflets may begin or end in one point. Their order then says which edge counts, so it is total.
+  // Covers of folded leaflets may begin or end in one point. The order of such covers then says which edge counts, so the order
+  // is total.
   std::sort(covers.begin(), covers.end(), [](const Interval<End> &a, const Interval<End> &b) {
     return std::tie(a.begin.x, a.end.x, a.begin.along, a.end.along) <
            std::tie(b.begin.x, b.end.x, b.begin.along, b.end.along);
@@ -319,7 +320,7 @@ std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>>
 }
 
 Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::int64_t> &vertex_id) {
-  // An edge of the triangles. `sides` is the sum of side_of over the edge's triangles. It is 2 or -2 if two triangles lie on
+  // An edge of the triangles. `sides` is the sum of side_of over the edge's triangles. The sum is 2 or -2 if two triangles lie on
   // opposite sides of the edge.
   struct Use {
     int n = 0, sides = 0;

@@ -19,7 +19,7 @@ struct Start {
 };
 
 // Returns where the line point + t * direction meets a triangle. Two triangles with a common edge compute that edge's volume
-// with opposite signs. So the line cannot slip through between them.
+// with opposite signs. The line therefore cannot slip through between the triangles.
 std::optional<double> meets(const std::array<Vec3, 3> &corners, Vec3 point, Vec3 direction) {
   const auto [a, b, c] = corners;
   const Vec3 oa = a - point, ob = b - point, oc = c - point;

@@ -88,8 +88,8 @@ class RowMaker {
     return {block * nodes_per_block, std::min((block + 1) * nodes_per_block, lists_.n_nodes)};
   }
 
-  // Counts the entries of each part at each node. Then replaces each count by the position in the block where its entries will
-  // begin.
+  // Counts the entries of each part at each node. After that, replaces each count by the position in the block where the part's
+  // entries begin.
   void count() {
     resize(next_, n_parts_ * lists_.n_nodes);
     parallel_for(n_parts_, n_threads_, [&](std::int64_t part, int) {
@@ -134,7 +134,7 @@ class RowMaker {
 
   // The memory of one thread while it makes rows.
   struct Scratch {
-    std::vector<std::uint8_t> is_seen;  // for each node, whether the row already has it
+    std::vector<std::uint8_t> is_seen;  // for each node, whether the row already has this node
     UnfilledVector<Column> columns;     // columns of one block
   };
 
@@ -242,8 +242,7 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
          max_count);
 }
 
-// The lists of neighbouring cells. Here the nodes are the cells, and an entry is a face between two
-// cells.
+// The lists of neighbouring cells. In these lists the nodes are the cells, and an entry is a face between two cells.
 struct InnerFaces {
   static constexpr std::int64_t most_neighbors = 1;
 
@@ -295,8 +294,8 @@ struct GridNodes {
 template <class Id>
 OwnAdjacency adjacency_from_cells_with(const riis_mesh_cells &given, int n_threads, const NarrowLimits &limits) {
   const Cells<Id> cells(given, n_threads);
-  // Code for cells of one shape takes three quarters of the time of the general code. This code is compiled only for meshes
-  // that 32 bits can count, because hardly any mesh is larger.
+  // Code for cells of one shape takes three quarters of the time of the general code. The code for one shape is compiled only for
+  // meshes that 32 bits can count, because hardly any mesh is larger.
   if (given.offsets || cells.n_nodes() > limits.n_nodes || cells.n_listed() > limits.n_entries)
     return adjacency_of_lists(CellsOfAnyShape<Id>(cells), cells.n_listed(), n_threads, limits);
   const auto made_of = [&](const auto &lists) { return narrow_adjacency_of_lists(lists, n_threads); };

@@ -80,7 +80,7 @@ struct CellNodes {
 template <class Id>
 class Cells {
  public:
-  // Checks the sizes of all cells before any node, because they tell how many nodes there are.
+  // Checks the sizes of all cells before any node, because the sizes give the number of nodes.
   Cells(const riis_mesh_cells &cells, int n_threads)
       : n_cells_(cells.n_cells),
         n_nodes_(cells.n_nodes),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A mesh's nodes in leaves, clusters and regions. A leaf holds 32 nodes near each other, a cluster holds 16 leaves, and a region
-// holds 16 clusters. Each has a box, so a search can dismiss all its nodes at once. The order of the nodes is made once for a
-// mesh. When nodes move, the order stays, and coordinates and boxes are made again.
+// holds 16 clusters. Each level has boxes, so a search can dismiss all nodes of a box at once. The order of the nodes is made
+// once for a mesh. When nodes move, the order stays, and coordinates and boxes are made again.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace riis {
 
-// The coordinates of a leaf's nodes in double precision, stored together. In the caller's array they may be far apart, but
+// The coordinates of a leaf's nodes in double precision, stored together. In the caller's array these nodes may be far apart, but
 // the decision reads them together.
 struct LeafPoints {
   double xyz[3 * nodes_per_leaf];
@@ -48,7 +48,7 @@ struct Clusters {
 // The limit exists because a leaf stores node numbers in 32 bits.
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
-// Both functions fail with RIIS_INVALID_MESH for an unusable coordinate. n_nodes is 0 in clusters that were never made.
+// The next two functions fail with RIIS_INVALID_MESH for an unusable coordinate. n_nodes is 0 in clusters that were never made.
 //   bounds  the box of the nodes at the time when the caller gave them
 void sort_into_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters);
 // Keeps the order, and updates coordinates and boxes to the nodes' new positions.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes of a grid in leaves, clusters and regions, as the search over clusters needs them. All are bricks of nodes, so their
-// boxes are read off the axes. A thread fills the leaves of one cluster at a time.
-// In: a grid, the box of its nodes near a surface. Out: boxes, and the leaves near triangles.
+// The nodes of a grid in leaves, clusters and regions, as the search over clusters needs them. Leaves, clusters and regions are
+// bricks of nodes, so the axes give their boxes. A thread fills the leaves of one cluster at a time. In: a grid, the box of its
+// nodes near a surface. Out: boxes, and the leaves near triangles.
 #pragma once
 
 #include <cstdint>
@@ -52,7 +52,7 @@ class GridClusters {
     std::int64_t operator[](int lane) const { return first + step[lane]; }
   };
   Numbers numbers(int leaf, const Room &room) const { return {room.first, step_ + nodes_per_leaf * leaf}; }
-  // Writes the points of those lanes of a leaf that have a bit.
+  // Writes the points of a leaf's lanes with a set bit.
   void fill_points(int leaf, std::uint32_t lanes, Room &room) const;
 
  private:
@@ -71,7 +71,7 @@ class GridClusters {
   GridIndex n_regions_, leaf_extent_, cluster_extent_, region_extent_;
   Parts lanes_, leaves_, clusters_;       // of a leaf, a cluster and a region
   std::int64_t step_[nodes_per_cluster];  // from a cluster's first number to the number of each node
-  std::vector<float> x_[3];  // coordinates in the frame. The last one is repeated to the end of the last region
+  std::vector<float> x_[3];  // coordinates in the frame. The last coordinate is repeated to the end of the last region
 };
 
 }  // namespace riis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The caller's nodes and adjacency, which are checked and normally borrowed. The mesh also owns data about its nodes that
-// searches need: balls, clusters and blocks of edges. Each is made when it is first needed.
+// searches need: balls, clusters and blocks of edges. Each structure is made when it is first needed.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ struct NodeBalls {
   Range balls_of(std::int64_t large_ball) const;
 };
 
-// Makes the order. This function and the next fail with RIIS_INVALID_MESH for an unusable coordinate.
+// Makes the order. Two functions, this and the next, fail with RIIS_INVALID_MESH for an unusable coordinate.
 void sort_into_balls(const StridedPoints &nodes, const Bounds &bounds, int n_threads, NodeBalls &balls);
 
 // Makes the balls and the large balls from the order.
@@ -57,13 +57,13 @@ struct EdgeBlocks {
   double longest = 0;  // the length of the mesh's longest edge
 };
 
-// Checks whether a mesh and a surface with its half thickness can have the same unit.
-// In: boxes that are already known. Out: a warning to the caller's log function, once for each pair of a mesh and a surface.
+// Checks whether a mesh and a surface with a half thickness can have the same unit. In: boxes that are already known. Out: a
+// warning to the caller's log function, once for each pair of a mesh and a surface.
 
 // The surfaces that were reported as misfits for a mesh. Several threads may call both functions at once.
 class WarnedSurfaces {
  public:
-  // Records the number, which must not be 0. Returns true if it is new. Once the list is full, new numbers also give
+  // Records the number, which must not be 0. Returns true if the number is new. Once the list is full, new numbers also give
   // false.
   bool is_first(std::uint64_t surface_number);
   bool has(std::uint64_t surface_number) const;
@@ -122,7 +122,8 @@ class Mesh {
     edges_.forget();
   }
 
-  // Both functions set new coordinates, of the same nodes or of other nodes. A different number of nodes removes the adjacency.
+  // borrow_nodes and take_grid set new coordinates, of the same nodes or of other nodes. A different number of nodes removes the
+  // adjacency.
   void borrow_nodes(const StridedPoints &nodes, const Bounds &bounds);
   void take_grid(std::unique_ptr<const Grid> grid);
   // Copies the nodes. After a failure the mesh keeps its old nodes.

@@ -89,8 +89,8 @@ template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
 // The places where parts are cut. by_clusters cuts large parts between clusters and small parts between leaves, into at most
-// four parts each time. Clusters are then compact. by_leaves always cuts between leaves, into so many parts that a leaf becomes
-// as wide as it is long. by_leaves takes half as many passes, but its clusters are long.
+// four parts each time. Clusters are then compact. by_leaves always cuts between leaves, into so many parts that leaves become as
+// wide as long. by_leaves takes half as many passes, but makes long clusters.
 enum class Cuts { by_clusters, by_leaves };
 
 // Sorts nodes so that near nodes follow each other. Each pass counts the nodes of a part in bins along the longest axis of its
@@ -133,7 +133,8 @@ class NodeSorter {
   static constexpr int n_small_bins = 64, n_small_bins_per_part = 16;
   typedef std::array<Node, n_bins> Counts;
   // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items often have the same bin
-  // and stream, and each update of a count waits for the previous update of that count. So each quarter has its own counts.
+  // and stream, and each update of a count waits for the previous update of that count. Each quarter therefore has its own
+  // counts.
   static constexpr int n_quarters = 4;
   typedef std::array<Node, n_quarters> OfQuarters;
   typedef std::array<OfQuarters, n_bins> QuarterCounts;
@@ -317,7 +318,7 @@ class NodeSorter {
     for (int quarter = 0; quarter < n_quarters; ++quarter) view(to)[quarter] += view(numbers)[quarter];
   }
 
-  // Moves items until the items of each new part are together. Within a stream they keep their order, for any number of
+  // Moves items until the items of each new part are together. Within a stream the items keep their order, for any number of
   // blocks. Returns where the part was cut.
   template <class Blocks>
   Cutting sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) const {

@@ -83,15 +83,15 @@ Vector<double> SideMaterial::shares_before(const Vector<double> &shares) const {
 
 namespace {
 
-// Steps of u and v are nearly parallel if the square of the sine of their angle is at most this.
+// Steps of u and v are nearly parallel up to this square of the sine of their angle.
 constexpr double least_sine_sq = 0.01;
 
 bool has_points_inside(const MovedPatch &moved) {
   return moved.patch < moved.now.mapped_inside.size() && moved.patch < moved.before.mapped_inside.size();
 }
 
-// The position of a point relative to another point, in steps of u and v, by least squares. It is 0 if the steps are nearly
-// parallel.
+// The position of a point relative to another point, in steps of u and v, by least squares. This position is 0 if the steps are
+// nearly parallel.
 struct StepsBeside {
   double u = 0, v = 0;
 
@@ -131,8 +131,8 @@ struct MaterialArcs {
 
 using OfSides = std::array<std::array<Vec3, n_material>, 4>;  // vectors on the sides v0, v1, u0, u1.
 
-// Vectors at the even shares of a patch's warped sides. They lie on the polynomials that pass through the vectors at the shares
-// `nodes`.
+// Vectors at the even shares of a patch's warped sides. The vectors lie on the polynomials that pass through the vectors at the
+// shares `nodes`.
 class AtShares {
  public:
   AtShares(const std::array<std::array<double, n_material>, 4> &nodes, const OfSides &values) {
@@ -150,7 +150,7 @@ class AtShares {
     return mix(v0[at_u], v1[at_u], v) + mix(u0[at_v], u1[at_v], u) -
            mix(mix(v0[0], v0[last], u), mix(v1[0], v1[last], u), v);
   }
-  // These functions return the change of the combination from one even share before to one even share behind.
+  // along_u and along_v return the change of the combination from one even share before to one even share behind.
   Vec3 along_u(std::size_t at_u, std::size_t at_v) const {
     const auto &[v0, v1, u0, u1] = at_;
     return mix(v0[at_u + 1] - v0[at_u - 1], v1[at_u + 1] - v1[at_u - 1], material_share(at_v)) +
@@ -496,8 +496,8 @@ bool have_same_build(const PatchSet &now, const PatchSet &before) {
 
 PatchSet with_own_patches(const PatchSet &state, const PatchSet &like) {
   PatchSet made = state;
-  made.seams.clear();  // the other state may lack them, and they only change the last bits
-  // The patches of a warped valve are their own already.
+  made.seams.clear();  // the other state may lack the seams, which only change the last bits
+  // The patches of a warped valve are already separate.
   if (state.material.empty()) made = without_images(made);
   const Vector<std::int32_t> ids = ids_of(made);
   Vector<Patch> patches;

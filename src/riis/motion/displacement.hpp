@@ -83,14 +83,14 @@ struct PatchMaterial {
   SideMaterial v0, v1, u0, u1;
 };
 
-// The same for the offsets of a patch of arcs: how much farther the map moves them than the offsets of the warped
-// curves move. The polynomial is 0 for a patch without a warp.
+// The difference, for the offsets of a patch of arcs, between the motion by the map and the motion of the offsets of the warped
+// curves. The polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// The map adds this part to the displacement inside a warped Coons patch. It is 0 at the sides. At the four inner points with u
-// and v of 1/3 or 2/3, the displacement belongs to the material point that the map moves there. The displacement follows from
-// the mapped points beside these points (MappedInside). The excess over the Coons combination of the sides is a polynomial of
-// degree 3 in u and in v.
+// The map adds this part to the displacement inside a warped Coons patch. This part is 0 at the sides. At the four inner points
+// with u and v of 1/3 or 2/3, the displacement belongs to the material point that the map moves there. The displacement follows
+// from the mapped points beside these points (MappedInside). The excess over the Coons combination of the sides is a polynomial
+// of degree 3 in u and in v.
 class RestInside {
  public:
   RestInside() = default;
@@ -103,7 +103,7 @@ class RestInside {
   }
 
  private:
-  // They are 1 at one of the two thirds, and 0 at the other third and at the ends.
+  // Each polynomial is 1 at one third, and 0 at the other third and at the ends.
   static double first(double x) { return 13.5 * x * (1 - x) * (2.0 / 3 - x); }
   static double second(double x) { return 13.5 * x * (1 - x) * (x - 1.0 / 3); }
 
@@ -111,10 +111,10 @@ class RestInside {
   std::array<Vec3, 4> rest_{};
 };
 
-// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
-// evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. Only (u,v) identifies
-// a point in both states, so the two states may have different triangles. SideMaterial matches the points of a warped side. The
-// result is exactly 0 if neither the sides nor the bulge changed.
+// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. The two states
+// are evaluated on the smooth patches: on the sides directly, and inside as the same combination of the sides. Only (u,v)
+// identifies a point in both states, so the two states may have different triangles. SideMaterial matches the points of a warped
+// side. The result is exactly 0 if neither the sides nor the bulge changed.
 class PatchDisplacement {
  public:
   // Computes the displacements at the grid's vertices. The grid must have kept its lines.
@@ -127,8 +127,8 @@ class PatchDisplacement {
     return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
   }
-  // Returns the displacement inside a quad. Along a side, it is linear between the vertices that the neighbouring quad also
-  // has. So the displacement does not jump between neighbouring quads.
+  // Returns the displacement inside a quad. Along a side, the displacement is linear between the vertices that the neighbouring
+  // quad also has. The displacement therefore does not jump between neighbouring quads.
   Vec3 without_jumps(std::size_t i, std::size_t j, int column, int row) const;
 
  private:
@@ -144,7 +144,8 @@ class PatchDisplacement {
   RestInside rest_;  // for a patch without arcs
 };
 
-// The velocity of one image of a patch in space. It combines the displacements of the patch, the image and the placement.
+// The velocity of one image of a patch in space. This velocity combines the displacements of the patch, the image and the
+// placement.
 class ImageVelocity {
  public:
   ImageVelocity(const PatchImage &now, const PatchImage &before, const Placement &placement_now,
@@ -177,7 +178,7 @@ Vector<double> joints_of(const PatchSet &set, const Side &side);
 // Moves each line with the two joints beside it. If the number of joints changed, no line moves.
 Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to);
 
-// Returns whether patch i of one state has the images of patch i of the other.
+// Returns whether patch i has the same images in the two states.
 bool have_same_build(const PatchSet &now, const PatchSet &before);
 // Gives each image of a state a patch of its own, in the order of the images of `like`, which has the same ids. Two states of
 // one valve may differ in their build: equal cusps are images of one half, and unequal cusps have patches of their own.

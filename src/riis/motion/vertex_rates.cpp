@@ -13,8 +13,8 @@
 namespace riis {
 namespace {
 
-// The joints of both curves of a patch of arcs, at the state of the surface and at another state. Those of the base come first
-// among equal ones, as in Bulge::joints.
+// The joints of both curves of a patch of arcs, at the state of the surface and at another state. Among equal joints, the joints
+// of the base come first, as in Bulge::joints.
 class MovedJoints {
  public:
   MovedJoints(const PatchSet &at, const PatchSet &state, std::size_t patch) {
@@ -96,7 +96,8 @@ Vector<GridLine> lines_in(const PatchSet &at, const PatchSet &state, std::size_t
   return made;
 }
 
-// Returns the points of a side at the ends of lines. At the side's vertices they lie on the curve, and elsewhere on the chords.
+// Returns the points of a side at the ends of lines. At the side's vertices the points lie on the curve, and elsewhere on the
+// chords.
 Vector<Vec3> points_along(const PatchSet &state, const Side &side, const Vector<GridLine> &lines, double GridLine::*t,
                           bool GridLine::*is_vertex) {
   Vector<double> shares;

@@ -12,8 +12,8 @@
 
 namespace riis {
 
-// A direction in which a valve changes. It has two states near the surface's state, and the difference of the parameter between
-// them.
+// A direction in which a valve changes. A direction has two states near the surface's state, and the difference of the parameter
+// between these states.
 struct Direction {
   const PatchSet &after, &before;  // both states may be the same object
   Placement placement_after, placement_before;
@@ -21,9 +21,9 @@ struct Direction {
 };
 
 // Computes (after - before) / step for every vertex, in the order of the vertices of a TriangleSet. `at` and `grids` belong to
-// the surface. Both states are put on the same grids. A vertex on a curve keeps its share of the curve's length. A vertex on a
-// chord keeps its place on the chord, and a vertex inside a patch keeps its u and v. So these are the rates of the triangles'
-// corners, not of the smooth valve. Inside a triangle the rate is exactly linear.
+// the surface. The direction's two states are put on the same grids. A vertex on a curve keeps its share of the curve's length. A
+// vertex on a chord keeps its place on the chord, and a vertex inside a patch keeps its u and v. The rates are therefore rates of
+// the triangles' corners, not of the smooth valve. Inside a triangle the rate is exactly linear.
 void make_vertex_rates(const PatchSet &at, const Vector<LevelledGrid> &grids, const Direction &direction, int n_threads,
                        std::vector<double> &rates);
 

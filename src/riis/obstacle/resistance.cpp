@@ -24,7 +24,7 @@ double coefficient_at(const Resistance &resistance, double distance) {
 }
 
 // Returns the derivative of K with respect to the distance from the middle of the band. The sine is taken from the nearer end of
-// the slope. So the derivative has few roundings up to both ends, where K is flat.
+// the slope. The derivative thus has few roundings up to both ends, where K is flat.
 double slope_at(const Resistance &resistance, double distance) {
   const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;
@@ -37,12 +37,13 @@ bool is_beyond_rim(const Resistance &resistance, const ListedNodes &list, std::i
   return resistance.cuts_rim && view(list.fields.rim)[i];
 }
 
-// Returns the distance from the middle of the band at entry i of a list. Outside the band it is at least the half thickness.
+// Returns the distance from the middle of the band at entry i of a list. Outside the band this distance is at least the half
+// thickness.
 double distance_from_middle(const Band &band, const ListedNodes &list, std::int64_t i) {
   const double distance = view(list.nodes.distance)[i];
   if (!band.steps_aside()) return distance;
   const double height = view(list.fields.height)[i];
-  // Both tests of the band are equal up to rounding. An unmarked node never resists.
+  // The two tests of the band are equal up to rounding. An unmarked node never resists.
   return band.holds(distance, height) ? band.distance_from_middle(distance, height) : band.half_thickness;
 }
 

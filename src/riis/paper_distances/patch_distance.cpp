@@ -18,8 +18,8 @@ namespace riis {
 namespace {
 
 // Distances by minimisation (paper, 4.1 "Minimization"): Powell's method minimises |S(u,v) - P|^2 on every patch, starting at
-// (0.5, 0.5). It ends in a local minimum. So the result is always the distance to some point of S, but not always to the
-// closest point (docs/theory/paper-distances.md).
+// (0.5, 0.5). Powell's method ends in a local minimum. The result is therefore always the distance to some point of S, but not
+// always to the closest point (docs/theory/paper-distances.md).
 // In: placed patches, the tolerance of the minimisation. Out: the least of all patches' local minima.
 
 class Minimizer final : public PatchDistance {
@@ -43,7 +43,7 @@ class Minimizer final : public PatchDistance {
   double lower_bound(const Bounds &box, Vec3 p) const;
 
   double enough_;
-  double rounding_ = 0;               // how far a computed point S(u,v) may lie outside of its patch's box
+  double rounding_ = 0;               // the largest distance of a computed point S(u,v) from its patch's box
   std::vector<PatchExtent> extents_;  // one for each patch
   Bounds box_;                        // the box of all patches together
 };

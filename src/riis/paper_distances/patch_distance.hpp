@@ -22,7 +22,7 @@ namespace riis {
 // Turns placed patches into functions S(u,v) that can be evaluated anywhere (paper, 3.3), for sampling and minimisation.
 // In: a valve's curves and patches, the allowed error, the placement. Out: a grid of quads for each image of a patch.
 
-// S(u,v) on a grid with placed points. It is bilinear in every quad.
+// S(u,v) on a grid with placed points. The placed patch is bilinear in every quad.
 struct PlacedPatch {
   QuadGrid grid;
   std::int32_t leaflet_id, patch_id;
@@ -30,7 +30,7 @@ struct PlacedPatch {
 
   Vec3 at(double u, double v) const { return evaluate(grid, u, v); }
   // Returns the unit normal by the right-hand rule of the triangles, or 0 if S has no normal there, for example at a
-  // collapsed side. On a grid line, it returns the normal of the quad after the line.
+  // collapsed side. On a grid line, the function returns the normal of the quad after the line.
   Vec3 normal_at(double u, double v) const;
 };
 
@@ -106,7 +106,7 @@ struct DistanceRequest {
   double max_error;     // measure_tolerance * half_thickness, in mesh units
 };
 
-// Makes the method that a surface's options choose. Fails with RIIS_LIMIT_EXCEEDED if it would need too many patches or
+// Makes the method that a surface's options choose. Fails with RIIS_LIMIT_EXCEEDED if the method would need too many patches or
 // samples.
 std::unique_ptr<const PatchDistance> make_distance(const PatchSet &set, const DistanceRequest &request,
                                                    const Placement &placement, bool flip_normals);
@@ -128,8 +128,8 @@ struct SampleCounts {
 // parallelogram with the sides h_u S_u and h_v S_v, anywhere on S.
 double covering_radius(const QuadGrid &grid, double h_u, double h_v);
 
-// Returns the smallest numbers of steps that keep the covering radius within `radius`. Their ratio is the ratio of the
-// patch's width to its height. The result may exceed max_samples.
+// Returns the smallest numbers of steps that keep the covering radius within `radius`. The ratio of these two numbers is the
+// ratio of the patch's width to its height. The result may exceed max_samples.
 SampleCounts samples_within(const QuadGrid &grid, double radius);
 
 class SampleSet final : public PatchDistance {
@@ -149,8 +149,7 @@ class SampleSet final : public PatchDistance {
  private:
   static constexpr std::int64_t samples_per_leaf = 64;
 
-  // A box around the samples of a leaf, or around two other nodes of the tree. In the array, the first of these two nodes
-  // follows this node.
+  // A box around the samples of a leaf, or around two other nodes of the tree. In the array, the first child follows its parent.
   struct Node {
     Bounds box;
     std::int32_t second = -1;  // the position of the second node, or -1 in a leaf

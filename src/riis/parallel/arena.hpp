@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs work in an arena of the pool, with TBB's limit of threads adjusted for it. Embree's scenes and concurrent walks run in
-// such an arena. So TBB gives them the caller's n_threads threads instead of all threads of the process.
+// such an arena. TBB thus gives these tasks the caller's n_threads threads instead of all threads of the process.
 #pragma once
 
 #if !defined(RIIS_STD_THREADS)
@@ -35,10 +35,10 @@ void give_back(PooledArena *arena) noexcept;
 // Returns the number of all arenas, idle and borrowed.
 std::size_t n_arenas() noexcept;
 
-// Borrows an arena of up to n_threads threads, including the calling one, for as long as this object lives. TBB has a limit on
-// the threads of the process. If the caller did not set this limit and it is lower than n_threads, this object raises it during
-// its life. The arena stays within the limit, because TBB would print a message on stderr about a larger arena. An arena of one
-// thread uses only the calling thread.
+// Borrows an arena of up to n_threads threads, with the calling thread, during the life of this object. TBB has a limit on the
+// threads of the process. During its life, this object raises a limit below n_threads that the caller did not set. The arena
+// stays within the limit, because TBB would print a message on stderr about a larger arena. An arena of one thread uses only the
+// calling thread.
 class Arena {
  public:
   explicit Arena(int n_threads) {

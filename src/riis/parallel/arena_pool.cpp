@@ -98,7 +98,7 @@ KeepsArenas::~KeepsArenas() {
 
 namespace riis {
 
-// There is no pool, so nothing is kept.
+// Without a pool, no arena is kept.
 KeepsArenas::KeepsArenas() noexcept = default;
 KeepsArenas::~KeepsArenas() = default;
 

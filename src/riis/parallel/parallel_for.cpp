@@ -32,8 +32,8 @@ class Blocks {
     }
   }
 
-  // Runs blocks until none is left, or until has_to_stop() returns true before a block. Returns how many blocks it ran. Each
-  // thread of the loop calls this once. The calling thread may also call it before the other threads begin.
+  // Runs all blocks, or stops before the first block for which has_to_stop() returns true. Returns the number of blocks that ran.
+  // Each thread of the loop calls this function once. The calling thread may also call it before the other threads begin.
   template <class HasToStop>
   std::int64_t run(int thread, const HasToStop &has_to_stop) {
     const FloatEnvironment environment;
@@ -124,7 +124,7 @@ int team_for(std::int64_t n_blocks, int n_threads, LoopBody body, LoopChoice &ch
   struct Loop {
     Blocks blocks;
     std::int64_t n_of_caller;  // the number of blocks that the calling thread ran in the team
-    std::int64_t has_worked;   // the time at which it had run them
+    std::int64_t has_worked;   // the time at which the thread had run its blocks
   } loop{{n_blocks, n_threads, body}, 0, 0};
   std::int64_t n_alone = 0, begin = nanoseconds();
   if (const std::int64_t time_alone = choice.time_alone(begin); time_alone > 0) {
@@ -156,7 +156,7 @@ int parallel_for(std::int64_t n_blocks, int n_threads, LoopBody body) {
   return team_for(n_blocks, n_threads, body, loop_choice);
 #else
   const std::int64_t begin = nanoseconds();
-  // If there are more threads than processors, they wait for each other in every loop of OpenMP.
+  // More threads than processors wait for each other in every loop of OpenMP.
   if (n_threads > processors_of_machine() || loop_choice.takes_team(begin))
     return team_for(n_blocks, n_threads, body, loop_choice);
   TimesOfCaller of_caller{begin, begin};

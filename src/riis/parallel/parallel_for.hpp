@@ -18,8 +18,8 @@ int default_thread_count() noexcept;
 int processors_of_machine() noexcept;
 
 // By default a call uses one more thread for each of these amounts of work, which take half a millisecond or more. On a quiet
-// machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine it takes as long as the system
-// gives the processor to other processes.
+// machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine the wait lasts as long as other
+// processes have the processor.
 constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
 constexpr std::int64_t nodes_per_thread = 16384;  // nodes of a mesh, or cells or faces
 
@@ -60,8 +60,8 @@ struct TimesOfCaller {
 // runs the loop, `of_caller` gets the times of the calling thread. It may be null.
 int openmp_for(std::int64_t n_blocks, int n_threads, LoopBody body, TimesOfCaller *of_caller = nullptr);
 
-// Does the same on a team (team.hpp), so it does not wait for a thread that another process delays. The calling thread first
-// works alone for as long as `choice` says. If the loop ends within that time, the result is still n_threads.
+// Does the same on a team (team.hpp), without waiting for a thread that another process delays. The calling thread first works
+// alone for as long as `choice` says. If the loop ends within that time, the result is still n_threads.
 int team_for(std::int64_t n_blocks, int n_threads, LoopBody body, LoopChoice &choice);
 
 // Does the same on the threads that loop_choice chooses. The threads are always OpenMP's in two cases: inside a caller's

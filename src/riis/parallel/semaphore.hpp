@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A semaphore for the threads of this process. Darwin has a call for POSIX's unnamed semaphores, but it fails with ENOSYS. Its
-// library for dispatching has semaphores of its own.
+// A semaphore for the threads of this process. Darwin has a call for POSIX's unnamed semaphores, but it fails with ENOSYS.
+// Darwin's library for dispatching has semaphores of its own.
 #pragma once
 
 #if defined(__APPLE__)
@@ -14,7 +14,7 @@ namespace riis {
 // Is never destroyed, because threads may wait on it until the process ends.
 class Semaphore {
  public:
-  // Returns whether the system made the semaphore. Without it the other functions must not be called.
+  // Returns whether the system made the semaphore. The other functions need a semaphore that was made.
   bool is_made() const noexcept { return is_made_; }
 #if defined(__APPLE__)
   void post() noexcept { dispatch_semaphore_signal(semaphore_); }

@@ -9,7 +9,7 @@
 
 namespace riis {
 
-// `address` is one of the library's code or data.
+// `address` is an address of the library's code or data.
 inline void stay_loaded([[maybe_unused]] const void *address) noexcept {
 #if defined(__APPLE__)
   // The loader counts a second user of the file, who never closes it. A program that contains a static riis needs no such user,

@@ -22,9 +22,9 @@
 namespace riis {
 namespace {
 
-// A thread that waits stays awake for a while, because waking it would take some microseconds. At first it keeps its processor,
-// so it wakes at once even if a caller's thread spins there. Later it offers the processor to other threads. Then it sleeps. The
-// history of accesses that the thread sanitizer keeps would fill up if threads waited awake.
+// A thread that waits stays awake for a while, because waking it would take some microseconds. At first the worker keeps its
+// processor, and thus wakes at once even if a caller's thread spins there. Later the worker offers the processor to other
+// threads. Then it sleeps. The history of accesses that the thread sanitizer keeps would fill up if threads waited awake.
 using std::chrono::microseconds;
 #if defined(RIIS_STD_THREADS)
 constexpr microseconds longest_awake{0}, longest_alone{0};
@@ -72,7 +72,7 @@ struct State {
 class Team {
  public:
   // Starts workers until the team has n_workers of them. Returns the number of workers, which is less if the system refuses a
-  // thread. A team without semaphores has none.
+  // thread. A team without semaphores has no workers.
   int grow_to(int n_workers) {
     if (!may_start_.is_made() || !may_end_.is_made()) return 0;
     if (n_workers_ < n_workers) {
@@ -170,9 +170,9 @@ class Team {
   int n_workers_ = 0, n_processors_ = 1;
 };
 
-// The idle teams. They are not destroyed when the process ends, because their workers still wait. There are as many teams as
-// threads of the caller that were ever inside loops at once. The first few teams are static, so they take no memory of a
-// call.
+// The idle teams. The end of the process does not destroy idle teams, because their workers still wait. The number of teams is
+// the largest number of the caller's threads that were inside loops at once. The first few teams are static, so they take no
+// memory of a call.
 constexpr std::size_t n_first_teams = 16;
 alignas(Team) unsigned char first_teams[n_first_teams][sizeof(Team)];
 std::mutex teams_mutex;
@@ -204,7 +204,7 @@ LoopChoice loop_choice;
 
 int processors_of_machine() noexcept {
   static const int n = static_cast<int>(sysconf(_SC_NPROCESSORS_CONF));
-  return n < 1 ? std::numeric_limits<int>::max() : n;  // used if the system does not say how many there are
+  return n < 1 ? std::numeric_limits<int>::max() : n;  // used if the system does not state the number of processors
 }
 
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context) {

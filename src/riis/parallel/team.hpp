@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Threads for the loops of a time step on a busy machine. Between loops the threads wait, first awake and then asleep. If
-// another process delays a thread, the loop does not wait for it: the calling thread does its work.
+// Threads for the loops of a time step on a busy machine. Between loops the threads wait, first awake and then asleep. The loop
+// does not wait for a thread that another process delays: the calling thread does the work of this thread.
 #pragma once
 
 #include <algorithm>
@@ -12,17 +12,16 @@ namespace riis {
 
 // Calls work(context, 0) on the calling thread. Calls work(context, thread), 0 < thread < n_threads, on each further thread that
 // comes before the calling thread's call has returned. Returns after all these calls have returned. Returns the number of
-// threads that took part. It is less than n_threads only if the system refuses a thread, a semaphore or memory. No call may
-// throw.
+// threads that took part. This number is less than n_threads only if the system refuses a thread, a semaphore or memory. No call
+// may throw.
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
 // Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they also run the
-// caller's own loops. But a loop waits for all of them, however long another process holds a processor. After such a wait, teams
-// run the loops for some time. If OpenMP then runs only a few loops until the next such wait, the machine is busy, and the
+// caller's own loops. A loop, however, waits for all threads, however long another process holds a processor. After such a wait,
+// teams run the loops for some time. If OpenMP then runs only a few loops until the next such wait, the machine is busy, and the
 // teams' time doubles. A team also waits if another process interrupts its thread inside a block. The calling thread therefore
-// begins a team's loop alone. How long it works alone is the time that recent loops lost by calling their teams. If the
-// team then loses as much again, the loop takes at most twice as long as with the better choice. All times are in
-// nanoseconds.
+// begins a team's loop alone. The calling thread works alone for the time that recent loops lost by calling their teams. If the
+// team then loses as much again, the loop takes at most twice as long as with the better choice. All times are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
@@ -35,7 +34,7 @@ class LoopChoice {
     return pause_.load(std::memory_order_relaxed) > 0 || n_served_.load(std::memory_order_relaxed) > 0;
   }
   // Records that a loop of OpenMP ended now. Also records how long the calling thread waited for the others at the loop's
-  // beginning and end. On a quiet machine it waits for one block at most, which takes less than a millisecond.
+  // beginning and end. On a quiet machine the calling thread waits for one block at most, which takes less than a millisecond.
   void record(std::int64_t waited, std::int64_t now) noexcept {
     const int n_served = n_served_.load(std::memory_order_relaxed);
     if (waited < long_wait) {
@@ -78,8 +77,8 @@ class LoopChoice {
   std::atomic<double> mean_loss_{0};
 };
 
-// This process's choice between OpenMP and a team. The loops of several threads of the caller may record at once. Each of
-// their values is good enough.
+// The process's choice between OpenMP and a team. The loops of several threads of the caller may record at once. Each of the
+// values that other threads write is good enough.
 extern LoopChoice loop_choice;
 
 }  // namespace riis

@@ -11,13 +11,13 @@ struct Range {
   std::int64_t begin, end;
 };
 
-// The number of threads of a call. It also records whether the caller or the library chose the number.
+// The number of threads of a call. The object also records whether the caller or the library chose this number.
 class Threads {
  public:
   // A number that the caller requested.
   Threads(int n) : n_(n) {}  // NOLINT(google-explicit-constructor): most callers pass a number
-  // The library's choice, if the caller requested no number: one thread, and one more for each `per_thread` items of the call's
-  // work, but at most `most`.
+  // The library's choice for a caller without a request: one thread, and one more for each `per_thread` items of the call's work,
+  // but at most `most`.
   static Threads by_default(std::int64_t n_items, std::int64_t per_thread, int most) {
     Threads made(static_cast<int>(std::min<std::int64_t>(1 + std::max<std::int64_t>(n_items, 0) / per_thread, most)));
     made.is_default_ = true;
@@ -35,9 +35,9 @@ class Threads {
   bool is_default_ = false;
 };
 
-// Returns whether this process may use several threads, and records that it does. A child of fork() may not use several threads
-// if the library had used them before the fork. The child lacks these threads, so the run-times of OpenMP and TBB would wait for
-// them for ever.
+// Returns whether this process may use several threads, and records the use. A child of fork() may not use several threads if the
+// library had used them before the fork. The child lacks these threads, so the run-times of OpenMP and TBB would wait for them
+// for ever.
 bool begin_threads() noexcept;
 
 // Returns whether this process is a child of fork() that may not use several threads.

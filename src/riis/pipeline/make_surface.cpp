@@ -31,7 +31,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Bounds the difference between two approximations of the smooth surface. It adds both errors and a margin for rounding.
+// Bounds the difference between two approximations of the smooth surface. The bound is the sum of both errors and a margin for
+// rounding.
 double largest_difference(double triangle_error, const PatchDistance &distance) {
   return (triangle_error + distance.patches().largest_error()) * (1 + 1e-6);
 }
@@ -78,7 +79,7 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   triangles.skirt = valve.has_skirt() ? skirt_leaflet(patches) : -1;
   const double seconds_triangles = stopwatch.lap();
-  // If another method measures distances, makes it first, because the library may refuse it.
+  // Another method for distances is made first, because the library may refuse the method.
   std::unique_ptr<const PatchDistance> distance;
   if (accuracy.measure != RIIS_MEASURE_TRIANGLES)
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
@@ -127,9 +128,9 @@ namespace {
 
 // The lines are chosen for this many openings, evenly spaced from 0 to 1.
 constexpr int n_openings = 33;
-// Then the chosen lines are tested at n_between openings between every two neighbouring openings. If the lines are too coarse
-// at some of these openings, all lines are chosen again, with these openings included. The test is repeated at most n_trials
-// times.
+// After that, the chosen lines are tested at n_between openings between every two neighbouring openings. If the lines are too
+// coarse at some of these openings, all lines are chosen again, with these openings included. The test is repeated at most
+// n_trials times.
 constexpr int n_between = 7, n_trials = 4;
 // A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
 constexpr std::size_t max_patches = 10'000;

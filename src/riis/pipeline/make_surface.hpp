@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole pipeline. It turns a valve's parameters or the caller's arrays into a surface that answers queries for closest
-// points.
-// In: a valve or arrays, the placement, the accuracy. Out: the surface, and the seconds that it took.
+// The whole pipeline. The pipeline turns a valve's parameters or the caller's arrays into a surface that answers queries for
+// closest points.
+// In: a valve or arrays, the placement, the accuracy. Out: the surface, and the seconds of its making.
 #pragma once
 
 #include <riis/riis.h>
@@ -20,8 +20,8 @@ namespace riis {
 // In: a valve, the allowed error. Out: a plan of the triangles that serves all openings.
 class FixedTriangulation {
  public:
-  // Makes the plan. max_error bounds the distance between triangles and the smooth surface, before placement. It fails as the
-  // stages of the pipeline do. The message names the opening.
+  // Makes the plan. max_error bounds the distance between triangles and the smooth surface, before placement. Failures are the
+  // failures of the pipeline's stages. The message names the opening.
   FixedTriangulation(const Valve &valve, double max_error, int n_threads);
 
   // Fails with RIIS_INVALID_PARAMETER if the valve differs from the plan's valve in anything but its opening and the values of
@@ -69,16 +69,17 @@ struct SurfaceSeconds {
   double triangles, scene;
 };
 
-// Both functions replace the content of `surface` and reuse its memory. After a failure, `surface` can only be made again. The
-// first function fails as the stages of the pipeline do. It also fails with RIIS_INVALID_PARAMETER if the valve has no area or
-// if the two states come from valves of different builds. Without an earlier state the vertices have no velocity. `fixed` is
-// null unless accuracy.is_fixed. With an offset, both functions fail with RIIS_INVALID_SURFACE if two triangles run along a
-// shared edge in the same direction.
+// Both functions named make_surface replace the content of `surface` and reuse its memory. After a failure, `surface` can only be
+// made again. The first function fails as the stages of the pipeline do. The first function also fails with
+// RIIS_INVALID_PARAMETER if the valve has no area or if the valves of the two states have different builds. Without an earlier
+// state the vertices have no velocity. `fixed` is null unless accuracy.is_fixed. With an offset, both functions fail with
+// RIIS_INVALID_SURFACE if two triangles run along a shared edge in the same direction.
 SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const SurfaceRequest &request,
                             const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface);
 SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,
                             const SurfaceRequest &request, Surface &surface);
-// Adds a direction to the surface of a valve. Fails with RIIS_INVALID_PARAMETER if a state has another build than that valve.
+// Adds a direction to the surface of a valve. Fails with RIIS_INVALID_PARAMETER if the patches of a state do not correspond to
+// the valve's patches.
 void add_direction(const ValveDirection &direction, int n_threads, Surface &surface);
 
 }  // namespace riis

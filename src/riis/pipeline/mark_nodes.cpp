@@ -12,8 +12,8 @@
 namespace riis {
 namespace {
 
-// Returns whether clusters are faster. If the limit leaves out most nodes, clusters pay only if they are used again, so not in
-// the first marking of a mesh.
+// Returns whether clusters are faster. For a limit that leaves out most nodes, clusters pay only from the second marking of a
+// mesh on.
 bool do_clusters_pay_off(const SearchRequest &request, bool is_first) {
   if (request.surface.other_distance()) return false;
   if (request.mesh.nodes().grid) return true;
@@ -46,8 +46,7 @@ struct SearchRun {
   SearchReport report;
 };
 
-// Searches over clusters. Searches exhaustively instead if the mesh has too many nodes for clusters or if single precision is
-// too coarse.
+// Searches over clusters. Searches exhaustively if the mesh has too many nodes for clusters or single precision is too coarse.
 SearchRun run_clusters(const SearchRequest &request, Marks &marks) {
   if (request.mesh.nodes().n <= max_clustered_nodes) {
     const Clusters &clusters = request.mesh.clusters(request.n_threads);
@@ -101,8 +100,8 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   }
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
-      // A moving valve is near its last position, so the walk starts at the nodes found last. These may be nodes of another mesh
-      // with as many nodes. A wrong start does no harm.
+      // A moving valve is near its last position, so the walk starts at the nodes found last. The nodes found last may be nodes
+      // of another mesh with as many nodes. A wrong start does no harm.
       const bool fits = marks.stats.n_nodes == request.mesh.nodes().n;
       return {search, search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch,
                                        marks.found)};
@@ -130,7 +129,7 @@ WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked
   return data;
 }
 
-// Copies the nodes in the band from a list with heights, with their fields. Both lists may be the same list.
+// Copies the nodes in the band from a list with heights, with their fields. The two lists may be the same list.
 void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &from, ListedNodes &to) {
   const std::int64_t n_from = from.nodes.size();
   const auto is_marked = [&](std::int64_t i) {
@@ -149,8 +148,8 @@ void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &fr
   to.fields.resize(fields, n);
 }
 
-// Gives both lists room for their new entries. If one list lacks room, both are replaced, but only after all memory for the
-// new lists was reserved.
+// Gives both lists room for their new entries. If one list lacks room, new lists replace both lists, but only after all memory
+// for the new lists was reserved.
 void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &marks) {
   if (!marks.within.has_room(data, n.n_within) || !marks.marked.has_room(data, n.n_marked)) {
     ListedNodes within, marked;

@@ -19,7 +19,7 @@ struct MarkingRequest {
   const Band *listed = nullptr;  // if not null, only the nodes of this band are listed. It must step aside
 };
 
-// Marks the nodes. If it fails, the marks' lists keep their content and their addresses.
+// Marks the nodes. After a failure, the marks' lists keep their content and their addresses.
 void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks &marks);
 
 // Writes the marks to the caller's arrays. The caller must have checked far_distance.

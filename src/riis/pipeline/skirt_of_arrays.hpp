@@ -16,8 +16,9 @@ namespace riis {
 void find_attachment(UserFaces &faces, const riis_surface_arrays &arrays);
 
 // Gives the placed triangles of these faces their attachment and their skirt. The outer vertices follow the caller's vertices.
-// They have velocities if the caller's have. `scale` is the scale of the placement. Fails with RIIS_INVALID_SURFACE if nothing
-// tells which way is outwards, with RIIS_INVALID_ARGUMENT for a length that does not fit, and with RIIS_LIMIT_EXCEEDED.
+// The outer vertices have velocities if the caller's vertices have velocities. `scale` is the scale of the placement. Fails with
+// RIIS_INVALID_SURFACE if nothing tells which way is outwards, with RIIS_INVALID_ARGUMENT for a length that does not fit, and
+// with RIIS_LIMIT_EXCEEDED.
 void add_skirt_of_arrays(const UserFaces &faces, double scale, bool flip_normals, TriangleSet &set);
 
 }  // namespace riis

@@ -15,8 +15,8 @@
 namespace riis {
 namespace {
 
-// If the new surface has more triangles than this, the memory of the old surface is freed, because to keep so much would
-// cost more than to allocate it again. A triangle takes about 300 bytes.
+// Above this number of new triangles, the memory of the old surface is freed, because keeping so much memory would cost more than
+// a new allocation. A triangle takes about 300 bytes.
 constexpr std::int64_t max_triangles_kept = 1'000'000;
 
 }  // namespace
@@ -122,8 +122,8 @@ bool say(const Valve &valve, const Surface &surface, int n_threads) {
   const auto leaflet = [&](std::int64_t pair, int k) {
     return view(set.leaflet_id)[view(pairs.triangle)[2 * pair + k]];
   };
-  // Hinges reach into recesses of the housing, and the model of the housing lacks these recesses. So crossings with the housing
-  // do not count.
+  // Hinges reach into recesses of the housing, and the model of the housing lacks these recesses. Crossings with the housing
+  // therefore do not count.
   const std::int32_t housing = valve.kind().housing;
   std::int64_t n = 0, deepest = -1;
   for (std::int64_t i = 0; i < view(pairs.depth).size(); ++i) {
@@ -166,7 +166,8 @@ void CrossingWatch::look(const Valve &valve, const Surface &surface, int n_threa
   try {
     shape.is_said = say(valve, surface, n_threads);
   } catch (...) {
-    // The search ran out of memory. This is no failure, because the caller did not request the search and the surface is good.
+    // The search ran out of memory. The lack of memory is no failure, because the caller did not request the search and the
+    // surface is good.
   }
 }
 

@@ -22,9 +22,9 @@ namespace riis {
 // In: the valve and its new surface. Out: a log message or none.
 class CrossingWatch {
  public:
-  // In each range of the opening, it examines the first surface of each shape, until it has warned about the shape. Without a
-  // log function it does nothing and allocates nothing. It never fails, because the surface itself is good. Without memory
-  // for the search there is no warning.
+  // In each range of the opening, it examines the first surface of each shape, until it has warned about the shape. Without a log
+  // function the search does nothing and allocates nothing. The search never fails, because the surface itself is good. Without
+  // memory for the search there is no warning.
   void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
 
  private:
@@ -35,7 +35,7 @@ class CrossingWatch {
   };
   Shape &remembered(std::uint64_t digest);
 
-  // The number of shapes that are remembered. If a caller alternates between no more shapes than this, it gets one warning for
+  // The number of shapes that are remembered. A caller that alternates between at most this number of shapes gets one warning for
   // each shape.
   static constexpr std::size_t n_remembered = 8;
 
@@ -51,7 +51,7 @@ class UpdatableSurface {
 
   // The update functions fail as make_surface does, and a failure leaves the surface unchanged. If request.n_threads is 0, the
   // number of triangles of the last surface determines the number of threads. The first update with accuracy.is_fixed
-  // chooses the fixed triangulation. An update without it ends the fixed triangulation.
+  // chooses the fixed triangulation. An update without this option ends the fixed triangulation.
   void update_from_valve(const Valve &valve, const EarlierValve *earlier, const SurfaceRequest &request,
                          const ValveAccuracy &accuracy);
   // Updates the surface from arrays. If the arrays contain no faces, their vertices are for the faces of the last arrays.
@@ -60,7 +60,7 @@ class UpdatableSurface {
   void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,
                              const SurfaceRequest &request);
 
-  // Lets the next updates search no crossings, for shapes that the caller did not choose.
+  // Switches the search for crossings off in the next updates, for shapes that the caller did not choose.
   void ignore_crossings() { ignores_crossings_ = true; }
 
   // Adds a direction to the surface of a valve, until the next update.

@@ -67,8 +67,9 @@ std::vector<OpenEdge> edges_of_one_triangle(const TriangleSet &set, const std::v
   return open;
 }
 
-// Cancels open edges that lie on each other. A patch of triangles may have vertices inside the edges of its neighbour. Such an
-// edge and its opposite edges run between the same two vertices. So the search follows them from one end to the other.
+// Cancels open edges that lie on each other. A patch of triangles may have vertices inside the edges of its neighbour. A long
+// edge and its opposite edges run between the same two vertices. The search therefore follows the edges from one end to the
+// other.
 class Cancelling {
  public:
   Cancelling(const TriangleSet &set, std::vector<OpenEdge> edges) : set_(set), edges_(std::move(edges)) {
@@ -263,7 +264,7 @@ std::vector<OpenEdge> longest_boundary(const TriangleSet &set) {
 namespace {
 
 // Finds the vertices on a side of a patch, in their order along the side. Two vertices of a subdivided quad may lie at the same
-// place. Only the first of such vertices is returned.
+// place. Of such vertices, only the first is returned.
 Vector<std::int64_t> vertices_on(const TriangleSet &set, std::int64_t begin, std::int64_t end, PatchRim side) {
   const std::int64_t of_along = side == rim_v0 || side == rim_v1 ? 0 : 1;
   const auto along = [&](std::int64_t id) { return view(set.uv)[2 * id + of_along]; };

@@ -24,7 +24,7 @@ struct OpenEdge {
 std::vector<OpenEdge> open_edges(const TriangleSet &set, bool by_leaflet);
 
 // Returns the closed lines of open edges, each in order. If several lines meet in one vertex, each line continues along triangles
-// that it has not met before. So the attachments of cusps that meet at commissures make one line, and their free edges make
+// that it has not met before. The attachments of cusps that meet at commissures thus make one line, and their free edges make
 // another.
 std::vector<std::vector<OpenEdge>> closed_boundaries(const TriangleSet &set);
 // Returns the edges of the longest closed line of open edges, or nothing if there is none.
@@ -49,11 +49,11 @@ std::vector<SideLine> attached_sides(const TriangleSet &set);
 // leaflet `skirt` does not count.
 std::vector<SideLine> boundary_sides(const TriangleSet &set, std::int32_t skirt);
 
-// The edges of all attached sides. They are in the order of the patches. The edges of one side follow each other along the side.
-// Edges of length 0 are left out.
+// The edges of all attached sides. The edges are in the order of the patches. The edges of one side follow each other along the
+// side. Edges of length 0 are left out.
 struct Attachment {
-  std::vector<double> edges;     // (3, 2, n_edges)
-  std::vector<double> outwards;  // (3, 2, n_edges): the direction of a skirt at both ends, of length 1, or 0 for none
+  std::vector<double> edges;             // (3, 2, n_edges)
+  std::vector<double> outwards;          // (3, 2, n_edges): a skirt's unit direction at both ends of the edge, or 0
   std::vector<std::int64_t> vertex_id;   // (2, n_edges)
   std::vector<std::int32_t> leaflet_id;  // (n_edges)
   std::vector<std::int32_t> patch_id;    // (n_edges)

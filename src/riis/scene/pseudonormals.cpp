@@ -128,7 +128,7 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   };
   UnfilledShortVector<Edge> edges;
   resize(edges, 3 * n);
-  // Lists are filled from their ends, so equal edges are in the order of their slots. So sums have the same bits for any
+  // Lists are filled from their ends, so equal edges are in the order of their slots. Sums thus have the same bits for any
   // numbering of the positions.
   for (std::int64_t slot = 3 * n; slot-- > 0;) {
     const auto [lower, upper] = ends_of(slot);
@@ -216,7 +216,7 @@ struct MovingTriangle {
     }
   }
 
-  // Both edges of a corner, and their rates.
+  // The two edges at a corner, and the rates of these edges.
   struct Edges {
     Vec3 ab, ac, ab_rate, ac_rate;
   };

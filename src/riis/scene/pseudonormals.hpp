@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Angle-weighted normals of vertices and edges. They tell on which side of a surface a point is, even if the closest point lies
-// on an edge or a vertex (J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted pseudonormal", IEEE
-// TVCG 11(3), 2005). On an open surface, the side refers to the nearest piece of the surface. The same edges and vertices
-// also give the rim of the surface.
+// Angle-weighted normals of vertices and edges. These normals tell on which side of a surface a point is, even if the closest
+// point lies on an edge or a vertex (J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted
+// pseudonormal", IEEE TVCG 11(3), 2005). On an open surface, the side refers to the nearest piece of the surface. The same edges
+// and vertices also give the rim of the surface.
 // In: triangles. Out: a normal for any closest point, its rate, and whether the point is on the rim.
 #pragma once
 
@@ -34,8 +34,8 @@ class Pseudonormals {
 
   Vec3 of_face(std::int64_t triangle) const { return view(face_)[triangle]; }
 
-  // The face, edge or vertex on which a closest point lies. The point's barycentric weights tell which it is. The normal may
-  // have any length. The rim of a valve consists of the sides that only one patch has (valve/rims.hpp). The rim of triangles
+  // The face, edge or vertex on which a closest point lies. The point's barycentric weights tell the edge or vertex. The normal
+  // may have any length. The rim of a valve consists of the sides that only one patch has (valve/rims.hpp). The rim of triangles
   // from arrays consists of the edges that only one triangle has.
   struct Feature {
     Vec3 normal;
@@ -50,7 +50,7 @@ class Pseudonormals {
   // Returns the normal and the rim for a point that may be on an edge or a vertex.
   Feature at_border(std::int64_t triangle, Vec3 barycentric) const;
 
-  // Returns two triangles that run along a shared edge in the same direction, or -1 for both if no two do.
+  // Returns two triangles that run along a shared edge in the same direction, or -1 and -1.
   const std::array<std::int64_t, 2> &disagreeing() const { return disagreeing_; }
 
   // The rates of the sums of normals while the vertices move. Each edge of the rim and each vertex has such a sum.

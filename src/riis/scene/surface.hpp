@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface that answers queries. It has triangles, their scene, the band around them, and optionally another method to measure
-// distances.
-// In: triangles. Out: closest triangles, sides.
+// A surface that answers queries. The surface has triangles, their scene and their band, and optionally another method to measure
+// distances. In: triangles. Out: closest triangles, sides.
 #pragma once
 
 #include <atomic>
@@ -50,7 +49,8 @@ class Surface {
   // Returns the patches that the triangles come from, or null for a surface from arrays.
   const PatchSet *patches() const { return patches_ ? &*patches_ : nullptr; }
 
-  // Adds a direction in which the patches change. Both of its states must have the ids of patches() (check_same_ids).
+  // Adds a direction in which the patches change. The two states of the direction must have the ids of patches()
+  // (check_same_ids).
   void add_direction(const Direction &direction, int n_threads);
   std::int64_t n_directions() const { return n_directions_; }
   // Returns the rates of the vertices in a direction, (3, n_vertices).
@@ -67,7 +67,7 @@ class Surface {
   // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
   double area() const;
 
-  // Tells whether the attachment is known. For arrays, the caller has to name it or to give them a skirt.
+  // Tells whether the attachment is known. For arrays, the caller has to name the attachment or to request a skirt.
   bool has_attachment() const { return triangles_.is_of_patches() || !triangles_.attached.empty(); }
   // Returns the sides at which leaflets are attached, or the attached edges of arrays. The first call makes them. Several threads
   // may call this function at once.
@@ -80,9 +80,9 @@ class Surface {
     return leaflets_.get([this](std::vector<riis_leaflet> &made) { made = leaflets_of(triangles_); });
   }
 
-  // Returns the other method that measures distances, or null if the triangles' scene measures them.
+  // Returns the other method for distances, or null if the triangles' scene measures distances.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
-  // Bounds by how much the distance to the triangles exceeds a distance that the method returns.
+  // Bounds the excess of the distance to the triangles over the distance that the method returns.
   double triangle_error() const { return triangle_error_; }
 
   // Returns the normals for sides and rims. The first call makes them. Several threads may call this function at once.
@@ -97,7 +97,8 @@ class Surface {
   TriangleScene scene_;
   Band band_;
   std::vector<std::int32_t> leaflet_ids_;
-  // The area is computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
+  // The area is computed on demand, because marking never needs it. Threads that compute the value at the same time get the same
+  // bits.
   mutable std::atomic<double> area_{not_known};
   std::optional<SourceValve> source_valve_;
   std::optional<PatchSet> patches_;

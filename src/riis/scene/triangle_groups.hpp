@@ -16,7 +16,7 @@
 namespace riis {
 
 // Takes a coordinate x to (x - centre) * scale. The scale is the power of two that brings the surface's half extent between 1/2
-// and 1. Both operations only have the rounding errors of their results.
+// and 1. The difference and the product only have the rounding errors of their results.
 struct SurfaceFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
@@ -31,13 +31,13 @@ float round_down(double x);
 float round_up(double x);
 
 // Bounds the error of the filters' distances in the surface's frame (docs/theory/clusters.md). The points come from a frame
-// that is `ratio` times as large and moved by `shift`. They are within `reach` of the triangles, whose edges have lengths
+// that is `ratio` times as large and moved by `shift`. The points are within `reach` of the triangles, whose edges have lengths
 // up to `longest_edge`.
 inline float filter_error(double ratio, double shift, double reach, double longest_edge) {
   return static_cast<float>(0x1p-21 * (ratio + shift + 5 * reach + 7 * longest_edge + 3));
 }
 
-// Bounds the difference between the computed squares of two distances that are in fact equal. Both distances are at most
+// Bounds the difference between the computed squares of two distances that are in fact equal. The two distances are at most
 // `reach`, which includes the error.
 inline float filter_tolerance(double error, double reach) { return static_cast<float>(5 * error * (reach + error)); }
 
@@ -49,8 +49,8 @@ struct TriangleGroups {
   std::vector<TriangleGroup> groups;
   Bounds of_all;  // bounds of all corners, in the set's own coordinates
   std::vector<GroupBounds> bounds;
-  // Packs of groups_per_pack neighbouring groups in order. The last pack may have fewer. Only their boxes along the coordinate
-  // axes, their longest edges and their corners are set. A pack has the corner of one of its groups.
+  // Packs of groups_per_pack neighbouring groups in order. The last pack may have fewer. Only the groups' boxes along the
+  // coordinate axes, longest edges and corners are set. A pack has the corner of one of its groups.
   std::vector<GroupBounds> packs;
   float longest_edge = 0;
   // True if each group has the same triangles as before and the groups are not much larger. Structures over the groups

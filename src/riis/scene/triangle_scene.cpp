@@ -37,7 +37,7 @@ using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
 using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release>;
 
 // Returns the device that all surfaces of the process share, because a device costs more than a small scene. The device exists as
-// long as any surface exists. Its default configuration leaves the number of threads to the caller's TBB settings.
+// long as any surface exists. The device's default configuration leaves the number of threads to the caller's TBB settings.
 std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   static std::mutex mutex;
   static std::weak_ptr<std::remove_pointer_t<RTCDevice>> current;
@@ -195,9 +195,9 @@ bool add_group(RTCPointQueryFunctionArguments *arguments) {
   return false;
 }
 
-// Bounds the rounding of a distance. The kernel computes a point of the triangle. Each of the point's coordinates is accurate to
-// a few units of rounding of the largest coordinate, and 16 units cover this amply. The distance from that point is accurate to
-// its own rounding.
+// Bounds the rounding of a distance. The kernel computes a point of the triangle. The point's coordinates are accurate to a few
+// units of rounding of the largest coordinate, and 16 units are ample. The distance from that point is accurate to its own
+// rounding.
 double rounding_of_distances(const Bounds &bounds) { return 0x1p-49 * bounds.largest_coordinate(); }
 
 }  // namespace
@@ -220,8 +220,8 @@ void TriangleScene::Implementation::build(Scene &made) {
     made = std::move(of_geometry);
     geometry = std::move(of_groups);
   } else {
-    // A moving scene is built more often, and each build serves fewer queries. If the groups are the same, their tree is kept
-    // and gets new boxes.
+    // A moving scene is built more often, and each build serves fewer queries. The tree of unchanged groups is kept and gets new
+    // boxes.
     rtcSetSceneFlags(made.get(), RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(made.get(), RTC_BUILD_QUALITY_LOW);
     rtcSetGeometryBuildQuality(geometry.get(), tree_fits ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);
@@ -274,15 +274,16 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
   Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}, ties, false};
   if constexpr (keeps_ties) ties->candidates.clear();
   if (!(largest <= far_away)) {
-    // In the frame's units, such a far point may overflow. Such a point is farther from the surface than the surface is large,
-    // so most limits end the query here.
+    // In the frame's units, such a far point may overflow. The distance of a far point from the surface exceeds the surface's
+    // size, so most limits end the query here.
     if (!may_be_within(p, limit)) return {infinity, -1};
     const std::int64_t n = view(in.groups.corners).size() / 9;
     for (std::int64_t i = 0; i < n; ++i) query_triangle<keeps_ties>(query, i);
   } else {
     double reach = limit;
     if (!(reach * frame.scale < 4 * far_away)) {
-      // A limit this large would exclude nothing. So the distance of an arbitrary triangle, the first one, takes its place.
+      // A limit this large would exclude nothing. The distance of an arbitrary triangle, the first one, therefore replaces such a
+      // limit.
       query_triangle<keeps_ties>(query, 0);
       reach = std::sqrt(query.best.distance_sq);
     }
@@ -323,7 +324,8 @@ void TriangleScene::collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &fou
     const float point[3] = {static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)};
     collect_groups(point, round_up(radius + 0x1p-22 * largest), found);
   }
-  // Converting coordinates to the frame rounds them but keeps their order. So boxes that had a point in common still have one.
+  // Converting coordinates to the frame rounds them but keeps their order. Boxes with a common point therefore keep a common
+  // point.
   Bounds framed;
   framed.add(from);
   framed.add(to);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Triangles in an Embree scene, which answers queries for closest points. Only this file and its .cpp use Embree.
-// In: a triangle set, a point, a limit. Out: the closest triangle, as brute force with the same kernel finds it.
+// In: a triangle set, a point, a limit. Out: the closest triangle, the same triangle as by brute force with the same kernel.
 //
 // Embree works in single precision and only excludes triangles. Coordinates are recentred and scaled by a power of two to
 // the size of the surface. Boxes are rounded outwards, and radii are increased by more than Embree's rounding. Every candidate
@@ -45,8 +45,8 @@ struct Tie {
   ClosestTriangle triangle;
 };
 
-// The ties that one thread of a search finds. For each patch that ties, they contain its closest triangle, and perhaps
-// farther ones.
+// The ties that one thread of a search finds. The ties contain the closest triangle of each patch that ties, and perhaps farther
+// triangles.
 struct Ties {
   TieRule rule;
   std::vector<Tie> candidates;  // ties of points that may still get nearer triangles
@@ -58,7 +58,7 @@ struct Ties {
   void compare(std::int64_t point, const ClosestTriangle &closest, const ClosestTriangle &other) {
     if (other.triangle < 0 || !rule.is_tie(closest, other)) return;
     if (!candidates.empty()) {
-      // Triangles around a vertex are often compared one after another. If they are on one patch, only the nearest of them
+      // Triangles around a vertex are often compared one after another. Of several candidates on one patch, only the nearest
       // stays a candidate.
       Tie &last = candidates.back();
       if (last.point == point && rule.are_of_one_patch(last.triangle, other)) {
@@ -91,8 +91,8 @@ class TriangleScene {
 
   // Makes the groups from a copy of the corners, so the set need not be kept. A further call, for triangles that moved, reuses
   // the memory. After a failure the scene can only be destroyed. The first query builds Embree's tree, with n_threads threads,
-  // because a search over clusters never needs the tree. So a query fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY if
-  // Embree reports an error, and the next query tries once more.
+  // because a search over clusters never needs the tree. A query fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY if Embree
+  // reports an error. The next query tries once more.
   void make(const TriangleSet &set, int n_threads);
 
   // Builds Embree's tree, as the first query does. Several threads may call this function at once.

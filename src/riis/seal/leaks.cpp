@@ -22,9 +22,9 @@ struct Edge {
 };
 
 // Returns a length such that no edge of at most this length leaks. If such an edge meets the surface in a point, its nearer node
-// is at most half the length from that point. So the node is within the half thickness and marked. With an offset, only smaller
-// distances are sure to be in the band. The margins are several times the rounding, so this also holds for computed distances.
-// Returns -1 if marks may be missing, or if they do not follow the distances to the triangles. In this case no edge counts as
+// is at most half the length from that point. The nearer node is thus within the half thickness and marked. With an offset, only
+// smaller distances are sure to be in the band. The margins are several times the rounding, so this also holds for computed
+// distances. Returns -1 if marks may be missing, or do not follow the distances to the triangles. In this case no edge counts as
 // short.
 double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
   if (surface.other_distance() || !marks.stats.complete) return -1;
@@ -64,8 +64,8 @@ struct alignas(64) Finder {
     return !from.is_beyond_rim && !to.is_beyond_rim && from.side == to.side;
   }
 
-  // Returns false only if no point of the surface is within the radius of p. One such query often replaces the queries of many
-  // edges. The margin is several times the rounding. This includes the rounding of p, which lies near the surface.
+  // Returns false only if no point of the surface is within the radius of p. One query with a radius often replaces the queries
+  // of many edges. The margin is several times the rounding. The margin includes the rounding of p, which lies near the surface.
   bool may_be_within(Vec3 p, double radius) const {
     const TriangleScene &scene = request->surface.scene();
     return scene.closest(p, radius * (1 + 1e-9) + 4 * scene.rounding(), request->instructions).triangle >= 0;

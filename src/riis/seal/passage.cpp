@@ -76,7 +76,7 @@ class Opening {
     std::sort(to_ids_.begin(), to_ids_.end());
   }
 
-  // Opens the nodes that the half thickness `limit` leaves unmarked. Returns whether they join the ends.
+  // Opens the nodes that the half thickness `limit` leaves unmarked. Returns whether the open nodes join the ends.
   bool joins_beyond(double limit) {
     const Band band = request_.surface.band().with(limit);
     SearchRequest within = request_;
@@ -133,8 +133,7 @@ class Opening {
     return made;
   }
 
-  // Returns the edges to nodes that are not open, if the rows of these nodes do not list the edges. Most adjacencies are
-  // symmetric and have no such edges.
+  // Returns the edges to closed nodes whose own rows lack these edges. Most adjacencies are symmetric and have no such edges.
   std::vector<OneWayEdge> one_way_edges() {
     constexpr std::int64_t rows_per_task = 4096;
     if (Edges::is_symmetric) return {};

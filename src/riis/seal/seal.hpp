@@ -58,7 +58,7 @@ std::int64_t label_open_regions(const Edges &edges, const OpenNodes &open, int n
                                 ArrayView<std::int64_t> label);
 
 // Disjoint sets of nodes that several threads unite at the same time without locks. An array holds each node's parent, which is
-// a lower node. So the root of a set is its lowest node, in any order of the unions.
+// a lower node. The root of a set is therefore its lowest node, in any order of the unions.
 class OpenSets {
  public:
   static constexpr std::int64_t closed = -1;  // the parent of a node that is in no set

@@ -19,7 +19,7 @@ namespace riis {
 namespace {
 
 // The number of points that are sorted together. They take 2 MB. Small batches suit points that are near the points before them.
-// Their leaves are as compact as the leaves of large batches, and their points stay in the cache.
+// The leaves of small batches are then as compact as the leaves of large batches, and the points stay in the cache.
 constexpr std::int64_t points_per_batch = 1 << 16, points_per_small_batch = 1 << 13;
 
 constexpr std::int64_t points_per_block = 2048;
@@ -47,7 +47,7 @@ class ClosestPoints {
     if (!are_enough_for_clusters(wanted_.n, surface_)) {
       write_one_by_one({0, wanted_.n}, n_threads, [](Vec3) { return true; });
     } else if (wanted_.n >= n_threads * points_per_small_batch && follow_each_other()) {
-      // Each thread takes its own batches. Their number is a multiple of the number of threads.
+      // Each thread takes its own batches. The number of batches is a multiple of the number of threads.
       const std::int64_t of_all = n_threads * points_per_small_batch;
       const std::int64_t n_batches = (wanted_.n + of_all - 1) / of_all * n_threads;
       std::vector<Batch> batches;
@@ -75,7 +75,7 @@ class ClosestPoints {
 
   // Returns whether consecutive points are near each other. In this case, a small batch from the middle has at most half the
   // extent of all points along some axis. The batch comes from the middle because many meshes begin with the nodes of their
-  // boundary. There must be enough points for a small batch.
+  // boundary. The test needs enough points for a small batch.
   bool follow_each_other() const {
     const std::int64_t begin = (wanted_.n - points_per_small_batch) / 2;
     Bounds bounds;
@@ -117,7 +117,7 @@ class ClosestPoints {
     });
   }
 
-  // Writes the points of a range. If memory runs out, all of them are queried one by one.
+  // Writes the points of a range. Without memory, all points are queried one by one.
   void write_batch(const Range &range, int n_threads, Batch &batch) const {
     try {
       if (search(range, n_threads, batch)) return;
@@ -145,7 +145,7 @@ class ClosestPoints {
         for (std::int64_t k = range.begin + block.begin; k < range.begin + block.end; ++k)
           if (const std::int64_t i = wanted_.id(k); wanted_.is_wanted(i)) write_far(i, request_.far_distance, to_);
       });
-    // Each thread fills, searches and writes the points of a region while they are in its cache.
+    // Each thread fills, searches and writes the points of one region after another, so that its cache holds these points.
     const std::int64_t n = view(batch.items).size();
     const std::int64_t share = n_threads == 1 ? n : n / (4 * n_threads);
     const std::int64_t per_part =
@@ -193,7 +193,7 @@ class ClosestPoints {
     std::array<Block, points_per_batch / points_per_block> blocks;
     blocks.fill({0, false, {}});
     parallel_for_ranges(all.end - all.begin, points_per_block, n_threads, [&](const Range &range, int) {
-      // These copies stay in registers, even if `visit` writes to memory.
+      // Local copies stay in registers, even if `visit` writes to memory.
       const WantedPoints wanted = wanted_;
       const StridedReals<Real> points = points_;
       const bool is_checked = is_limited_ || is_spread_;

@@ -60,7 +60,7 @@ ClosestTriangle closer_of(const ClosestTriangle &a, const ClosestTriangle &b) {
 }
 #endif
 
-// Nodes whose clusters are stored. GridClusters has the same functions, and its clusters are made when they are needed.
+// Nodes whose clusters are stored. GridClusters has the same functions, and makes its clusters when they are needed.
 class StoredClusters {
  public:
   typedef GridClusters::Room Room;  // is not used
@@ -250,7 +250,8 @@ class ClusterSearch {
   void search_region(std::int64_t region, ClusterScratch::Thread &own) {
     ++own.n_queries;
     own.candidates.clear();
-    // A group's box is within its pack's box, also after rounding. So no group near a cluster is in a pack that is not.
+    // A group's box is within its pack's box, also after rounding. A group near a cluster is therefore in a pack near the
+    // cluster.
     own.bits.resize(groups_.packs.size());
     const Boxes &clusters = nodes_.region(region, own.room.get());
     if (!kernels_.near_boxes(of_packs_, clusters, own_.all_groups.data(),
@@ -299,8 +300,8 @@ class ClusterSearch {
     const std::int32_t *const near_groups = own.near_groups.data() + first;
     std::uint16_t *const leaf_bits = own.leaf_bits.data() + first;
     const auto n_near = static_cast<std::int32_t>(n);
-    // If groups are smaller than a cluster's leaves, many groups are near the cluster. Their own axes then make little
-    // difference.
+    // If groups are smaller than a cluster's leaves, many groups are near the cluster. The own axes of the groups then make
+    // little difference.
     constexpr std::size_t many = 32;
     if (kernels_.near_boxes(task_, leaves, near_groups, n_near, leaf_bits) &&
         (n > many || kernels_.near_own_boxes(task_, leaves, near_groups, n_near, leaf_bits))) {
@@ -318,7 +319,8 @@ class ClusterSearch {
     for (std::size_t at = 0; at < size; at += line) visit(static_cast<const char *>(from) + at);
   }
 
-  // The leaves of the next cluster that will be filtered. Their coordinates are prefetched one leaf at a time (see LinesAhead).
+  // The leaves of the next cluster that will be filtered. The coordinates of these leaves are prefetched one leaf at a time (see
+  // LinesAhead).
   struct LeavesAhead {
     const Leaf *first;
     std::uint32_t near;
@@ -347,8 +349,8 @@ class ClusterSearch {
     }
   }
 
-  // The pairs of node and triangle in a cluster that the filter did not dismiss. They are stored until double precision decides
-  // them.
+  // The pairs of node and triangle in a cluster that the filter did not dismiss. The pairs are stored until double precision
+  // decides them.
   struct Pairs {
     const Open &cluster;
     Ties *ties;  // or null
@@ -615,7 +617,7 @@ class ClusterSearch {
     const auto request = [&](const void *from, std::size_t size) {
       for_each_line(from, size, [&](const char *line) { task.ahead.line[task.ahead.n++] = line; });
     };
-    // Many leaves near the surface have no pairs, so only here are points and node numbers prefetched.
+    // Many leaves near the surface have no pairs, so points and node numbers are prefetched only here.
     for (std::int32_t i = 0; i < task.n_leaves; ++i) {
       const LeafTask &leaf = task.leaf[i];
       if (!leaf.may_be_near) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search over clusters of nodes, and the memory that it reuses from one marking to the next. It filters in single precision,
-// sixteen triangles at a time, and decides in double precision (docs/theory/clusters.md, "The proof").
+// The search over clusters of nodes, and the memory that it reuses from one marking to the next. The search filters in single
+// precision, sixteen triangles at a time, and decides in double precision (docs/theory/clusters.md, "The proof").
 #pragma once
 
 #include <cstddef>
@@ -63,12 +63,12 @@ struct ClusterScratch {
   void prepare(int n_threads, bool needs_room);
 };
 
-// Returns false if single precision cannot separate near from far. This happens if the mesh or its distance from the surface is
-// about a million times the surface's size. It also happens if the mesh is extremely small compared with the surface.
+// Returns false if single precision cannot separate near from far. Single precision fails if the mesh or its distance from the
+// surface is about a million times the surface's size. It also fails if the mesh is extremely small compared with the surface.
 bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes);
 
-// Returns whether clusters pay off for the distances of this many nodes, if the limit leaves out few or none. For fewer nodes,
-// to compare all groups with the first clusters takes longer than to query each node.
+// Returns whether clusters pay off for the distances of this number of nodes, with a limit that leaves out few nodes. For fewer
+// nodes, to compare all groups with the first clusters takes longer than to query each node.
 bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface);
 
 // Returns whether most triangles are beyond the limit for most nodes near the surface.

@@ -56,9 +56,9 @@ class NeighborScratch {
   std::uint8_t walk_ = 0;
 };
 
-// Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"). For each node that the walk did not reach, it
-// then proves that the node is far, or queries it (docs/theory/search.md). The walk starts at the nodes in `last`, usually those
-// found by the last marking. The mesh must have an adjacency.
+// Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"). After the walk, the search proves each remaining
+// node far, or queries the node (docs/theory/search.md). The walk starts at the nodes in `last`, usually those found by the last
+// marking. The mesh must have an adjacency.
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
                               NeighborScratch &scratch, FoundNodes &found);
 

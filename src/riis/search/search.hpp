@@ -41,7 +41,7 @@ struct FoundNode {
 static_assert(sizeof(FoundNode) == 16);
 
 // Each thread's list gets room for twice the longest list, because the threads' shares differ from step to step. The room is a
-// power of two. So a step that finds a few more nodes than all previous steps allocates no memory.
+// power of two. A step that finds a few more nodes than all previous steps therefore allocates no memory.
 template <class Threads, class ListOf>
 void make_room(Threads &threads, const ListOf &list_of) {
   std::size_t largest = 0, room = 1;
@@ -122,7 +122,7 @@ struct SearchReport {
   std::int64_t n_unreached;  // number of nodes that only the proof of the neighbour search found
 };
 
-// Every search fills FoundNodes in any order. It fails with RIIS_INVALID_MESH if it reads an unusable coordinate.
+// Every search fills FoundNodes in any order. A search that reads an unusable coordinate fails with RIIS_INVALID_MESH.
 
 // Queries every node (paper, 4.2.1 "Exhaustive node iteration").
 SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found);
@@ -166,7 +166,7 @@ struct OtherDistances {
   }
 
   // Sampling measures the distance to fixed points, so the distance is such a bound. A minimisation may end anywhere on S, so its
-  // result at p bounds no result at other points. But each of its results is the distance to some point of S, and so at least the
+  // result at p bounds no result at other points. Each result, however, is the distance to some point of S, and so at least the
   // distance to the triangles minus triangle_error.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);

@@ -198,8 +198,8 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
 // Needs are computed on narrow steps, but the error of a wide segment is bounded a little less closely. Lines are therefore
 // chosen for only this share of the allowed error.
 constexpr double most_of_allowed = 0.9;
-// The number of steps on which needs are computed is steps_per_segment times the largest number of segments of a curve. It stays
-// between least_steps and most_steps.
+// The number of steps on which needs are computed is steps_per_segment times the largest number of segments of a curve. The
+// number of steps stays between least_steps and most_steps.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
 // To save time, needs are computed only at every n-th state. Later the lines are checked at every state.
@@ -233,7 +233,7 @@ class Planner {
     for (std::size_t i = 0; i < set_.patches.size(); ++i)
       plan_.patches[i].has_arcs =
           std::any_of(states_.begin(), states_.end(), [&](const PatchSet &set) { return set.patches[i].bulge != 0; });
-    // A skirt at a patch of arcs takes the patch's lines, so both have the same vertices along their common side.
+    // A skirt at a patch of arcs takes the patch's lines, so skirt and patch have the same vertices along their common side.
     for (std::size_t i = 0; i < set_.patches.size(); ++i)
       if (patch_of_strip(i) != no_patch) plan_.patches[i].has_arcs = plan_.patches[patch_of_strip(i)].has_arcs;
     plan_families();
@@ -428,8 +428,8 @@ class Planner {
     return made;
   }
 
-  // Returns the joints at the first opening, if the lines can move with them. For that, the base must have the same number of
-  // joints at every opening, and none near an end.
+  // Returns the joints at the first opening, if the lines can move with them. The base must therefore have the same number of
+  // joints at every opening, and no joint near an end.
   Vector<double> joints(std::size_t patch) const {
     constexpr double near_end = 0.01;
     const Vector<double> first = joints_of(set_, set_.patches[patch].v0);
@@ -441,7 +441,7 @@ class Planner {
     return first;
   }
 
-  // At every opening, adds lines until base, edge and O are nearly linear between them. Then chooses the smallest
+  // At every opening, adds lines until base, edge and O are nearly linear between them. After that, chooses the smallest
   // sufficient number of parts for O.
   void plan_arcs(std::size_t patch) {
     PatchPlan &plan = plan_.patches[patch];

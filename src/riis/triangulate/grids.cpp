@@ -65,8 +65,8 @@ class GridMaker {
         });
       for (std::size_t i = first; i < end; ++i) check_count(n_at_least += n_triangles(i, 1), max_error_);
     }
-    // Two patches of arcs may meet along an arc, and both divide it into rows. So all patches of arcs have the same number of
-    // rows.
+    // Two patches of arcs may meet along an arc, and each patch divides this arc into rows. All patches of arcs therefore have
+    // the same number of rows.
     double offset = 0;
     for (const ArcLines &lines : lines_) offset = std::max(offset, lines.largest_offset());
     const double n_rows = rows_for(offset, max_error_);
@@ -81,8 +81,8 @@ class GridMaker {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   // A curve may have a million points, and a valve a million patches. Before the points are counted, polylines of at most this
-  // many patches are therefore made. This number is fixed, so the count in an error message does not depend on the number of
-  // threads.
+  // many patches are therefore made. The number of patches is fixed, so the count in an error message does not depend on the
+  // number of threads.
   static constexpr std::size_t patches_at_once = 16;
 
   QuadGrid grid(std::size_t i, std::size_t n_rows) const {

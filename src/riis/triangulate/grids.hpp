@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns patches into grids of quads (paper, 3.2 and 3.3).
-// In: curves and patches of a valve, the allowed error. Out: a grid for each patch. Its error leaves room for the error of
+// In: curves and patches of a valve, the allowed error. Out: a grid for each patch. The grid's error leaves room for the error of
 // the split into triangles.
 #pragma once
 
@@ -12,8 +12,8 @@
 namespace riis {
 
 // The allowed error is divided as in docs/theory/triangles.md, "Shares of the bound". A point of a Coons patch has three errors:
-// of a u curve, of a v curve, and of merged grid lines. Each of these errors is bounded by its share below. At least 1 - 2 *
-// (curve_share + merge_share) remains for the split of a quad into triangles.
+// of a u curve, of a v curve, and of merged grid lines. A share below bounds each of these errors. At least 1 - 2 * (curve_share
+// + merge_share) remains for the split of a quad into triangles.
 inline constexpr double curve_share = 0.45, merge_share = 0.01;
 // The lines of a plan use up their share nearly everywhere. With a larger share, too little would remain for the quads, so
 // many of them would be subdivided.

@@ -209,8 +209,8 @@ void close_gaps(const Vector<Tile> &tiles, TriangleSet &triangles) {
 }  // namespace
 
 bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
-  // A triangle without area is only a segment, its longest edge, or a point. If it is a point, nothing is lost without it. If
-  // it is a segment, nothing is lost if this is the diagonal of a quad whose other half was kept.
+  // A triangle without area is only a segment, its longest edge, or a point. A triangle that is a point can be dropped without
+  // loss. A triangle that is a segment can be dropped if the segment is the diagonal of a quad whose other half was kept.
   const Vec3 corner = set.vertex(triangle.corner), a = set.vertex(triangle.a), b = set.vertex(triangle.b);
   const double diagonal = distance(a, b), other = std::max(distance(corner, a), distance(corner, b));
   const bool is_on_diagonal = triangle.other_was_kept && other <= (1 + 1e-9) * diagonal;
@@ -228,8 +228,8 @@ Tiles::Tiles(const PatchSet &set, const Triangulation &how, const Vector<Levelle
       const Seam *seam = seam_of(set, i, k);
       const PatchImage *twin = seam ? &set.patches[seam->patch_of_twin()].images[seam->twin] : nullptr;
       tiles_.push_back({i, &images[k], twin, seam, n_vertices_, room_, n_ids});
-      // At a seam, two equal vertices may be placed with different images. They then differ by rounding, and their triangle may
-      // need room.
+      // At a seam, two equal vertices may be placed with different images. Such vertices then differ by rounding, and their
+      // triangle may need room.
       room_ += grids[i].n_triangles - (seam ? 0 : grids[i].n_collapsed);
       n_ids += grids[i].n_triangles;
       n_vertices_ += grids[i].n_vertices;

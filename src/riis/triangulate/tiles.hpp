@@ -35,7 +35,7 @@ struct PatchVertices {
   Vector<Vec3> displacements;  // displacements since an earlier state of the same build; empty without such a state
 };
 
-// Both states of a moving valve whose builds differ. Each tile has a patch of its own, with the number of the tile.
+// The two states of a moving valve whose builds differ. Each tile has a patch of its own, with the number of the tile.
 struct OwnPatches {
   PatchSet now, before;
 };

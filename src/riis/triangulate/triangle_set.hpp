@@ -21,7 +21,7 @@ struct Grouping {
   Vector<std::int32_t> order, end;
 };
 
-// The vertices of a patch of a valve. They begin at `first` and end before the first vertex of the next patch.
+// The vertices of a patch of a valve. These vertices begin at `first` and end before the first vertex of the next patch.
 struct VerticesOfPatch {
   std::int32_t patch_id, leaflet_id;
   std::int64_t first;
@@ -115,7 +115,7 @@ void group_all_by_place(const TriangleSet &set, Grouping &grouping);
 // The most triangles that the library accepts. Ids of four bytes could count more triangles, but each takes a few hundred bytes.
 inline constexpr std::int64_t max_triangles = 16'777'216;
 
-// Returns true if all edges are shorter than min_edge, or if the height over the longest edge is at most 1e-12 of that edge.
+// Returns true for edges all shorter than min_edge, or a height over the longest edge of at most 1e-12 of this edge.
 inline bool has_zero_area(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double longest_sq = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});

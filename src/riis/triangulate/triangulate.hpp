@@ -25,8 +25,8 @@ struct PatchPlan {
 
   GridLines lines;  // the lines of a Coons patch
 
-  // A patch of arcs has lines in u, and joints of the base that the lines move with. Both are given at one of the openings.
-  // Between two joints, a line keeps its relative position. Without joints the lines do not move.
+  // A patch of arcs has lines in u, and joints of the base that the lines move with. Lines and joints are given at one of the
+  // openings. Between two joints, a line keeps its relative position. Without joints the lines do not move.
   Vector<double> u, joints;
   Vector<int> n_parts;  // the number of parts between two lines; O is evaluated at their ends
 };
@@ -97,7 +97,7 @@ struct TriangulationPlan {
 };
 
 // Makes the plan from a valve's patches at many openings. asked_error is the max_error of a Triangulation. The plan uses a little
-// less than this error, so it also serves openings between the given ones. Fails as triangulate_fixed does.
+// less than this error, and thus also serves openings between the given openings. Fails as triangulate_fixed does.
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads);
 
 // Returns whether the plan's triangles are within asked_error of the smooth surface in a state.

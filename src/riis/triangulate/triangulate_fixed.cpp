@@ -82,13 +82,13 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
   set.connectivity = number;
 }
 
-// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if a triangle has an area either
-// only here or only in the plan, or if some triangles are missed.
+// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if some triangles are missed, or a
+// triangle has an area either only here or only in the plan.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
   Tiles tiles(set, how, grids, triangles);
-  // The images of a patch are congruent. It therefore suffices to check the areas of one image, with a margin for rounding,
-  // if the others have the same triangles. An image with a seam is checked by itself, because it takes points of another image.
+  // The images of a patch are congruent. If all images have the same triangles, the areas of one image are checked, with a margin
+  // for rounding. An image with a seam is checked separately, because it takes points of another image.
   std::atomic<bool> all_have_area{true};
   tiles.place_vertices([&](std::int64_t i) {
     const Tile &tile = view(tiles.all())[i];
@@ -125,8 +125,8 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
   if (!take_planned_triangles(patches, how, grids, plan.connectivity, memory)) {
-    // At this opening, the triangles with an area are not those of the plan. So the plan's groups do not fit, and new groups are
-    // made.
+    // At this opening, the triangles with an area are not those of the plan. The plan's groups therefore do not fit, and new
+    // groups are made.
     Tiles tiles(patches, how, grids, memory);
     const Vector<std::size_t> vanished = make_triangles(tiles);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
@@ -241,7 +241,7 @@ TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked
   // Plans with less than the whole error, because the remainder is for openings between the given ones.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;
-  // If a curve is shared at only one opening, it has two numbers at the others. So the state with most curves gives the
+  // A curve that is shared at only one opening has two numbers at other openings. The state with most curves therefore gives the
   // numbering.
   const PatchSet &widest = *std::max_element(given.begin(), given.end(), [](const PatchSet &a, const PatchSet &b) {
     return a.curves.size() < b.curves.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aortic valve. It has three cusps of four patches each (paper, 2.1 and table "Aortic valve parameters";
+// The aortic valve, with three cusps of four patches each (paper, 2.1 and table "Aortic valve parameters";
 // docs/theory/aortic.md).
 #include <algorithm>
 #include <limits>
@@ -28,7 +28,7 @@ enum OfCusp {
 // clang-format on
 constexpr std::size_t n_cusps = 3;
 const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};
-// The names of the cusps in messages. They are character constants, because a std::string is needed only if a check fails.
+// The names of the cusps in messages. The names are character constants, because a std::string is needed only if a check fails.
 const char *const cusps[n_cusps] = {"the right cusp", "the left cusp", "the non_coronary cusp"};
 constexpr std::size_t open_radius_ratio = n_general + n_cusps * n_of_cusp, commissure_expansion = open_radius_ratio + 1;
 // With these defaults the orifice is 3.9 cm2, and no free edge changes its length by more than 5 % (docs/theory/aortic.md).
@@ -37,7 +37,7 @@ constexpr CuspOpening default_opening{0.75, 0.05};
 std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
 
 // The rules for rotations that the caller did not set. If the sum of the leaflet angles is 180 degrees, all neighbours meet
-// at their commissures. Otherwise the three gaps between neighbours, or the three overlaps, are equal.
+// at their commissures. With another sum, the three gaps between neighbours, or the three overlaps, are equal.
 double leaflet_angle_of(const ParameterValues &values, std::size_t cusp) {
   return values[position_of(cusp, leaflet_angle)][0];
 }
@@ -63,7 +63,7 @@ constexpr double table[n_cusps][n_of_cusp] = {{0.24, 1.365, 61.0, 1.58, 0.40, 1.
 
 // The rules of exponents that were not set. With an exponent above the bound, the free edge reaches beyond the plane through the
 // axis and its commissure, into the next cusp. The paper's right and left exponents are above this bound, and keep their ratio to
-// it.
+// the bound.
 double power_bound(double radius_in, double radius_out, double angle) {
   const double x = radius_out * sine_cosine_degrees(angle).cosine;
   return x > radius_in ? x / (x - radius_in) : std::numeric_limits<double>::infinity();
@@ -200,8 +200,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   PatchSet set;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const HalfCusp closed_half = half_cusp(shape_of(closed.values, cusp));
-    // At opening 0, a valve does not make the open state of its own parameters. It does not need that state, which might be
-    // refused.
+    // At opening 0, a valve does not make the open state of its own parameters. A closed valve does not need that state, which
+    // might be refused.
     const HalfCusp open_half = !has_own_open_state ? half_cusp(shape_of(open.values, cusp))
                                : opening != 0      ? own_open_half(closed.values, cusp)
                                                    : open_half_of(closed.values, cusp);
@@ -219,7 +219,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }  // namespace
 
 const ValveKind &aortic_valve_kind() {
-  // The kind is made when it is first used, and it is never destroyed. So it can be used during the whole life of the process.
+  // The kind is made when it is first used, and it is never destroyed. The kind thus serves during the whole life of the process.
   static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::of_cusp));
   return kind;
 }

@@ -23,7 +23,7 @@ namespace riis {
 namespace {
 
 // A leaflet has this many places of equal distance along the annulus, from one commissure to the next. From each place hangs a
-// meridian. A free edge and a coaptation line are two cubics each, so they have as many control points.
+// meridian. A free edge and a coaptation line are two cubics each, and thus have equal numbers of control points.
 constexpr std::size_t n_places = 7, middle = 3, n_cells = n_places - 1;
 template <class Value>
 struct AtPlaces {
@@ -34,20 +34,22 @@ struct AtPlaces {
 };
 constexpr double u_of(std::size_t place) { return static_cast<double>(place) / n_cells; }
 
-// The coaptation zone is at least this share of a leaflet. A leaflet that is too short for it stays back from its neighbours.
+// The coaptation zone is at least this share of a leaflet. A leaflet that is too short for this part stays back from its
+// neighbours.
 constexpr double least_coaptation = 0.05;
 // A closed meridian's first inner control point lies below the annulus by this share of the drop to the coaptation line.
 constexpr double first_drop = 0.2;
-// The heights of a closed free edge's control points from the middle to a commissure, as shares of the rise between these.
+// The heights of a closed free edge's control points from the middle to a commissure, as shares of the rise from the middle to
+// the commissure.
 constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
 // A bump's lift acts on a meridian's first inner control point by this share.
 constexpr double lift_of_start = 0.3;
-// A leaflet that is too short moves back in steps until less than this share of it lacks.
+// A leaflet that is too short moves back in steps until it lacks less than this share of its length.
 constexpr int most_steps = 60;
 constexpr double rounding = 1e-12, rounding_of_zone = 1e-6;
-// A leaflet has at least this share of the annulus, and its way to the meeting point this share of the annulus' depth.
+// A leaflet has at least this share of the annulus. Its way to the meeting point has at least this share of the annulus' depth.
 constexpr double least_ratio = 0.05, least_way = 0.12;
-// A commissure takes at most this share of the way to the meeting point, and the zone this share of a leaflet.
+// A commissure takes at most this share of the way to the meeting point, and the zone at most this share of a leaflet.
 constexpr double most_of_way = 0.8, most_coaptation = 0.7;
 // The rates of the control points are differences over this step of the opening. The rates only determine where vertices are
 // dense.
@@ -80,7 +82,7 @@ class Sizes {
     return saddle_annulus({of(width), of(depth), of(flatness), of(saddle_height),
                            n_leaflets_ == 2 ? FlatSide::at_positive_y : FlatSide::at_negative_y});
   }
-  // Returns where the leaflets begin, and where the last one ends, in laps from the middle of the flat side.
+  // Returns the starts of the leaflets and the end of the last leaflet, in laps from the middle of the flat side.
   Vector<double> commissures() const {
     const double half = 0.5 * of(flat_ratio);
     if (n_leaflets_ == 2) return {-half, half, 1 - half};
@@ -124,8 +126,8 @@ class Annulus {
     leaflets_.back()[n_cells].hinge = leaflets_.front()[0].hinge;
   }
 
-  // Sets the point where all leaflets meet, seen along z. Commissures then lead towards it, so that neighbours stay on their
-  // sides of one plane.
+  // Sets the point where all leaflets meet, seen along z. Commissures then lead towards this point, so that neighbours stay on
+  // their sides of one plane.
   void set_meeting(Vec3 at) {
     meeting_ = at;
     for (AtPlaces<Place> &leaflet : leaflets_)
@@ -302,7 +304,8 @@ Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, 
   return made;
 }
 
-// A leaflet first turns about its hinges, and then becomes straight. So lengths run behind: neighbours would otherwise meet.
+// A leaflet first turns about its hinges, and then becomes straight. Lengths therefore run behind the angle; with equal progress,
+// neighbours would meet.
 double behind(double share) { return share * share; }
 
 // A vector from a hinge swings from one state to another: the vector is blended, and so is its length.
@@ -319,8 +322,8 @@ double middle_length(const Leaflet &leaflet) {
          arc_length(meridian({0, 0, 0}, leaflet.start[middle], leaflet.turn[middle], on_line, on_edge));
 }
 
-// Returns the leaflet with every place at a share of its way. Each control point swings about its hinge. Then the leaflet is
-// stretched so that its middle has its length. The stretch decreases towards the commissures. At last bumps lift the leaflet
+// Returns the leaflet with every place at a share of its way. Each control point swings about its hinge. After that, the leaflet
+// is stretched so that its middle has its length. The stretch decreases towards the commissures. At last bumps lift the leaflet
 // along z, so that lifted leaflets keep as far apart as healthy ones, seen along z.
 Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double> &shares) {
   Leaflet made = closed;
@@ -604,7 +607,7 @@ std::array<Bezier, 4> saddle_annulus(const SaddleAnnulus &annulus) {
   return made;
 }
 
-// The kinds are made when they are first used, and they are never destroyed. So they can be used during the whole life of the
+// The kinds are made when they are first used, and they are never destroyed. The kinds thus serve during the whole life of the
 // process.
 const ValveKind &mitral_coapting_valve_kind() {
   static const ValveKind &kind = *new_kind<2, mitral_coapting_valve_kind>(

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bileaflet mechanical valve. It has two rigid flat leaflets in a round housing, and each turns about its hinge
-// (docs/theory/bileaflet.md).
+// The bileaflet mechanical valve. Two rigid flat leaflets in a round housing turn about their hinges (docs/theory/bileaflet.md).
 // In: the parameters of two states, the opening. Out: patches of two leaflets and, if ring_height is not 0, of the housing's
 // wall.
 #include <riis/riis.h>
@@ -74,7 +73,7 @@ void check_states(const ValveState &valve, const ValveState &other, const char *
          ": both must have a ring, or neither");
 }
 
-// A valve at one opening. Its lengths are blended between the two states.
+// A valve at one opening. The valve's lengths are blended between the two states.
 struct Shape {
   double radius, hinge_offset, hinge_height, gap, ring_height;
   double closed_angle;  // the angle at which the outline of the leaflets fits the housing
@@ -82,7 +81,7 @@ struct Shape {
 };
 
 Shape blended(const ValveState &closed, const ValveState &open, double at) {
-  // Returns a value without blending if both states have it. So a housing that does not move keeps its bits.
+  // Returns a value without blending if both states have it. A housing that does not move thus keeps its bits.
   const auto both = [&](Parameter parameter) {
     const double from = closed.values[parameter][0], to = open.values[parameter][0];
     return from == to ? from : blend(from, to, at);
@@ -106,8 +105,8 @@ class Turn {
         closed_(sine_cosine_degrees(shape.closed_angle)),
         now_(sine_cosine_degrees(shape.angle)) {}
 
-  // The first coordinate is offset + (x - offset) cos(angle) / cos(closed_angle). It is computed such that a closed leaflet
-  // gives exactly x.
+  // The first coordinate is offset + (x - offset) cos(angle) / cos(closed_angle). The computation gives exactly x for a closed
+  // leaflet.
   Vec3 operator()(double x, double y) const {
     const double along = (x - offset_) / closed_.cosine;
     return {x + along * (now_.cosine - closed_.cosine), y, height_ + along * now_.sine};
@@ -181,7 +180,7 @@ void add_leaflets(const Shape &shape, PatchSet &set) {
   const Vec3 apex = turn(R, 0), middle = turn(x0, 0), end = turn(x0, y_end);
   const Side rim = set.add(make_arc(R, whole_angle, x0, y_end, turn)), edge = set.add(Bezier::line(middle, end));
   const Side symmetry = set.add(Bezier::line(apex, middle)), corner = set.add(Bezier::point(end));
-  // u runs from the symmetry plane to the corner, and v from the rim to the middle edge. So S_u x S_v points downstream.
+  // u runs from the symmetry plane to the corner, and v from the rim to the middle edge. S_u x S_v therefore points downstream.
   Patch patch{rim, edge, symmetry, corner, {}};
   for (const std::int32_t leaflet_id : {RIIS_LEAFLET_POSITIVE, RIIS_LEAFLET_NEGATIVE})
     for (const bool is_mirrored : {false, true})
@@ -200,7 +199,7 @@ void add_ring(const Shape &shape, PatchSet &set) {
   const Side bottom = arc_at(lower), top = arc_at(upper);
   const Side first = set.add(Bezier::line({R, 0, lower}, {R, 0, upper}));
   const Side last = set.add(Bezier::line({0, R, lower}, {0, R, upper}));
-  // u runs round the axis, and v runs downstream. So S_u x S_v points outwards.
+  // u runs round the axis, and v runs downstream. S_u x S_v therefore points outwards.
   Patch patch{bottom, top, first, last, {}};
   std::int32_t patch_id = 4;
   for (const bool is_turned : {false, true})

@@ -29,7 +29,7 @@ std::array<ParameterSpec, n_parameters> specs_of_one(std::size_t n_leaflets) {
       {"open", "1", "how far open the place is when the valve is open: 0 closed to 1 open", 1, {1}, 0, 1},
       {"lift",
        "length",
-       "how far the place lies above its healthy position when the valve is closed",
+       "height of the place above its healthy position in the closed valve",
        1,
        {0},
        -longest,

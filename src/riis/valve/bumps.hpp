@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bumps: disease at one place of a free edge (docs/theory/bumps.md). They change how far the place opens, and nothing else.
+// Bumps: disease at one place of a free edge (docs/theory/bumps.md). A bump changes how far the place opens, and nothing else.
 // In: the parameters of the bumps. Out: the states of any place between the valve's closed and open state.
 #pragma once
 
@@ -18,16 +18,16 @@ enum class BumpLift : bool { no, yes };
 // Appends the parameters of all bumps, and returns the position of the first. Only bumps with BumpLift::yes have "lift".
 std::size_t add_bump_specs(Vector<ParameterSpec> &specs, std::size_t n_leaflets, BumpLift lift);
 
-// Where a place of a free edge is when the valve is closed and when it is open. Both are shares of the way of a healthy place: 0
-// at its closed position, 1 at its open position. The closed position itself is lifted towards +z by `lift`.
+// The closed and the open position of a place of a free edge. The two numbers are shares of the way of a healthy place: 0 at its
+// closed position, 1 at its open position. The closed position itself is lifted towards +z by `lift`.
 struct LocalOpening {
   double closed = 0, open = 1, lift = 0;
 };
 
 class Bumps {
  public:
-  // `first` is the position of the first parameter. Fails with RIIS_INVALID_PARAMETER if a number of a leaflet or of a commissure
-  // is not whole, and if a bump has both.
+  // `first` is the position of the first parameter. Fails with RIIS_INVALID_PARAMETER for a number of a leaflet or commissure
+  // that is not whole, and for a bump with both numbers.
   Bumps(const ParameterValues &values, std::size_t first, std::size_t n_leaflets, BumpLift lift);
 
   // Returns whether some bump has a place.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coapting valves. Their two to four cusps lie side by side in a coaptation zone, and their free edges keep their length
-// while the valve opens (docs/theory/coapting.md).
+// The coapting valves. The two to four cusps of a coapting valve lie side by side in a coaptation zone, and their free edges keep
+// their length while the valve opens (docs/theory/coapting.md).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,12 +31,11 @@ enum OfCommissure { height, fusion, n_of_commissure };
 enum OfCusp { sector, own_effective_height, own_coaptation_height, own_open_radius_ratio, n_of_cusp };
 // clang-format on
 
-// If an open free edge does not hang, it must be shorter than this share of the closed free edge.
+// An open free edge that does not hang must be shorter than this share of the closed free edge.
 constexpr double most_of_edge = 0.998;
 // The free edge must stay this high above the root while the valve opens, times root_radius.
 constexpr double least_height = 0.05;
-// At these openings, the cusps of every set of values are checked for folds, because folds arise in the second half of the
-// motion.
+// Every set of values is checked for folds of the cusps at these openings, because folds arise in the second half of the motion.
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
 // At the root, the leaflet must rise by this share of the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;
@@ -114,7 +113,7 @@ ValveKind make_kind(const char *name, double default_stretch) {
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const std::string owner = "commissure_" + std::to_string(k) + ".";
     add_own(specs, owner, "height", commissure_height);
-    specs.push_back({owner + "fusion", number, "share of the meeting line over which both cusps are one", 1, {0}, 0, 0.6});
+    specs.push_back({owner + "fusion", number, "share of the meeting line over which the two cusps are fused", 1, {0}, 0, 0.6});
   }
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const std::string owner = "cusp_" + std::to_string(k) + ".";
@@ -249,8 +248,8 @@ Vector<MovingHalf> moving_halves(const CuspNumbers &closed, const CuspNumbers &o
   return made;
 }
 
-// Refuses a cusp whose edge is too short to open or hangs too low, and one that folds. Both states are checked, because one set
-// of values defines both.
+// Refuses a cusp whose edge is too short to open or hangs too low, and one that folds. The closed and the open state are checked,
+// because one set of values defines both states.
 void check_cusp(const ValveValues &values, std::size_t k) {
   const CuspSizes sizes = values.sizes(k, values.has_equal_halves());
   const auto [closed, open] = end_states(sizes, sizes);
@@ -269,7 +268,8 @@ void check_cusp(const ValveValues &values, std::size_t k) {
          " long, too short to open so far: look at effective_height, commissure_height, open_radius_ratio, "
          "commissure_expansion");
   if (sizes.keeps_ratio && is_half) {
-    // The middle of the edge is at least as far from a commissure as the symmetry plane is. So it never hangs deeper than this.
+    // The middle of the edge is at least as far from a commissure as the symmetry plane is. The middle therefore never hangs
+    // deeper than this value.
     const double away = sizes.sector.sine * sizes.commissure_radius;
     const double low = values.of_commissure(k, height) - std::sqrt(edge_length * edge_length - away * away);
     if (!(low >= least_height * sizes.root_radius))
@@ -387,7 +387,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 }  // namespace
 
-// The kinds are made when they are first used, and they are never destroyed. So they can be used during the whole life of the
+// The kinds are made when they are first used, and they are never destroyed. The kinds thus serve during the whole life of the
 // process.
 const ValveKind &bicuspid_valve_kind() {
   static const ValveKind &kind = *new ValveKind(make_kind<2>("bicuspid", 0.1));

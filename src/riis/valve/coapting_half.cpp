@@ -81,9 +81,9 @@ Bezier first_coaptation_line(const Bezier &free_edge, Vec3 middle, const EndTang
 }
 
 // Moves the inner control points of the coaptation line, so that the two patches that meet in it have a common tangent plane.
-// The crease is the sine of the angle between the planes of K' and T, and of K' and F - K. It is computed at the ends of spans of
-// K. A step linearizes the determinant of K', T and F - K. Patches pair points of K and F at equal shares u of the lengths of
-// both curves.
+// The crease is the sine of the angle between the planes of K' and T, and of K' and F - K. The sine is computed at the ends of
+// spans of K. A step linearizes the determinant of K', T and F - K. Patches pair points of K and F at equal shares u of the
+// lengths of both curves.
 Bezier smoothed(Bezier line, const Bezier &free_edge, const EndTangents &tangents) {
   const double edge_length = arc_length(free_edge), chord = distance(line.first(), line.last());
   for (int step = 0; step < n_crease_steps; ++step) {
@@ -127,8 +127,8 @@ Bezier moved(Bezier curve, Vec3 by) {
 }
 
 // Returns the curve between the free and the fused part below the coaptation line, a mixture of the symmetry curve and the
-// attachment. It arrives in the direction of the zone's edge S, so that the leaflet has no crease there. The narrower the fused
-// part, the less the curve is turned: otherwise it would leave this part and cross the attachment.
+// attachment. The curve arrives in the direction of the zone's edge S, so that the leaflet has no crease at the end. The curve
+// turns less in a narrower fused part: a larger turn would lead out of this part and across the attachment.
 Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double share, const Bezier &S) {
   const Vec3 first = half.symmetry_below.first(), last = S.first();
   const Vec3 off = last - mix(half.symmetry_below.last(), attachment.last(), share);
@@ -141,8 +141,9 @@ Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double shar
   return Bezier::cubic(first, mixed(1), mix(mixed(2), without_crease, std::min(1.0, (1 - share) / turned_from)), last);
 }
 
-// Gives the part the attachment. One cubic would leave the cylinder in a wide cusp. There an arc leads from the symmetry plane to
-// a second piece, whose start is as high as the middle of the one cubic. Both pieces have one direction where they meet.
+// Gives the part the attachment. One cubic would leave the cylinder in a wide cusp. In a wide cusp an arc leads from the symmetry
+// plane to a second piece, whose start is as high as the middle of the one cubic. The two pieces have one direction where they
+// meet.
 void put_attachment(const HalfNumbers &numbers, const Bezier &one_piece, HalfCusp &part) {
   const Vec3 top = one_piece.last();
   part.sinus_below = one_piece;
@@ -229,7 +230,7 @@ Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double 
 double rise_at_root(const Vector<HalfCusp> &parts) {
   const double least = rise_of_part(parts.front());
   if (parts.size() == 1) return least;
-  // The curve between both parts rises less than the symmetry curve, because it is nearer to the commissure.
+  // The curve between the free and the fused part rises less than the symmetry curve, because it is nearer to the commissure.
   const double free = arc_length(parts[0].leaflet), fused = arc_length(parts[1].leaflet);
   const double expected = fused / (free + fused) * arc_length(parts[0].symmetry_below);
   return std::min(least, rise_of_part(parts[1]) * arc_length(parts[1].symmetry_below) / expected);

@@ -9,12 +9,13 @@
 
 namespace riis {
 
-// The middle of the free edge hangs `depth` below the edge's end, at the height `low`. Both are given, because the height is the
-// same to the last bit for both halves of a cusp. Returns one part or, if the half is fused, the free and the fused part.
+// The middle of the free edge hangs `depth` below the edge's end, at the height `low`. Depth and height are given, because the
+// two halves of a cusp have the same height to the last bit. Returns one part or, if the half is fused, the free and the fused
+// part.
 Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double low);
 
-// Returns the least rise of the leaflet at the root, as a share of the rise of a leaflet that has everywhere the length of the
-// symmetry curve and no sag. If it is negative somewhere, the leaflet dips below its attachment and folds.
+// Returns the least rise of the leaflet at the root. The unit is the rise of a leaflet without sag that has everywhere the length
+// of the symmetry curve. With a negative rise, the leaflet dips below its attachment and folds.
 double rise_at_root(const Vector<HalfCusp> &parts);
 
 }  // namespace riis

@@ -84,7 +84,7 @@ void add_parts(PatchSet &set, const MovingHalf &half, const SymmetrySides &middl
     const Side above = is_last && commissure ? *commissure : add_one(&HalfCusp::sinus_above);
     const AttachedSide attached = is_last ? AttachedSide::u1 : AttachedSide::none;
     const auto number = static_cast<std::int32_t>(i);
-    // u runs from the symmetry plane to the sinus, and v runs upwards. So S_u x S_v points to the sinus face, downstream.
+    // u runs from the symmetry plane to the sinus, and v runs upwards. S_u x S_v therefore points to the sinus face, downstream.
     set.patches.push_back({middle.root, bending, inner_below, below, images(0, number), 0, attached});
     set.patches.push_back({bending, leaflet, inner_above, above, images(1, number), 0, attached});
     inner_below = below, inner_above = above;
@@ -108,13 +108,13 @@ MovingHalf turned(const MovingHalf &half, const PatchImage &image) {
   return {turn_all(half.parts), turn_all(half.rates)};
 }
 
-// Gives a half the middle of the other half. Its own middle differs from this by rounding only.
+// Gives a half the middle of the other half. The half's own middle differs from the other middle by rounding only.
 void begin_at(HalfCusp &half, const HalfCusp &other) {
   half.leaflet.control[0] = other.leaflet.first();
   half.bending.control[0] = other.bending.first();
 }
 
-// Ends the curves at the commissure in this point, from which they differ by rounding only.
+// Ends the curves at the commissure in this point. Their ends differ from the point by rounding only.
 void end_at(HalfCusp &half, Vec3 commissure) {
   for (Bezier HalfCusp::*curve : {&HalfCusp::leaflet, &HalfCusp::bending, &HalfCusp::sinus_below})
     view((half.*curve).control)[(half.*curve).degree] = commissure;
@@ -155,14 +155,14 @@ HalfCusp half_cusp(const CuspShape &shape) {
   half.leaflet = profile_curve(shape.leaflet, h_l);
   half.bending = profile_curve(shape.bending, h_b);
 
-  // The sinus curve is a quadratic. It runs from the root point to the leaflet's end, and passes through the bending curve's end
-  // at s.
+  // The sinus curve is a quadratic. The sinus curve runs from the root point to the leaflet's end, and passes through the bending
+  // curve's end at s.
   const Vec3 root{R, 0, 0}, L = half.leaflet.last(), B = half.bending.last();
   const Vec3 through = (1.0 / (2 * s * (1 - s))) * (B - (1 - s) * (1 - s) * root - s * s * L);
   std::tie(half.sinus_below, half.sinus_above) = split_through(Bezier::quadratic(root, through, L), s, B);
 
-  // The symmetry curve is a cubic. It runs from the root point to the leaflet's middle, and passes through the bending curve's
-  // middle at s.
+  // The symmetry curve is a cubic. The symmetry curve runs from the root point to the leaflet's middle, and passes through the
+  // bending curve's middle at s.
   const Vec3 b = half.bending.first(), D3 = half.leaflet.first();
   const Vec3 D1{0.5 * (R + b.x) + shape.xq * (R - b.x), 0, 0.5 * h_b + shape.zq * h_b};
   const double a = 1 - s;

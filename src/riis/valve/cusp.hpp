@@ -13,8 +13,8 @@
 
 namespace riis {
 
-// A horizontal curve of half a cusp. Its profile is x(y) = radius_in + (end.x - radius_in) (y / end.y)^power, from the symmetry
-// plane to the end at radius_out and angle. t0 and t3 are the lengths of the end tangents along y.
+// A horizontal curve of half a cusp. The curve's profile is x(y) = radius_in + (end.x - radius_in) (y / end.y)^power, from the
+// symmetry plane to the end at radius_out and angle. t0 and t3 are the lengths of the end tangents along y.
 struct CuspProfile {
   double radius_in, radius_out, angle, power, t0, t3;
 };
@@ -32,8 +32,8 @@ struct CuspOpening {
 // Returns the specs of open_radius_ratio and commissure_expansion.
 std::array<ParameterSpec, 2> cusp_opening_specs(const CuspOpening &defaults);
 
-// Returns the shape to which the cusp opens. Its free edge and bending curve are parabolas, and its sides are nearly straight.
-// The attachment moves outwards in proportion to its height.
+// Returns the shape to which the cusp opens. In this shape, the free edge and the bending curve are parabolas, and the sides are
+// nearly straight. The attachment moves outwards in proportion to its height.
 CuspShape open_shape(const CuspShape &closed, const CuspOpening &opening);
 
 // The curves of half a cusp, y >= 0, in the cusp's frame. The symmetry plane is y = 0, the root is at z = 0, and z points to the
@@ -66,17 +66,17 @@ struct MovingHalf {
 };
 
 // Adds the lower and the upper patch of each part. At each place, all patches get images for both halves of the cusp, with
-// y >= 0 first. The upper patch of the last part becomes the last of the set. Its side v1 is the free edge, which ends at the
-// commissure, u = 1. Patches of a second part have ids behind those of all places.
+// y >= 0 first. The upper patch of the last part becomes the last of the set. The side v1 of this last patch is the free edge,
+// which ends at the commissure, u = 1. Patches of a second part have ids behind those of all places.
 void add_cusps(PatchSet &set, const MovingHalf &half, const Vector<CuspPlace> &places);
 inline std::size_t top_patch(const PatchSet &set) { return set.patches.size() - 1; }
 
-// Returns the places of equal cusps. They follow each other round the axis, the first on the x axis, and are then shifted.
+// Returns the places of equal cusps. Equal cusps follow each other round the axis, from the x axis on, and are then shifted.
 Vector<CuspPlace> equal_places(std::size_t n_cusps, Vec3 shift);
 // Sews the images of a patch of equal cusps together. The half y < 0 of each cusp meets the half y >= 0 of the cusp before it.
 void sew_equal_cusps(PatchSet &set, std::size_t patch, SeamPlace place);
 
-// A cusp that is not equal to its neighbours, or whose halves y >= 0 and y < 0 differ. Both halves are given as for y >= 0.
+// A cusp that is not equal to its neighbours, or whose halves y >= 0 and y < 0 differ. Each half is given as for y >= 0.
 struct UnequalCusp {
   double turn_degrees;
   std::array<MovingHalf, 2> halves;

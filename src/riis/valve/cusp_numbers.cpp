@@ -20,8 +20,8 @@ constexpr double open_sag = 1.0 / 3;
 constexpr double used_of_edge = 0.97;
 // The open edge leaves the commissure round, as an arc of a circle does, if it reaches this share of the arc's height.
 constexpr double round_from = 0.7;
-// Equal cusps of three are always round. The less the cosine of half a sector differs from theirs, the more round is the edge of
-// another cusp, up to this difference.
+// Equal cusps of three are always round. The edge of another cusp is the rounder, the less the cosine of its half sector differs
+// from an equal cusp's, up to this difference.
 constexpr double not_of_three = 0.22;
 // The attachment of a cusp with a wider sector, in degrees, has two pieces, because one cubic would leave the cylinder.
 constexpr double most_of_one_piece = 210;
@@ -33,7 +33,7 @@ std::array<double, 4> blend(const std::array<double, 4> &from, const std::array<
 }
 
 // Blends the numbers of two halves. Early in the motion, the leaflet becomes upright at the root and flatter beside the
-// commissure. Otherwise it would fold beside the attachment.
+// commissure. With an even blend, the leaflet would fold beside the attachment.
 HalfNumbers blend(const HalfNumbers &a, const HalfNumbers &b, double opening) {
   const double early = opening * (2 - opening);
   const auto mixed = [&](double from, double to) { return riis::blend(from, to, opening); };
@@ -90,8 +90,8 @@ double parameter_at_y(const Bezier &curve, double y) {
   return low;
 }
 
-// Splits the closed half in a part that opens and a fused part. The middle of its edge is at the height `low`. Both parts meet in
-// a vertical line of the zone.
+// Splits the closed half in a part that opens and a fused part. The middle of its edge is at the height `low`. The free and the
+// fused part meet in a vertical line of the zone.
 void fuse(HalfNumbers &half, double fusion, double low) {
   const HalfCusp whole = coapting_half(half, half.edge_top - low, low).front();
   const auto [free, fused] = split(whole.leaflet, 1 - fusion);
@@ -267,9 +267,9 @@ EdgeLength::Value EdgeLength::at(double depth) const {
   return value;
 }
 
-// The length grows with the depth, and it is convex. Newton's method starts at too large a depth. It therefore comes down to the
-// solution and never passes it. A half is at least as long as the line between its ends. So the start is deep enough if one half
-// alone has the whole length there.
+// The length grows with the depth, and it is convex. Newton's method starts at too large a depth. The method therefore comes down
+// to the solution and never passes the solution. A half is at least as long as the line between its ends. The start is therefore
+// deep enough if one half alone has the whole length there.
 double edge_depth(const CuspNumbers &cusp) {
   Vector<EdgeLength> halves(cusp.begin(), cusp.end());
   const double wanted = total_length(cusp), first_top = cusp.front().edge_top;

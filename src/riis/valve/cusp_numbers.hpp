@@ -47,8 +47,8 @@ struct CuspSizes {
   double root_radius, commissure_radius, effective_height, coaptation_height, gap, bottom_angle, belly, edge_rise;
   double attachment_width, attachment_drop, open_radius_ratio, commissure_expansion, edge_stretch;
   double meeting;  // x of the point in which the planes between closed neighbours meet
-  // True for one of three equal cusps. They open to open_radius_ratio, however round and long their edge is. The edges of other
-  // cusps open as far as their length allows.
+  // True for one of three equal cusps. Equal cusps open to open_radius_ratio, however round and long their edge is. The edges of
+  // other cusps open as far as their length allows.
   bool keeps_ratio;
   struct Side {
     double commissure_height, fusion;
@@ -65,8 +65,8 @@ struct FusedPart {
   double share;     // of the free part, in the length of the closed edge
 };
 
-// The numbers of half a cusp, y >= 0. They are blended, and the curves follow from them. Shares have the range 0 to 1. Control
-// points are counted from the symmetry plane, or from the root.
+// The numbers of half a cusp, y >= 0. The numbers are blended, and the curves follow from the numbers. Shares have the range 0 to
+// 1. Control points are counted from the symmetry plane, or from the root.
 struct HalfNumbers {
   double root_radius;
   Vec3 commissure;
@@ -90,7 +90,7 @@ using CuspNumbers = Vector<HalfNumbers>;
 // Blends the numbers of two states.
 CuspNumbers blend(const CuspNumbers &a, const CuspNumbers &b, double opening);
 
-// The length of half a free edge as a function of how far its middle hangs below its end. A fixed quadrature rule computes it, so
+// The length of half a free edge as a function of the depth of its middle below its end. A fixed quadrature rule computes it, so
 // that it is a smooth function of the cusp.
 class EdgeLength {
  public:
@@ -112,16 +112,16 @@ class EdgeLength {
 };
 
 // Returns how far the middle of the free edge hangs below the end of the first half, so that all halves together have their
-// length. They must be at least as long as at depth 0.
+// length. The halves must be at least as long as at depth 0.
 double edge_depth(const CuspNumbers &cusp);
-// Returns the length of the free edge if its middle is no lower than the lower one of its ends.
+// Returns the length of the free edge whose middle is as high as its lower end.
 double least_edge_length(const CuspNumbers &cusp);
 
 // Returns the area between the free edge and the axis, seen along the axis, of all halves.
 double area_inside(const CuspNumbers &cusp);
 
-// Returns the lower part of the symmetry curve. It ends at `end`. Its direction there is `up`, the vector from `end` to the
-// free edge.
+// Returns the lower part of the symmetry curve. The curve ends at `end`. Its direction there is `up`, the vector from `end` to
+// the free edge.
 Bezier symmetry_curve(const HalfNumbers &half, Vec3 end, Vec3 up);
 
 // The states between which a cusp moves: its closed and its open state or, at a bump, states between these.

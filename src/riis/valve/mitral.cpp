@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mitral valve. It has an annulus, an anterior leaflet, and a posterior leaflet of three scallops. It can be closed, open or
-// in between (paper, appendix "Parametric modeling of the mitral valve"; docs/theory/mitral.md).
+// The mitral valve. The valve has an annulus, an anterior leaflet, and a posterior leaflet of three scallops. The leaflets can be
+// closed, open or in between (paper, appendix "Parametric modeling of the mitral valve"; docs/theory/mitral.md).
 #include <array>
 #include <cmath>
 #include <utility>
@@ -32,7 +32,7 @@ ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
   ValveKind kind{"mitral", {
-    {"anterior_ratio", number, "share of the annulus that the anterior leaflet and its triangles take", 1, {0.41}, 0.05, 0.95},
+    {"anterior_ratio", number, "share of the anterior leaflet, with its triangles, in the annulus", 1, {0.41}, 0.05, 0.95},
     {"AP_diameter", length, "depth of the annulus, from the posterior to the anterior point", 1, {3.0}, shortest, longest},
     {"ALPM_diameter", length, "largest width of the annulus", 1, {4.0}, shortest, longest},
     {"ALPM_position_ratio", number, "where the annulus is widest: 0 at the posterior point, 1 at the anterior",
@@ -107,7 +107,7 @@ class Annulus {
   Curve half_;
 };
 
-// Returns the cubic from `first` to `last` that passes through the tip at 1/2. It is the affine image of the cubic that
+// Returns the cubic from `first` to `last` that passes through the tip at 1/2. This cubic is the affine image of the cubic that
 // approximates a circular arc of that angle. (The paper's matrix should give this curve, but has rank 3.)
 Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
   const auto [quarter_sine, quarter_cosine] = sine_cosine_degrees(0.25 * arc_angle);
@@ -223,7 +223,7 @@ class Patches {
     const auto [side_edge, rest] = split(half.anterior, half.cleft);
     const Bezier middle_edge = up_to_symmetry_plane(rest, (0.5 - half.cleft) / (1 - half.cleft));
     const std::size_t anterior_side = set_.add(side_edge).curve, anterior_middle = set_.add(middle_edge).curve;
-    // Closed leaflets share their edge. So the edge is stored once and becomes one polyline.
+    // Closed leaflets share their edge. The common edge is therefore stored once and becomes one polyline.
     const std::size_t posterior_side = is_closed ? anterior_side : set_.add(half.side_scallop).curve;
     const std::size_t posterior_middle =
         is_closed ? anterior_middle : set_.add(up_to_symmetry_plane(half.middle_scallop, 0.5)).curve;
@@ -262,7 +262,7 @@ class Patches {
 
   void begin_at(double u, Vec3 on_edge) { last_arc_ = arc(u, on_edge); }
 
-  // Patches run clockwise, and down from the anterior point. So S_u x S_v points into the ventricle, downstream. The minus
+  // Patches run clockwise, and down from the anterior point. S_u x S_v therefore points into the ventricle, downstream. The minus
   // sign is there because O points along (edge - annulus) x (the annulus' counter-clockwise direction).
   void add_patch(Side edge, double to_u, Vec3 on_edge, std::int32_t leaflet_id, std::int32_t patch_id,
                  std::int32_t mirrored_patch_id) {
@@ -317,7 +317,7 @@ std::array<Bezier, 3> half_annulus(const MitralAnnulus &annulus) {
 }
 
 const ValveKind &mitral_valve_kind() {
-  // The kind is made when it is first used, and it is never destroyed. So it can be used during the whole life of the process.
+  // The kind is made when it is first used, and it is never destroyed. The kind thus serves during the whole life of the process.
   static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::vertical));
   return kind;
 }

@@ -20,8 +20,8 @@ enum class Mirror { none, in_x, in_y };
 
 inline constexpr std::size_t no_patch = static_cast<std::size_t>(-1);
 
-// The placement of a patch. The patch may be mirrored, then it is turned, and then it is moved. All images of a patch come from
-// the same operations on the same points. So a patch and its mirror image meet in the mirror's plane to the last bit.
+// The placement of a patch. The patch may first be mirrored; after that it is turned and moved. All images of a patch come from
+// the same operations on the same points. A patch and its mirror image therefore meet in the mirror's plane to the last bit.
 struct PatchImage {
   Mirror mirror;
   Rotation rotation;
@@ -43,8 +43,8 @@ inline Vec3 place(const PatchImage &image, Vec3 p) {
 // Returns the image without its translation, which places directions.
 inline PatchImage turn_of(const PatchImage &image) { return {image.mirror, image.rotation, {0, 0, 0}, 0, 0}; }
 
-// A curve as the side of a patch. It is given by its position in PatchSet::curves, and runs from its first point or from its
-// last.
+// A curve as the side of a patch. The curve is given by its position in PatchSet::curves, and runs from its first point or from
+// its last.
 struct Side {
   std::size_t curve;
   bool reversed = false;
@@ -65,8 +65,8 @@ struct AxisLine {
 struct Patch {
   Side v0, v1, u0, u1;
   Vector<PatchImage> images;
-  // The factor of a patch of arcs, or 0. If it is 0, the patch is the Coons patch of its sides. Otherwise it is the patch of arcs
-  // from v0 to v1 with this factor (geometry/bulge.hpp), and u0 and u1 must be such arcs.
+  // The factor of a patch of arcs, or 0. If it is 0, the patch is the Coons patch of its sides. With another factor it is the
+  // patch of arcs from v0 to v1 with this factor (geometry/bulge.hpp), and u0 and u1 must be such arcs.
   double bulge = 0;
   AttachedSide attached = AttachedSide::none;
   AxisLine axis = {{0, 0, 0},
@@ -135,8 +135,8 @@ struct AttachedEnd {
   bool is_last;
 };
 // Two such ends of different leaflets that are neighbours but are not joined. Round the axis of the attachment, one side ends
-// and the next one begins. Some valves have skirts that are turned at such ends only after a warp. They have the turns, in
-// radians, by which their skirts would be turned at both ends before the warp.
+// where the next side begins. Some valves have skirts that are turned at such ends only after a warp. Such valves have the turns,
+// in radians, by which their skirts would be turned at both ends before the warp.
 struct NeighbourEnds {
   AttachedEnd before, after;
   std::optional<std::array<double, 2>> turns_at_rest = {};
@@ -151,17 +151,19 @@ struct PatchSet {
   Vector<Curve> curves;
   Vector<Patch> patches;
   Vector<Seam> seams = {};  // at most one for each image
-  // Bounds the Hausdorff distance of the patches from the valve's shape. It is not 0 if curves approximate arcs of circles.
+  // Bounds the Hausdorff distance of the patches from the valve's shape. This bound is not 0 if curves approximate arcs of
+  // circles.
   double deviation = 0;
   // The derivatives of the spans' control points with respect to the opening, or nothing if the valve does not blend control
   // points. The list serves the first curves. The curves of a skirt come after these and have no entry.
   Vector<Vector<Bezier>> rates = {};
   // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. On these lines
-  // equal shares stand for the same points without it.
+  // equal shares stand for the same points without an entry.
   Vector<std::optional<MaterialPoints>> material = {};
   // Only warped patches have this list. For each patch, the list says to which places the map takes points inside the patch.
   Vector<MappedInside> mapped_inside = {};
-  // Only valves whose skirts lead away from the axis of the attachment have this list. Their patches have one image each.
+  // Only valves whose skirts lead away from the axis of the attachment have this list. The patches of such valves have one image
+  // each.
   Vector<NeighbourEnds> neighbour_ends = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }
@@ -177,7 +179,7 @@ inline Curve along(const PatchSet &set, const Side &side) {
   return side.reversed ? set.curve_of(side).reversed() : set.curve_of(side);
 }
 
-// Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. So the two patches at the side get the same bits.
+// Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. The two patches at the side thus get the same bits.
 inline Vec3 arc_offset(const PatchSet &set, const Side &side) { return arc_offset(set.curve_of(side).spans().front()); }
 
 }  // namespace riis

@@ -11,20 +11,20 @@
 
 namespace riis {
 
-// Bits of an entry of TriangleSet::rim_sides. The bit free_v1 marks a side v1 of only one patch of the leaflet. This side is a
-// part of the leaflet's free edge, even if closed leaflets meet in it. A skirt has no free edge. The bit `held` marks a patch
-// whose attached side belongs to no other patch, except perhaps to a skirt.
+// Bits of an entry of TriangleSet::rim_sides. The bit free_v1 marks a side v1 of only one patch of the leaflet. The marked side
+// is a part of the leaflet's free edge, even if closed leaflets meet in it. A skirt has no free edge. The bit `held` marks a
+// patch whose attached side belongs to no other patch, except perhaps to a skirt.
 enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8, free_v1 = 16, held = 32 };
 
-// Returns, for each patch_id, the sides on the rim. Two patches share a side if it is the same curve and their images put it at
-// the same position. A side in the mirror's plane is shared by a patch and its own mirror image. A patch shares a side with
-// itself if two of its sides are the same curve. Images also share the sides at which they are sewn together (Seam). Patches may
-// also meet inside a side, as along the bending curve. The vertices there do not change the rim, so a T-junction does not
-// count as rim.
+// Returns, for each patch_id, the sides on the rim. Two patches share a side if both have the same curve there and their images
+// put this curve at the same position. A side in the mirror's plane is shared by a patch and its own mirror image. A patch shares
+// a side with itself if two of its sides are the same curve. Images also share the sides at which they are sewn together (Seam).
+// Patches may also meet inside a side, as along the bending curve. The vertices there do not change the rim, so a T-junction does
+// not count as rim.
 Vector<std::uint8_t> rim_sides(const PatchSet &set);
 
 // From the u and v of a vertex, returns the sides of the patch on which the vertex lies. A vertex on a side has exactly the
-// side's parameter. An edge lies on a side if both its ends do.
+// side's parameter. An edge lies on a side if both its ends lie on the side.
 inline std::uint8_t sides_of_place(const double *uv) {
   return static_cast<std::uint8_t>((uv[1] == 0 ? rim_v0 : 0) | (uv[1] == 1 ? rim_v1 : 0) | (uv[0] == 0 ? rim_u0 : 0) |
                                    (uv[0] == 1 ? rim_u1 : 0));

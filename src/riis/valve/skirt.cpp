@@ -28,7 +28,7 @@ constexpr double least_sine_to_axis = 0.2;
 // A side whose rise has at least this sine leans as its tangent does. A flatter side leans less, and a side perpendicular
 // to the axis does not lean.
 constexpr double least_rise = 0.5;
-// A skirt that is turned at rest keeps its place there, as long as the warp turns it by less than this. In between it goes over.
+// A skirt that is turned at rest keeps its place, up to this turn by the warp. In between it goes over.
 constexpr double most_turn_as_at_rest = pi / 4;
 // A disc about the axis has this many corners when it is warped.
 constexpr int n_corners = 24;
@@ -65,7 +65,8 @@ Vector<Step> steps_of_attachment(const PatchSet &set, const Vector<HeldSide> &si
     const Vector<Step> of_side = steps_of(along(set, held.side));
     for (const PatchImage &image : set.patches[held.patch].images) {
       const PatchImage turn = turn_of(image);
-      // Triangles are turned over in a mirror image, and in a patch that a warp made of one. There the sides run the other way.
+      // Triangles are turned over in a mirror image, and in a patch that a warp made of one. In such a patch the sides run the
+      // other way.
       const double sign = points_upstream(image) ? -1 : 1;
       for (const Step &step : of_side) steps.push_back({place(image, step.at), sign * place(turn, step.by)});
     }
@@ -80,8 +81,9 @@ AxisLine placed(const AxisLine &axis, const PatchImage &image) {
 
 bool are_equal(const AxisLine &a, const AxisLine &b) { return a.centre == b.centre && a.direction == b.direction; }
 
-// Returns the line that the map makes of an axis. The attachment's steps lie about the axis. A disc about the axis, at their mean
-// height and as wide as they are on average, becomes a warped disc. Its middle and its vector area give the line.
+// Returns the line that the map makes of an axis. The attachment's steps lie about the axis. A disc about the axis, at the
+// points' mean height and as wide as the points on average, becomes a warped disc. The middle and the vector area of the warped
+// disc give the line.
 AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const BlendedWarp &warp) {
   double whole = 0, height = 0, radius = 0;
   for (const Step &step : steps) {
@@ -184,7 +186,7 @@ class SkirtMaker {
   }
 
   // For each step, returns the growth of the length at one of the shares. Between two shares, the length then stays between the
-  // lengths there, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
+  // lengths at the shares, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
   static double growth_at(const Vector<double> &lengths, std::size_t i) {
     const double before = i == 0 ? 0 : lengths[i] - lengths[i - 1];
     const double after = i + 1 == lengths.size() ? 0 : lengths[i + 1] - lengths[i];
@@ -229,7 +231,7 @@ class SkirtMaker {
     return Curve(std::move(spans));
   }
 
-  // Returns the material points of the outer side. They lie outwards of the inner side's points.
+  // Returns the material points of the outer side. The outer points lie outwards of the inner side's points.
   MaterialPoints material_of_outer(const Curve &inner, const Side &side, const Curve &outer) const {
     const MaterialPoints &given = *set_.material[side.curve];
     const MaterialPoints points = side.reversed ? given.reversed(inner.spans().size()) : given;
@@ -366,7 +368,7 @@ Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEn
   const Vec3 out = outwards(axis, 0.5 * (before.point + after.point)), onwards = cross(axis.direction, out);
   const double apart = length(across);
   if (!(apart > 0)) return out;
-  // Both skirts are turned towards the end that lies farther outwards.
+  // The skirts of both neighbours are turned towards the end that lies farther outwards.
   const double along_out = dot(across, out), past = -dot(across, onwards) / apart;
   double sine = past;
   if (past > most_past_in_line) sine = most_past_in_line * (1 - past) / (1 - most_past_in_line);
@@ -474,8 +476,8 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
     const PatchImage &image = patch.images.front();
     const PatchImage turn = turn_of(image);
     patch.axis = {without_placement(turn, whole.centre - image.translation), without_placement(turn, whole.direction)};
-    // A plane of symmetry contains the line. Rounding must not move the line out of this plane, because the mirror images would
-    // then not meet.
+    // A plane of symmetry contains the line. Rounding must not move the line out of this plane, because mirror images meet only
+    // in the plane.
     for (const PatchImage &other : patch.images) {
       if (other.mirror == Mirror::in_x) patch.axis.centre.x = patch.axis.direction.x = 0;
       if (other.mirror == Mirror::in_y) patch.axis.centre.y = patch.axis.direction.y = 0;
@@ -484,7 +486,7 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
 }
 
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp) {
-  // Sides about one line keep one line, so that strips meet. Cusps with lines of their own get lines of their own.
+  // Sides about one line keep one line, so that strips meet. Cusps with own lines at rest get own lines after the warp.
   struct Group {
     AxisLine axis;
     Vector<Step> steps;

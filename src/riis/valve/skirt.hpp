@@ -52,16 +52,17 @@ struct SideEnd {
 };
 
 // Returns the direction in which the skirts at two neighbouring ends lead. Two parallel planes contain these ends of the skirts,
-// and each skirt is on its own side of them. The planes lean as the two sides do on average. The direction depends continuously
-// on the points and the tangents.
+// and each skirt is on its own side of the planes. The planes lean as the two sides do on average. The direction depends
+// continuously on the points and the tangents.
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after);
 
-// The direction in which a skirt leads away from its attachment. It is outwards from the axis, except near neighbouring ends.
+// The direction in which a skirt leads away from its attachment. This direction is outwards from the axis, except near
+// neighbouring ends.
 class SkirtDirections {
  public:
   SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides);
 
-  // Returns the unit vector at a share of the length of a side, where the side has this point.
+  // Returns the unit vector at a share of the length of a side. `point` is the side's point at this share.
   Vec3 at(std::size_t side, double share, Vec3 point) const;
   bool is_turned(std::size_t side) const { return ends_[side][0].is_turned || ends_[side][1].is_turned; }
 
@@ -80,17 +81,18 @@ class SkirtDirections {
 double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides);
 // The least and the largest length of a skirt, in such distances.
 inline constexpr double least_skirt = 1e-4, most_skirt = 10;
-// The least length of a skirt to a wall, in such distances. The vertices of its outer edge are at even shares of the edge's
-// length, so they are not exactly beside the attachment's vertices. A thinner strip along a round attachment would go through
+// The least length of a skirt to a wall, in such distances. The vertices of the outer edge are at even shares of the edge's
+// length, and thus not exactly beside the attachment's vertices. A thinner strip along a round attachment would go through
 // itself.
 inline constexpr double least_skirt_to_wall = 0.01;
 
-// Returns the unit vector from the axis through the point, perpendicular to the axis. It is 0 if the point is on the axis.
+// Returns the unit vector from the axis through the point, perpendicular to the axis. The vector is 0 if the point is on the
+// axis.
 Vec3 outwards(const AxisLine &axis, Vec3 point);
 
-// Adds the patches of a skirt. If `lengths` is empty, the length is `length`. The patches continue the leaflets outwards, and
-// have the leaflet_id of skirt_leaflet and the patch_id of the leaflet's patch plus the number of these ids. Fails with
-// RIIS_INVALID_PARAMETER if the attachment has no outward direction, and for a length that does not fit its size.
+// Adds the patches of a skirt. If `lengths` is empty, the length is `length`. The patches continue the leaflets outwards. Their
+// leaflet_id is skirt_leaflet, and their patch_id is the patch_id of the leaflet's patch plus the number of these ids. Fails with
+// RIIS_INVALID_PARAMETER for an attachment without an outward direction, and for a length that does not fit the attachment.
 void add_skirt(PatchSet &set, double length, const SkirtLengths &lengths);
 
 // Returns the leaflet_id that a skirt of these patches has.

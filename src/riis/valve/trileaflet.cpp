@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trileaflet valve. Its three equal cusps close completely: their free edges meet along straight lines from the commissures
-// to the axis (docs/theory/trileaflet.md).
+// The trileaflet valve. The three equal cusps of this valve close completely: their free edges meet along straight lines from the
+// commissures to the axis (docs/theory/trileaflet.md).
 #include <utility>
 
 #include "common/array_view.hpp"
@@ -117,7 +117,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }  // namespace
 
 const ValveKind &trileaflet_valve_kind() {
-  // The kind is made when it is first used, and it is never destroyed. So it can be used during the whole life of the process.
+  // The kind is made when it is first used, and it is never destroyed. The kind thus serves during the whole life of the process.
   static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::of_cusp));
   return kind;
 }

@@ -11,7 +11,7 @@
 
 namespace riis {
 
-// A curve as one image has it: placed spans, and their rates if the set has rates.
+// A curve of one image: placed spans, and the spans' rates if the set has rates.
 struct CurveCopy {
   std::size_t curve;
   const PatchImage *image;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's own valve. It is given by boundary curves with control points, and by patches with four sides.
-// In: arrays as in riis_patches, which this file checks completely. Out: a patch set, and the kind for valves from patches.
+// The caller's own valve, given by boundary curves with control points, and by patches with four sides. In: arrays as in
+// riis_patches, which this file checks completely. Out: a patch set, and the kind for valves from patches.
 #pragma once
 
 #include <riis/riis.h>

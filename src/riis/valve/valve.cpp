@@ -258,8 +258,8 @@ void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {
     warp_.reset();
     return;
   }
-  // The copies are complete before they replace the old maps, because assignment member by member could fail half way. Their
-  // memory comes from maps that were dropped before.
+  // The copies are complete before they replace the old maps, because assignment member by member could fail half way. The memory
+  // of the copies comes from maps that were dropped before.
   Warp made{*closed, {}, warp_ ? warp_->known : nullptr};
   if (open) made.open = *open;
   warp_ = std::move(made);
@@ -439,7 +439,8 @@ PatchSet Valve::make_patches_before(const Valve &before, const PatchSet *known) 
   before.check_is_state_of(*kind_, warp_.has_value(), {"valve_before", "valve"});
   if (kind_->check_states) kind_->check_states(state_, before.state_, "valve_before");
   if (known) return *known;
-  // The earlier state was once the valve's present state, and was searched for folds then. So the search is not repeated.
+  // The earlier state was once the valve's present state, and was searched for folds then. The search for folds is therefore not
+  // repeated.
   return before.make_patches_unsearched("valve_before");
 }
 

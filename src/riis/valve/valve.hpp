@@ -62,7 +62,7 @@ struct AbsentName {
 struct ValveState {
   ParameterValues values;
   PatchSet patches;
-  Vector<char> is_set;  // for each value 1 if the caller set it, or 0 if it is the default or follows from a rule
+  Vector<char> is_set;  // for each value: 1 if the caller set the value, 0 for a default and for a value from a rule
 };
 
 // A kind of valve: its parameters, and the functions that make patches from them.
@@ -73,17 +73,17 @@ struct ValveKind {
   bool opens_by_itself;  // one set of parameters defines both the closed and the open state
   // Refuses values that do not fit together. NULL if all values fit together.
   void (*check_values)(const ParameterValues &values);
-  // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. They are the
-  // same object if the valve was given no open state.
+  // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. The two states
+  // are the same object if the valve was given no open state.
   PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
   // Refuses another state whose curves or patches are not built like the valve's. The message calls that state by `name`, such
   // as "the open state". NULL if all states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
-  // True if leaflets meet only at common vertices of their triangles, such as at commissures. Otherwise leaflets may touch
+  // True if leaflets meet only at common vertices of their triangles, such as at commissures. If false, leaflets may touch
   // anywhere, and their triangles may then go through each other by as much as the triangles' error.
   bool has_exact_contacts = false;
-  // True if the orifice is seen along the valve's z axis. Otherwise it is seen along the vector area of the edges that are
-  // farthest from its middle. If cusps differ and their open edges reach beyond the attachment, that area would be oblique.
+  // True if the orifice is seen along the valve's z axis. If false, the orifice is seen along the vector area of the edges that
+  // are farthest from its middle. If cusps differ and their open edges reach beyond the attachment, that area would be oblique.
   bool is_seen_along_z = false;
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
@@ -98,8 +98,8 @@ struct ValveKind {
 // Adds the parameter "skirt_length" to a kind.
 ValveKind with_skirt(ValveKind kind, SkirtAxis axis);
 
-// The kinds of valves that are defined by parameters. Each is in a file of its name. But valve/coapting.cpp has the kinds with
-// two to four coapting cusps, and valve/atrioventricular.cpp the kinds with coapting leaflets on an annulus.
+// The kinds of valves that are defined by parameters. Each kind is in a file of its name, except that valve/coapting.cpp has the
+// kinds with two to four coapting cusps, and valve/atrioventricular.cpp the kinds with coapting leaflets on an annulus.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bicuspid_valve_kind();
 const ValveKind &bileaflet_valve_kind();
@@ -110,7 +110,7 @@ const ValveKind &quadricuspid_valve_kind();
 const ValveKind &tricuspid_valve_kind();
 const ValveKind &trileaflet_valve_kind();
 
-// Returns the kind with that name. If there is none, fails with RIIS_INVALID_PARAMETER and names the existing kinds.
+// Returns the kind with that name. For an unknown kind, fails with RIIS_INVALID_PARAMETER and names the existing kinds.
 const ValveKind &find_valve_kind(std::string_view name);
 
 // A valve: a kind and its values. All functions fail with RIIS_INVALID_PARAMETER and name the parameter and the value. A failure
@@ -121,7 +121,7 @@ class Valve {
   const ValveKind &kind() const { return *kind_; }
   const ParameterValues &values() const { return state_.values; }
 
-  // If the valve itself has no parameter of a name without a leaflet, the name sets the parameter of every leaflet that has one.
+  // A name without a leaflet that is no parameter of the valve itself sets the parameter of every leaflet that has the name.
   void set(std::string_view name, std::int64_t n_values, const double *new_values);
   void get(std::string_view name, std::int64_t n_values, double *out) const;
   // Returns the least and the largest value of the one parameter of that name.
@@ -151,8 +151,8 @@ class Valve {
 
   // Returns whether make_patches adds a skirt.
   bool has_skirt() const { return kind_->skirt_axis != SkirtAxis::none && state_.values[kind_->skirt_length][0] != 0; }
-  // Replaces the skirt by one with these lengths (valve/skirt.hpp). The parameter "skirt_length" becomes the largest of them.
-  // Setting that parameter removes the lengths.
+  // Replaces the skirt by a skirt with these lengths (valve/skirt.hpp). The parameter "skirt_length" becomes the largest of these
+  // lengths. Setting that parameter removes the lengths.
   void set_skirt_lengths(SkirtLengths lengths);
 
   // Compares with another valve. Fails unless the other valve equals this valve in everything but the opening and the values of a
@@ -190,7 +190,7 @@ class Valve {
   void check_open_values() const;
   static std::uint64_t next_revision();
 
-  // The cuts of a shape with its landmarks. They stay the same while the valve opens and the targets move, so they are kept.
+  // The cuts of a shape with its landmarks. Cuts stay the same while the valve opens and the targets move, so cuts are kept.
   struct KnownCuts {
     std::uint64_t shape_digest;
     LandmarkCuts cuts;
@@ -203,7 +203,7 @@ class Valve {
   };
 
   const ValveKind *kind_;
-  // The positions of the parameters that define the disc. Each time step needs them, and a search by name is slow.
+  // The positions of the parameters that define the disc. Each time step needs these positions, and a search by name is slow.
   std::optional<std::size_t> radius_;
   Vector<std::size_t> translations_;
   ValveState state_;

@@ -18,7 +18,7 @@ namespace {
 constexpr double thinnest_share = 0.05;
 // Sources also count as planar if noise would change the stretch across the plane by more than this.
 constexpr double largest_stretch_error = 0.1;
-// The share of the noise that the residuals should have. It is below 1, because the map follows a part of the noise. The
+// The share of the noise that the residuals should have. This share is below 1, because the map follows a part of the noise. The
 // attachments of random patients were met best with shares from 0.5 to 0.7 (docs/theory/warp.md, "Equations").
 constexpr double residual_share = 0.6;
 constexpr double line_share = 1e-6, same_place_share = 1e-6;
@@ -163,7 +163,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
 }
 
 // Finds the columns U that are orthogonal to the polynomials and make U^T K U tridiagonal, K_ij = |r_ij|^3. K is positive
-// definite on them.
+// definite on these columns.
 void WarpLandmarks::reduce() {
   const std::size_t n = size(), m = n_terms_;
   const auto term = [&](std::size_t k, Vec3 y) { return k == 0 ? 1.0 : dot(axis_[k - 1], y); };
@@ -337,7 +337,8 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
   for (std::size_t i = 0; i < n; ++i) displacement_[i] = (1 / size_) * (targets[i] - sources_[i]);
   std::array<Vec3, 4> terms{};  // of the map's polynomial
   if (is_planar_) {
-    // The direction across the plane follows the nearest linear map of the plane. Its stretch is the mean stretch of the plane.
+    // The direction across the plane follows the nearest linear map of the plane. The stretch across the plane is the mean
+    // stretch of the plane.
     Vec3 slopes[2] = {axis_[0], axis_[1]};
     for (std::size_t k = 0; k < 2; ++k)
       for (std::size_t i = 0; i < n; ++i) slopes[k] = slopes[k] + least_squares_[(k + 1) * n + i] * displacement_[i];

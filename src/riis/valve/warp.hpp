@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A smooth map of space from landmarks (docs/theory/warp.md): affine plus a radial function |r|^3 at each landmark.
-// In: landmarks at rest and where they are now. Out: the map's values and derivatives.
+// In: landmarks at rest, and their present places. Out: the map's values and derivatives.
 #pragma once
 
 #include <cstddef>
@@ -62,7 +62,7 @@ class BlendedWarp {
   double opening_;
 };
 
-// The quality of a map, which says how well it meets its targets.
+// The quality of a map: its distances from the targets, its smoothing and its least determinant.
 struct WarpQuality {
   double rms_residual, largest_residual;  // distances of mapped sources from their targets
   std::int64_t largest_landmark;
@@ -72,8 +72,8 @@ struct WarpQuality {
   std::int64_t least_landmark;
 };
 
-// Landmarks at rest. Their equations are reduced to a tridiagonal matrix once. A map for new targets then takes as many
-// operations as a few products of a matrix and a vector.
+// Landmarks at rest. The equations of these landmarks are reduced to a tridiagonal matrix once. A map for new targets then takes
+// as many operations as a few products of a matrix and a vector.
 class WarpLandmarks {
  public:
   // `noise` is the standard deviation of each coordinate of the targets. It is at least 0. Fails with RIIS_INVALID_ARGUMENT for
@@ -131,14 +131,14 @@ class WarpLandmarks {
 PatchSet without_images(const PatchSet &set);
 
 // Returns the same patches with warped curves. Curves are cut at landmarks first. Each warped part has the warped ends and the
-// directions of the warped end tangents. The lengths of these tangents make it the nearest to the warped points of the part, by
-// least squares. Arcs are bent anew between warped curves. Unless `check` is no, fails with RIIS_INVALID_PARAMETER if the warp
-// folds at a patch or turns a part of it over. The message names the place and the value.
+// directions of the warped end tangents. The lengths of these tangents bring the warped part nearest to the warped points, by
+// least squares. Arcs are bent anew between warped curves. With `check`, fails with RIIS_INVALID_PARAMETER for a warp that folds
+// at a patch or turns a part of the patch over. The message names the place and the value.
 enum class FoldCheck { no, yes };
 PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts &cuts,
                 FoldCheck check = FoldCheck::yes);
 
-// Writes the points of the warped curve and the shares of its length, where `points` says which points they are.
+// Writes the points of the warped curve and the shares of its length. `points` states which points.
 void locate_on_curve(const Curve &curve, MaterialPoints &points);
 
 }  // namespace riis

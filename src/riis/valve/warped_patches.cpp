@@ -19,14 +19,15 @@ namespace {
 
 // The warped points of a curve are taken at this many even steps of its parameter.
 constexpr int n_curve_steps = 6;
-// A tangent's length may change by this factor at most, in addition to the warp's own stretch there.
+// A tangent's length may change by this factor at most, in addition to the warp's stretch at the tangent.
 constexpr double least_factor = 0.2, most_factor = 5, most_of_missing = 0.5;
 // A patch is searched for folds on a grid of this many cells each way.
 constexpr std::size_t n_fold_cells = 3;
 // The sine of the angle between the diagonals of a cell that has no side, because it is hardly wider than a line. Half opened,
-// leaflets of the coapting kind have such cells beside the attachment. There the chords of a curve are no guide to the surface.
-// In 20,000 states of valves with rough warps, cells with a sine up to 0.067 turned over although no triangle did. Triangles of
-// at most 0.6 mm^2 turned over without a wider cell. One cell of the default valve has the sine 0.041 at the opening 0.9.
+// leaflets of the coapting kind have such cells beside the attachment. In such cells the chords of a curve are no guide to the
+// surface. In 20,000 states of valves with rough warps, cells with a sine up to 0.067 turned over although no triangle did.
+// Triangles of at most 0.6 mm^2 turned over without a wider cell. One cell of the default valve has the sine 0.041 at the opening
+// 0.9.
 constexpr double sliver_sine = 0.07;
 
 Bezier raised_to_cubic(const Bezier &span) {
@@ -192,7 +193,7 @@ struct MaterialOfCurve {
   }
 };
 
-// Estimates the length of a span between two near parameters by Gauss's rule of 3 points. Both states take the same rule, so a
+// Estimates the length of a span between two near parameters by Gauss's rule of 3 points. The two states take the same rule, so a
 // slide of 0 is exact.
 double length_near(const Bezier &span, double from, double to) {
   const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * 0.77459666924148337704;
@@ -305,7 +306,8 @@ struct CellNormal {
   bool is_sliver;
 };
 
-// Maps the inner points of the grid. `image` places the patch before the warp. If `check` is yes, fails if the warp folds there.
+// Maps the inner points of the grid. `image` places the patch before the warp. With `check` yes, a warp that folds there makes
+// the function fail.
 void map_inner_points(const LabelGrid &before, const PatchImage &image, const BlendedWarp &warp, FoldCheck check,
                       MappedGrid &mapped) {
   for (std::size_t j = 1; j < n_fold_cells; ++j)
@@ -428,7 +430,7 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts
   bend_arcs(made);
   for (std::size_t i = 0; i < material.size(); ++i) locate_on_curve(made.curves[i], *material[i]);
   made.material = std::move(material);
-  // Only kinds without rates have arcs. An arc may be straight at an opening, so all their patches count.
+  // Only kinds without rates have arcs. An arc may be straight at an opening, so all patches of arcs count.
   const bool has_arcs = set.rates.empty();
   const auto at_rest = [&](std::size_t curve) -> const std::array<PointOnSpan, n_material> & {
     return of_curves[curve]->on_curve;

@@ -60,7 +60,7 @@ std::string_view take_line(std::string_view &text);
 // Removes the first word and the blanks before it. Returns the word, or "" if there is none.
 std::string_view take_word(std::string_view &text);
 
-// Reads the whole text as a number. Returns false if it is not a number of that type.
+// Reads the whole text as a number. Returns false for a text that is no number of that type.
 template <class Number>
 bool read_number(std::string_view text, Number &number) {
   const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), number);
@@ -75,7 +75,7 @@ using XmlAttributes = const char **;
 std::optional<std::string> value_of(XmlAttributes attributes, const char *name);
 
 // Calls visit(way, attributes) for each element that lies at most three elements deep. `way` has the names of the elements around
-// it, beginning with the outermost, and then its own name. Fails if the file is not XML.
+// an element, from the outermost on, and then the element's own name. Fails if the file is not XML.
 using VisitElement = std::function<void(const std::vector<std::string> &way, XmlAttributes attributes)>;
 void for_each_element(const std::string &path, const CaughtOutput &caught, const VisitElement &visit);
 
@@ -86,7 +86,7 @@ std::string ending_of(const std::string &path);
 // the reason.
 std::int64_t check_readable(const std::string &path);
 
-// The bytes of a file. They are readable while this object lives.
+// The bytes of a file. The bytes are readable while this object lives.
 class MappedFile {
  public:
   // Maps the file into memory. `size` must be the result of check_readable.
@@ -102,9 +102,9 @@ class MappedFile {
   void *bytes_;
 };
 
-// A file that is complete or does not exist. It is written under temporary(), a name in the same folder, and commit() moves it
-// to its final place. It gets the permissions of the file that it replaces. Without commit(), the destructor removes the
-// temporary file, and the final place stays unchanged.
+// A file that is complete or does not exist. The file is written under temporary(), a name in the same folder, and commit() moves
+// it to its final place. The new file gets the permissions of the file that it replaces. Without commit(), the destructor removes
+// the temporary file, and the final place stays unchanged.
 class ReplacingFile {
  public:
   // Makes the temporary file. Fails if the path cannot be written to: the folder or a permission is missing, the path is not a

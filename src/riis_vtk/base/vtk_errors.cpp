@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t longest_path = 250;
 
 // Returns the useful part of a message of VTK. The message is "ERROR: In FILE, line N\nvtkClass (0xADDRESS): message\n\n".
-// Only its last part helps users.
+// Only the message's last part helps users.
 std::string message_of(const std::string &vtk_text) {
   const std::size_t object = vtk_text.find("): ");
   const std::string message = object == std::string::npos ? vtk_text : vtk_text.substr(object + 3);
@@ -43,8 +43,8 @@ std::string printable(std::string text) {
   return text;
 }
 
-// Thrown if memory runs out while a file is read or written. It contains the text itself, because there may be no memory for a
-// string.
+// Thrown if memory runs out during the reading or writing of a file. The exception contains the text itself, because there may be
+// no memory for a string.
 struct OutOfMemory {
   char text[longest_path + 32];
 };

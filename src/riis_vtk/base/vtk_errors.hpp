@@ -71,8 +71,8 @@ auto naming(const std::string &path, const Work &work) {
 }
 // Throws if `status` is an error of the core. Keeps the core's message.
 void check_core(riis_status status);
-// Fails unless the size is a multiple of 8 and lies between first_size and size_here, both included. These are the struct's sizes
-// in its first release and in this release.
+// Fails unless the size is a multiple of 8 and lies between first_size and size_here, both included. The limits are the struct's
+// sizes in its first release and in this release.
 void check_struct_size(std::int64_t size, std::int64_t first_size, std::int64_t size_here, const char *name);
 
 template <class T>
@@ -89,9 +89,8 @@ void destroy(Object **object) {
   *object = nullptr;
 }
 
-// While an object of this type exists, it replaces VTK's process-wide output window, and silences VTK's log on stderr, which
-// repeats every error. VTK tells only the highest level of all its logs, so the destructor gives this level to the log
-// on stderr.
+// While it exists, an object of this type replaces VTK's process-wide output window. It also silences VTK's log on stderr, which
+// repeats every error. VTK tells only the highest level of all its logs, so the destructor gives this level to the log on stderr.
 class CaughtOutput {
  public:
   CaughtOutput();
@@ -112,8 +111,8 @@ class CaughtOutput {
 };
 
 // While an object of this type lives, numbers have decimal points. After a caller's setlocale(LC_ALL, "de_DE.UTF-8"), VTK's
-// readers would read "1.5" as 1. Only this thread's locale changes. But VTK's legacy reader sets the locale of the process to
-// "C" and leaves it so. Therefore the destructor also restores the process's locale.
+// readers would read "1.5" as 1. Only this thread's locale changes. VTK's legacy reader, however, sets the locale of the whole
+// process to "C" for good. Therefore the destructor also restores the process's locale.
 class NumericLocale {
  public:
   NumericLocale() : callers_(setlocale(LC_ALL, nullptr)), points_(newlocale(LC_NUMERIC_MASK, "C", nullptr)) {

@@ -121,7 +121,7 @@ void choose_cells(riis_vtk_mesh &mesh, const Where &where, std::int64_t *n_chose
 
 // ---- Regions ----
 
-// Arrays with such words in their names tell something else of a cell than its domain.
+// Arrays with such words in their names do not name domains of cells.
 bool may_tell_domains(const std::string &array_name) {
   std::string name = array_name;
   for (char &c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -134,8 +134,8 @@ bool may_tell_domains(const std::string &array_name) {
 
 constexpr std::size_t most_regions = 16;
 
-// Returns the values of volume cells, if they are few whole numbers, and two of them are of cells of one type with a common node.
-// Otherwise returns none. A domain of several types of cells often has a block for each of them, as Exodus needs.
+// Returns the values of volume cells if the values are few whole numbers, and two cells of one type with a common node have two
+// values. Otherwise returns none. A domain of several types of cells often has a block for each of them, as Exodus needs.
 std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *array) {
   std::set<double> values;
   // The value and the type of the first cell at each node.
@@ -163,8 +163,8 @@ std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *arr
   return {values.begin(), values.end()};
 }
 
-// As touching_values, for the cells of axes. Two of these with different values touch somewhere, because each cell is beside the
-// next one.
+// As touching_values, for the cells of axes. Two cells with different values touch somewhere, because each cell is beside the
+// next cell.
 std::vector<double> values_on_axes(vtkDataArray *array) {
   std::set<double> values;
   for (vtkIdType cell = 0; cell < array->GetNumberOfTuples(); ++cell) {

@@ -16,7 +16,7 @@ constexpr double least_rest = 0.1;  // of the wall's area, without its flat ends
 }  // namespace
 
 FlatParts flat_ends(vtkPolyData *faces) {
-  // Faces of files may have any winding. This filter turns neighbours alike, but perhaps inwards.
+  // Faces of files may have any winding. The filter turns neighbours alike, but perhaps inwards.
   vtkNew<vtkPolyDataNormals> alike;
   alike->SetInputData(faces);
   alike->SplittingOff();

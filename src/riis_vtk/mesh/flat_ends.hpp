@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the faces of a wall. Out: its flat ends, such as an inlet.
+// In: the faces of a wall. Out: the surface's flat ends, such as an inlet.
 #pragma once
 
 #include <cstdint>

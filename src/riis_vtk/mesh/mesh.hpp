@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mesh handle holds a grid.
-// In: a grid whose cells are checked. Out: the edges of its cells, their typical length, and its linear volume cells as plain
-// arrays for riis_adjacency_create_from_cells.
+// In: a grid whose cells are checked. Out: the edges of the mesh's cells, the typical length of these edges, and the mesh's
+// linear volume cells as plain arrays for riis_adjacency_create_from_cells.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -48,7 +48,7 @@ struct riis_vtk_mesh {
   std::unique_ptr<const riis::vtk::GridAxes> axes = {};
   std::string notes = {};      // the notes that riis_vtk_mesh_get_notes gives
   std::string foam_case = {};  // the folder of the case that the mesh was read from, or ""
-  // If there are centres, they are the mesh's nodes, and data of nodes is data of cells.
+  // Centres, if any, are the mesh's nodes, and data of nodes is then data of cells.
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
   std::vector<riis::vtk::RegionName> region_names = {};  // of gmsh's physical groups of volumes
   riis::vtk::Regions regions = {};                       // as riis_vtk_mesh_find_regions found them
@@ -80,7 +80,7 @@ void write_axes(const std::string &path, const riis_vtk_mesh &mesh, const Caught
 void make_points_double(vtkUnstructuredGrid *grid);
 
 // The properties that all cells of one VTK type have in common. Nodes are positions in the cell's list of nodes. Edges and faces
-// are empty if they depend on the cell.
+// are empty for types whose cells differ in them.
 using Edge = std::array<vtkIdType, 2>;
 struct CellShape {
   struct Face {
@@ -98,12 +98,12 @@ struct VolumeCounts {
   std::int64_t n_linear = 0;   // the volume cells that volume_cells_of returns
   std::int64_t n_unknown = 0;  // the volume cells whose edges are not known
 };
-// `ghosts`, by cell, may be NULL. Cells that it marks as copies of another piece's cells do not count.
+// `ghosts`, by cell, may be NULL. Cells that `ghosts` marks as copies of another piece's cells do not count.
 VolumeCounts count_volumes(vtkUnstructuredGrid *grid, vtkUnsignedCharArray *ghosts = nullptr);
 
 struct VolumeCells {
   std::vector<std::int64_t> node_ids;
-  std::vector<std::int64_t> offsets = {0};  // one entry more than there are cells
+  std::vector<std::int64_t> offsets = {0};  // the number of cells plus one entries
 };
 
 // Returns tetrahedra, pyramids, wedges and hexahedra, and also voxels as hexahedra. Leaves out other cells.

@@ -24,13 +24,13 @@ struct Face {
   int number;  // the face's position in its cell
 };
 
-// The faces that only one cell has had so far. Neighbouring cells are mostly near each other in the list, so there are few such
-// faces at any time.
+// The faces of only one cell so far. Neighbouring cells are mostly near each other in the list, so there are few such faces at
+// any time.
 class LoneFaces {
  public:
   explicit LoneFaces(vtkIdType n_points) : first_(static_cast<std::size_t>(n_points), -1) {}
 
-  // Adds a face. If the face already exists, two cells share it, and it is removed.
+  // Adds a face. A face that already exists belongs to two cells, and is removed.
   void toggle(const Corners &corners, Face face) {
     Key key = {-1, -1, -1, -1};
     std::partial_sort_copy(corners.begin(), corners.end(), key.begin(), key.end());
@@ -114,7 +114,7 @@ class Collected {
   vtkNew<vtkCellArray> polygons_;
 };
 
-// Reverses a face whose corners run clockwise, seen from outside its cell. Such faces come from inverted cells.
+// Reverses a face whose corners run clockwise, seen from outside its cell. Clockwise faces come from inverted cells.
 void turn_outwards(vtkUnstructuredGrid *grid, vtkIdType cell, Corners &corners) {
   vtkNew<vtkIdList> nodes;
   grid->GetCellPoints(cell, nodes);

@@ -118,8 +118,8 @@ std::unique_ptr<riis_vtk_pieces> read_pieces(const std::string &path, const Caug
   });
   check_declared(path, made->point_arrays);
   check_declared(path, made->cell_arrays);
-  // dolfinx numbers the nodes of all ranks in this array. A file of functions gives a shared node other coordinates on each
-  // rank, in their last bits, so it is refused. Filters of VTK number the nodes of each piece, and VTK's writer states the order
+  // dolfinx numbers the nodes of all ranks in this array. A file of functions is refused, because its coordinates of a shared
+  // node differ between ranks in the last bits. Filters of VTK number the nodes of each piece, and VTK's writer states the order
   // of bytes.
   made->has_ids_of_dolfinx = !has_byte_order && std::any_of(made->point_arrays.begin(), made->point_arrays.end(),
                                                             [](const Declared &a) { return a.name == ids_of_dolfinx; });
@@ -161,7 +161,7 @@ std::vector<Declared> arrays_of(vtkFieldData *data) {
   return arrays;
 }
 
-// Refuses a piece whose arrays differ from the declared arrays. The pieces would otherwise not form one mesh.
+// Refuses a piece whose arrays differ from the declared arrays. Pieces with other arrays would not form one mesh.
 void check_arrays(const riis_vtk_pieces &pieces, const std::string &path, const char *kind, vtkFieldData *data,
                   const std::vector<Declared> &declared) {
   const std::vector<Declared> arrays = arrays_of(data);
@@ -231,8 +231,8 @@ vtkUnsignedCharArray *ghosts_of(vtkDataSetAttributes *data, const char *kind) {
 }
 
 // Finds the nodes that other pieces may share. A face that two cells of a piece share is inside the piece. Each node keeps the
-// combined bits of its faces. A face inside the piece is combined twice, and then leaves nothing. So it is known without a
-// list of faces whether all faces of a node are inside. For each node, the answer is wrong with a probability of 2^-64.
+// combined bits of its faces. A face inside the piece is combined twice, and then leaves nothing. Whether all faces of a node are
+// inside is thus known without a list of faces. For each node, the answer is wrong with a probability of 2^-64.
 class NodeRoles {
  public:
   explicit NodeRoles(vtkUnstructuredGrid *grid)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which points lie outside a mesh. First each cell tells which points it contains. Then the faces of the cells near the other
-// points become a surface of the core, which tells the distances of these points.
+// Which points lie outside a mesh. First each cell tells which points it contains. After that, the faces of the cells near the
+// other points become a surface, and the core tells the points' distances from the surface.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -99,7 +99,7 @@ class PointGrid {
 };
 
 // The volume cells of a mesh as tetrahedra and triangles. A cell is cut around its middle, and a face with more than three
-// corners around its own. So a neighbour cuts their common face in the same way.
+// corners around the face's middle. Two neighbours thus cut their common face in the same way.
 class SolidCells {
  public:
   explicit SolidCells(vtkUnstructuredGrid *grid)

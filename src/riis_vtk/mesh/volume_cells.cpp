@@ -112,8 +112,8 @@ CellShape shape_from_vtk(int type) {
 using Orders = std::array<int, 4>;  // the orders along three axes, then the number of nodes, as in VTK
 
 void add_tetrahedron_lattice(int order, std::vector<Edge> &edges) {
-  // A small tetrahedron is given by four whole numbers whose sum is order - 1. If 1 is added to one of them, they are a
-  // corner's barycentric coordinates.
+  // A small tetrahedron is given by four whole numbers whose sum is order - 1. With 1 added to one of the four numbers, they are
+  // a corner's barycentric coordinates.
   for (vtkIdType i = 0; i < order; ++i)
     for (vtkIdType j = 0; i + j < order; ++j)
       for (vtkIdType k = 0; i + j + k < order; ++k) {
@@ -155,7 +155,7 @@ void add_wedge_lattice(const Orders &orders, std::vector<Edge> &edges) {
       }
 }
 
-// Returns the number of nodes of a lattice. It is a double, because the orders may be arbitrarily large.
+// Returns the number of nodes of a lattice. The number is a double, because the orders may be arbitrarily large.
 double n_lattice_nodes(int type, const Orders &orders) {
   const double n[3] = {orders[0] + 1.0, orders[1] + 1.0, orders[2] + 1.0};
   if (type == VTK_LAGRANGE_TETRAHEDRON || type == VTK_BEZIER_TETRAHEDRON) return n[0] * (n[0] + 1) * (n[0] + 2) / 6;
@@ -180,8 +180,8 @@ std::vector<Edge> lattice_edges(int type, const Orders &orders) {
   return edges;
 }
 
-// Finds the orders of a cell with n_nodes nodes. The file gives them (`given`), or they are equal along all axes. Returns false
-// if neither fits n_nodes, because the nodes then form no lattice.
+// Finds the orders of a cell with n_nodes nodes. The file gives the orders (`given`), or the orders are equal along all axes.
+// Returns false if neither fits n_nodes, because the nodes then form no lattice.
 bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &orders) {
   orders[3] = static_cast<int>(n_nodes);
   const auto fit = [&] {
@@ -234,7 +234,8 @@ class CellEdges {
     return is_lattice(type) ? lattice_of(type, cell, n) : shape_of(type).edges;
   }
 
-  // Lists the edges of a polyhedron. Its stream of faces has the number of faces, and then the size and the nodes of each face.
+  // Lists the edges of a polyhedron. The polyhedron's stream of faces has the number of faces, and then the size and the nodes of
+  // each face.
   void list_polyhedron(vtkIdType cell) {
     edges_.clear();
     grid_->GetFaceStream(cell, faces_);

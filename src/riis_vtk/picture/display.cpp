@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the X display. This code has its own file, because X11's headers define macros with names that VTK's headers use.
+// Opens the X display. The code has its own file, because X11's headers define macros with names that VTK's headers use.
 #include <chrono>
 #include <cstdlib>
 #include <thread>
@@ -27,8 +27,8 @@ Display *open_display() {
   }
 }
 
-// Returns whether VTK's OpenGL can draw on the display. The OpenGL library in use says this: some, such as that of the program's
-// archive, draw by X alone and do without the server's extension. VTK has loaded the library.
+// Returns whether VTK's OpenGL can draw on the display. The OpenGL library in use decides. Some libraries, such as the one in the
+// program's archive, draw by X alone, without the server's extension. VTK has loaded the library.
 bool has_opengl(Display *display) {
   int opcode = 0, event = 0, error = 0;
   using Query = int(Display *, int *, int *);

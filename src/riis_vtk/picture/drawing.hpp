@@ -30,8 +30,8 @@ class HeldDisplay {
   [[maybe_unused]] _XDisplay *display_ = nullptr;  // not used on macOS
 };
 
-// Blue, orange, bluish green, reddish purple, vermilion and sky blue. They are distinct for all kinds of colour vision (Okabe,
-// Ito 2008).
+// Blue, orange, bluish green, reddish purple, vermilion and sky blue. These colours are distinct for all kinds of colour vision
+// (Okabe, Ito 2008).
 inline constexpr unsigned char distinct_colours[][3] = {{0, 114, 178},   {230, 159, 0}, {0, 158, 115},
                                                         {204, 121, 167}, {213, 94, 0},  {86, 180, 233}};
 

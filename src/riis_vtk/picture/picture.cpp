@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of riis_vtk.h. Draws a surface and a marked mesh, seen by one camera, into .png files. The caller's picture options
-// may have the size of any release. They are converted to this release's struct and checked. The message of a failure names the
-// field and its value.
+// may have the size of any release. The options are converted to this release's struct and checked. The message of a failure
+// names the field and its value.
 #include <riis/riis_vtk.h>
 
 #include <cmath>
@@ -90,7 +90,7 @@ riis_vtk_picture_options completed_picture_options(const riis_vtk_picture_option
   return whole;
 }
 
-// Checks a view. `argument` is the caller's name for it.
+// Checks a view. `argument` is the caller's name for the view.
 void check_view(std::int32_t view, const char *argument) {
   if (view < RIIS_VTK_VIEW_SIDE || view > RIIS_VTK_VIEW_VALVE_THREE) {
     refuse_argument(argument, " is ", view, ", not a RIIS_VTK_VIEW_*");

@@ -196,16 +196,16 @@ void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
   counts_ = {grid->GetNumberOfPoints(), std::count(marked.begin(), marked.end(), 1),
              std::count(parts.begin(), parts.end(), whole_marked),
              std::count(parts.begin(), parts.end(), partly_marked)};
-  // Faces between wholly and partly marked cells are left out. They are never visible, because the partly marked cells surround
-  // the whole ones.
+  // Faces between wholly and partly marked cells are left out. Such faces are never visible, because partly marked cells surround
+  // wholly marked cells.
   std::vector<std::uint8_t> chosen(parts.size());
   std::transform(parts.begin(), parts.end(), chosen.begin(), [](std::uint8_t part) { return part == partly_marked; });
   const Outside partly = outside_of(grid, &parts, &chosen);
   colour_faces(partly.faces, leaflets_of(grid, partly.cell_id), pale);
   partly_length_ = mean_edge_length(partly.faces);
   partly_ = coloured_actor(partly.faces);
-  // Faces that look towards the eye would hide the whole cells, so they are not drawn. The other faces are visible around whole
-  // cells and in gaps between them.
+  // Faces that look towards the eye are not drawn, because they would hide the whole cells. The other faces are visible around
+  // whole cells and in gaps between them.
   partly_->GetProperty()->SetFrontfaceCulling(partly.of_volumes);
   partly_->GetProperty()->SetAmbient(0.6);
   partly_->GetProperty()->SetDiffuse(0.45);

@@ -84,7 +84,8 @@ void add_text(vtkRenderer *renderer, const std::string &text, double x, double y
   renderer->AddViewProp(actor);
 }
 
-// Adds a text. If it is too long, uses smaller letters. If it does not fit even with the smallest letters, its end is cut off.
+// Adds a text. Uses smaller letters for a text that is too long. A text that does not fit even with the smallest letters is cut
+// off at its end.
 void add_fitting_text(vtkRenderer *renderer, std::string text, double x, double y, double width, int letter,
                       const Colour &colour) {
   while (letter > least_letter && width_of(text, letter) > width) --letter;
@@ -203,8 +204,8 @@ void add_key(vtkRenderer *renderer, const Layout &layout, int column, double lef
   }
 }
 
-// Draws all texts of a picture in a layer behind its panels. `unit` follows the number at the scale bar. If has_plural is true,
-// the unit gets an s, unless the number is 1.
+// Draws all texts of a picture in a layer behind its panels. `unit` follows the number at the scale bar. With has_plural, the
+// unit of each number other than 1 gets an s.
 vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &columns,
                                               const View &view, const Sight &sight, const std::string &unit,
                                               bool has_plural, const Colour &ink) {
@@ -276,8 +277,8 @@ std::vector<PanelTexts> texts_of_columns(const std::vector<PanelTexts> &panels, 
   return columns;
 }
 
-// Returns a picture with transparency, from one picture on black and one on white. A pixel is opaque if it is the same in both,
-// and clear if it is black and white. This holds whatever was blended, and in whatever order.
+// Returns a picture with transparency, from a picture on black and a picture on white. A pixel with the same colour in both
+// images is opaque, and a pixel that is black and white is clear. The rule holds for any blended objects, in any order.
 vtkSmartPointer<vtkImageData> transparent_from(vtkImageData *on_black, vtkImageData *on_white) {
   int size[3];
   on_black->GetDimensions(size);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window of a picture. It has panels, and bands above and below them with captions, the key of colours, axes and a scale
-// bar. It can show several surfaces and marks one after another, each in any view.
+// The window of a picture. The window has panels, and bands above and below the panels with captions, the key of colours, axes
+// and a scale bar. It can show several surfaces and marks one after another, each in any view.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -59,7 +59,7 @@ struct MarkCounts {
   vtkIdType n_partly_cells = 0;  // cells with some but not all nodes marked
 };
 
-// The panel with marked cells. A cell has the colour of its closest node's leaflet. If it is partly marked, the colour is paler.
+// The panel with marked cells. A cell has the colour of its closest node's leaflet. A partly marked cell has a paler colour.
 // Leaking edges are red. Cells below the grid's largest dimension are left out.
 class MarksPanel {
  public:
@@ -85,7 +85,8 @@ class MarksPanel {
 };
 
 // The positions of a picture's parts, in pixels from the lower left corner. A picture that is not high enough for bands has no
-// texts. The panels are side by side. In a column of three views they are above each other. Texts belong to a column of panels.
+// texts. The panels are side by side. In a column of three views the panels are above each other. Texts belong to a column of
+// panels.
 class Layout {
  public:
   enum class Panels { side_by_side, stacked };
@@ -101,8 +102,8 @@ class Layout {
   double column_left(int column) const { return width_ * static_cast<double>(column) / n_columns_; }
   double panel_width() const { return width_ / static_cast<double>(n_columns_); }
   double panel_height() const { return (height_ - top_ - bottom_) / n_rows_; }
-  // Both functions return the lower end of a line of text. The caption's lines are counted from the top of the picture. The key's
-  // lines are counted downwards from the panels.
+  // caption_line and key_line return the lower end of a line of text. The caption's lines are counted from the top of the
+  // picture. The key's lines are counted downwards from the panels.
   double caption_line(int line) const { return height_ - 1.6 * letter_ * (line + 1); }
   double key_line(int line) const { return bottom_ - 1.6 * letter_ * (line + 1); }
   double bottom() const { return bottom_; }
@@ -146,12 +147,12 @@ void check_has_marks(const riis_vtk_mesh *mesh);
 
 class Scene {
  public:
-  // Makes the window. If `grid` is NULL, it shows only the surface.
+  // Makes the window. If `grid` is NULL, the window shows only the surface.
   Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options);
   ~Scene();
   // Shows the surface, and the marks that the grid has at present. If `title` is NULL, the title is "Surface".
   void show(const riis_surface *surface, const char *title, const Leaks &leaks);
-  // Draws a view, or three views side by side. `seen` is the box that the camera shows. Without it, the camera shows the
+  // Draws a view, or three views side by side. `seen` is the box that the camera shows. Without this box, the camera shows the
   // surface's box.
   vtkSmartPointer<vtkImageData> picture(std::int32_t of, const std::optional<Bounds> &seen);
 
@@ -175,7 +176,7 @@ class Scene {
   SurfacePanel surface_;
   std::optional<MarksPanel> marks_;      // not set without a mesh, and if the picture shows only the surface
   vtkSmartPointer<vtkPointSet> around_;  // the grid, or the wall of the options; NULL if there is neither
-  std::optional<Shell> shell_;           // set if there is one of them
+  std::optional<Shell> shell_;           // set if there is a grid or a wall
   std::vector<PanelTexts> texts_;
   vtkNew<vtkCamera> camera_;
   vtkNew<vtkRenderWindow> window_;

@@ -20,7 +20,8 @@ class Shell {
   // colour of the rims, and `pixels` is their width.
   Shell(vtkPolyData *faces, double grey, const Colour &line, double pixels);
   void add_to(vtkRenderer *renderer) const;
-  // Turns to a view. The shell is denser where it is seen at a grazing angle. If it extends beyond the panel, it is cut there.
+  // Turns to a view. The shell is denser where it is seen at a grazing angle. A shell that extends beyond the panel is cut at the
+  // panel's side.
   void look(const View &view, const Sight &sight);
 
  private:

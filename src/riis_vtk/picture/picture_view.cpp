@@ -51,7 +51,7 @@ void grow(Extents &extents, const View &view, const double point[3]) {
   }
 }
 
-// A side of the panel that cuts the mesh. It has an axis, a position on the axis, and the direction towards the part that
+// A side of the panel that cuts the mesh. The side has an axis, a position on the axis, and the direction towards the part that
 // remains.
 struct Side {
   std::size_t axis;

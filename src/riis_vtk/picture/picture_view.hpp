@@ -41,7 +41,7 @@ Axes axes_turned(const double axis[3], double degrees);
 struct View {
   std::array<Vector, 3> axes;
 
-  // `view` is RIIS_VTK_VIEW_*, but not one of three views. `valve` is used by the views that look by the valve's axes.
+  // `view` is a single view of RIIS_VTK_VIEW_*, not three views. Views along the valve's axes use `valve`.
   View(std::int32_t view, const Axes &valve);
   const Vector &right() const { return axes[0]; }
   const Vector &up() const { return axes[1]; }
@@ -61,7 +61,7 @@ struct Sight {
 };
 
 // Returns a sight that contains the surface. Along an axis on which the mesh is not much larger, the sight also contains the
-// mesh. So pictures of a valve that moves in one mesh can be compared. Along other axes, the sight contains the surface's
+// mesh. Pictures of a valve that moves in one mesh can thus be compared. Along other axes, the sight contains the surface's
 // neighbourhood.
 //   mesh    NULL if there is none
 //   aspect  the panel's width divided by its height
@@ -70,7 +70,7 @@ Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, doubl
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);
 
-// Returns planes for the mapper of the mesh. There are none if the whole mesh is in sight.
+// Returns planes for the mapper of the mesh. A mesh that is wholly in sight has no planes.
 std::vector<vtkSmartPointer<vtkPlane>> cutting_planes(const View &view, const Sight &sight);
 
 // Returns dashed lines where the planes cut the boundary. The lines are nearer to the eye than everything else.

@@ -62,7 +62,7 @@ void join_arrays(const std::vector<Block> &blocks, vtkIdType n, const DataOf &da
   }
 }
 
-// Joins blocks. Their cells follow each other in the order of the blocks. The cell array `block_array` has their numbers.
+// Joins blocks. The cells follow each other in the order of the blocks. The cell array `block_array` has their numbers.
 vtkSmartPointer<vtkUnstructuredGrid> join(const std::vector<Block> &blocks, vtkIdType n_nodes,
                                           const std::vector<std::int32_t> &numbers, const char *block_array) {
   PlainGrid mesh;

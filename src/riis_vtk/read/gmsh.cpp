@@ -47,8 +47,8 @@ const ElementType *find_type(std::int64_t gmsh_type) {
       {18, 15, VTK_QUADRATIC_WEDGE, {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10}},
       {13, 18, VTK_BIQUADRATIC_QUADRATIC_WEDGE, {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10, 16, 17, 15}},
       {19, 13, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
-      // VTK 9.1 has no pyramid with a node in the middle of its base. This node stays a node of the mesh, and the cell on the
-      // other side of the base has its edges.
+      // VTK 9.1 has no pyramid with a node in the middle of its base. The node in the middle stays a node of the mesh, and the
+      // cell on the other side of the base has the edges of this node.
       {14, 14, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
   };
   const auto found =
@@ -197,7 +197,7 @@ class GmshFile {
     expect_end_of(section);
   }
 
-  // Reads the names of groups of volumes: lines DIMENSION NUMBER "NAME", also in a binary file. Skips what is no such line.
+  // Reads the names of groups of volumes: lines DIMENSION NUMBER "NAME", also in a binary file. Skips other lines.
   void read_names() {
     const std::size_t end = in_.rest().find("$EndPhysicalNames");
     if (end == std::string_view::npos) fail_file(path_, "is truncated: it ends before $EndPhysicalNames");
@@ -403,7 +403,7 @@ class GmshFile {
   }
 
   // Version 2 lists an element once for each of its physical groups, each time with another number. Keeps the first of
-  // these elements, and returns how many are left out. If equal elements are in one group, all stay.
+  // these elements, and returns how many are left out. Equal elements in one group all stay.
   std::int64_t drop_copies() {
     const bool are_grouped =
         std::any_of(physical_.begin(), physical_.end(), [&](std::int32_t group) { return group != physical_[0]; });

@@ -80,8 +80,7 @@ void check_faces(const std::string &path, vtkCellArray *faces, vtkIdType first_i
   }
 }
 
-// Returns the number of points for each type of cell. The number is 0 if it depends on the cell, and -1 if the type does not
-// exist.
+// Returns the number of points for each type of cell. The number is 0 for a type whose cells differ, and -1 for an unknown type.
 std::array<int, 256> points_of_cell_types() {
   std::array<int, 256> n_points{};
   for (int type = 0; type < 256; ++type) {
@@ -186,7 +185,7 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
     }
   }
 
-  // Reads n values of an array of the cells. Fails unless the file holds them.
+  // Reads n values of an array of the cells. Fails unless the file holds these values.
   Ids ids_in(vtkXMLDataElement *cells, const char *name, vtkIdType n) {
     vtkXMLDataElement *element = FindDataArrayWithName(cells, name);
     const auto created = vtkSmartPointer<vtkAbstractArray>::Take(element ? CreateArray(element) : nullptr);

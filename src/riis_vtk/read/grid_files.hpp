@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: a path. Out: a VTK data set that has the sizes stated in the file, and whose cells refer only to existing points. VTK
-// continues after many errors and returns an incomplete data set. These functions refuse an incomplete file. The scans declared
-// below find most errors before VTK reads the file.
+// continues after many errors and returns an incomplete data set. The functions of this file refuse an incomplete file. The scans
+// declared below find most errors before VTK reads the file.
 #pragma once
 
 #include <array>
@@ -24,13 +24,13 @@ enum class Points { required, may_be_missing };
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught,
                                                Points points = Points::required);
 
-// Fails unless each array has n values. `kind` names them in the message.
+// Fails unless each array has n values. `kind` names the kind of data in the message.
 void check_array_lengths(const std::string &path, vtkFieldData *data, const char *kind, vtkIdType n);
 
 // Fails unless the grid has points, and its cells have types, sizes and points that exist.
 void check_grid(const std::string &path, vtkUnstructuredGrid *grid);
 
-// Reads polydata with at least one point from a .vtp (XML) file. Its cells are only polygons and strips.
+// Reads polydata with at least one point from a .vtp (XML) file. The cells of polydata are only polygons and strips.
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught);
 
 // Reads a legacy .vtk file with polydata or with a grid, checked as by read_polydata and read_grid.

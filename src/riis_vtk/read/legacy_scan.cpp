@@ -78,7 +78,7 @@ bool begins_with(std::string_view text, std::string_view what) { return text.sub
 // A sequence of whole numbers. The scan has already checked that the numbers exist and are valid.
 class Numbers {
  public:
-  // `size` is the number of bytes of each number in a binary file, 4 or 8. It is 0 for an ASCII file.
+  // `size` is the number of bytes of each number in a binary file, 4 or 8. `size` is 0 for an ASCII file.
   Numbers(std::string_view from, int size) : rest_(from), size_(size) {}
 
   std::int64_t next() {
@@ -149,7 +149,7 @@ class Scan {
   // Returns the next word in lower case, or "" at the end of the file. The format mostly ignores case.
   std::string word() { return lower_case(word_as_it_is()); }
 
-  // Both of these functions return the next word, and fail at the end of the file.
+  // The next two functions return the next word, and fail at the end of the file.
   std::string_view next_as_it_is() {
     const std::string_view text = word_as_it_is();
     if (text.empty()) refuse_end();
@@ -312,14 +312,15 @@ class Scan {
         key = nullptr;
       } else if (const std::string lower = lower_case(keyword);
                  begins_with(lower, "information") || begins_with(lower, "component_names")) {
-        // These lines are refused, because VTK would take them for the beginning of another block.
+        // Lines that begin with such words are refused, because VTK would take them for the beginning of another block.
         refuse("has metadata with '", keyword.substr(0, 40), "' behind INFORMATION");
       }
     }
     if (n_found != n_keys || key) refuse("has INFORMATION of ", n_keys, " keys and gives ", n_found);
   }
 
-  // Skips the values of a key that VTK knows. They are a string, a number, or a count followed by that many strings or numbers.
+  // Skips the values of a key that VTK knows. The values are a string, a number, or a count followed by that many strings or
+  // numbers.
   void skip_data(vtkInformationKey *key, std::string_view text) {
     if (vtkInformationStringKey::SafeDownCast(key)) return;
     const bool are_texts = vtkInformationStringVectorKey::SafeDownCast(key) != nullptr;
@@ -449,7 +450,7 @@ class Scan {
     if (n_left != 0) refuse("has ", name, " with ", n_left, " numbers too many");
   }
 
-  // Returns the values of an array whose type was the last word. They begin on the next line.
+  // Returns the values of an array whose type was the last word. The values begin on the next line.
   std::string_view values_behind_line() const {
     std::string_view values = rest_;
     take_line(values);
@@ -493,7 +494,7 @@ class Scan {
     }
   }
 
-  // Checks the n numbers of a polyhedron. They are the number of its faces and, for each face, the number of its points and the
+  // Checks the n numbers of a polyhedron. The numbers are the number of faces and, for each face, the number of points and the
   // points.
   void check_polyhedron(std::int64_t cell, std::int64_t n, Numbers &corners) const {
     const auto broken = [&] { refuse("cell ", cell, " has broken polyhedron faces"); };
@@ -547,7 +548,7 @@ class Scan {
     return true;
   }
 
-  // In a binary file, colours are bytes. In an ASCII file, they are numbers from 0 to 1.
+  // In a binary file, colours are bytes. In an ASCII file, the values are numbers from 0 to 1.
   std::string type_of_colors() const { return binary_ ? "unsigned_char" : "float"; }
 
   void scalars() {

@@ -255,8 +255,8 @@ class FoamFile {
     expect(")");
   }
 
-  // Such a list is longer than its file, so it has a separate limit. The limit is the number of entries that a mesh of one
-  // block of cells could need.
+  // A list of equal entries is longer than its file, so such a list has a separate limit. The limit is the number of entries that
+  // a mesh of one block of cells could need.
   template <class ReadOne>
   void read_equal(std::int64_t n, const char *things, const ReadOne &read_one) {
     constexpr std::int64_t most = 1 << 20;
@@ -345,7 +345,7 @@ Corners sorted(Corners corners) {
   return corners;
 }
 
-// One of VTK's linear cells, which has a base. Its other nodes are one apex, or one node above each node of the base.
+// One of VTK's linear cells, which has a base. The other nodes of the cell are one apex, or one node above each node of the base.
 struct Shape {
   int vtk_type;
   std::int64_t n_faces, base_size, n_nodes;
@@ -374,7 +374,7 @@ vtkIdType node_above(const Faces &faces, const std::vector<CellFace> &cell, cons
   return above;
 }
 
-// Returns the cell's nodes in VTK's order if it has this shape, otherwise none.
+// Returns the nodes of a cell of this shape in VTK's order, and no nodes for another cell.
 Corners nodes_as(const Shape &shape, const Faces &faces, const std::vector<CellFace> &cell) {
   if (static_cast<std::int64_t>(cell.size()) != shape.n_faces) return {};
   const auto base_face =
@@ -455,7 +455,8 @@ bool read_folder(const Folders &folders, PlainGrid &mesh) {
 
 // ---- Decomposed cases ----
 
-// Returns the ids that the parts' nodes or cells have in the whole mesh. Fails unless they are all ids from 0 to some number.
+// Returns the ids that the parts' nodes or cells have in the whole mesh. Fails unless the ids are all numbers from 0 to some
+// number.
 std::vector<Ids> read_addresses(const std::vector<fs::path> &folders, const char *name, const Ids &sizes) {
   std::vector<Ids> all;
   std::int64_t n_claimed = 0, most = -1;

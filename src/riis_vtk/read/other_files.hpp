@@ -111,8 +111,8 @@ class Source {
   std::string_view bytes_, rest_;
 };
 
-// In: the bytes of an XML file. Out: its elements. This suffices for XDMF and .vtm files: names, attributes, and the text before
-// an element's first child. Declarations and comments are skipped, and a document type is not followed.
+// In: the bytes of an XML file. Out: its elements. Elements suffice for XDMF and .vtm files: names, attributes, and the text
+// before an element's first child. Declarations and comments are skipped, and a document type is not followed.
 struct XmlElement {
   std::string name;
   std::map<std::string, std::string> attributes;

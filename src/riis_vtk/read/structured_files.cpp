@@ -46,7 +46,8 @@ std::vector<std::int64_t> corners_of_first(const std::array<std::int64_t, 3> &n)
   return corners;
 }
 
-// Returns whether the corners of a hexahedron have the wrong orientation. This is so if an odd number of axes descends.
+// Returns whether the corners of a hexahedron have the wrong orientation. An odd number of descending axes makes the wrong
+// orientation.
 bool is_turned_over(vtkPoints *points, const std::vector<std::int64_t> &corners) {
   double at[4][3], side[3][3];
   constexpr std::size_t of[4] = {0, 1, 3, 4};
@@ -102,7 +103,7 @@ Sizes sizes_of(DataSet *data) {
   return {sizes[0], sizes[1], sizes[2]};
 }
 
-// Returns the axes, unless an axis has one node or does not strictly ascend.
+// Returns the axes if each axis strictly ascends and has two or more nodes.
 std::unique_ptr<const GridAxes> usable(GridAxes axes) {
   for (const std::vector<double> &axis : axes.of) {
     const bool ascends =

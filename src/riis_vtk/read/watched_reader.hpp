@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// VTK's readers, watched: an array is refused before VTK reads it if the file holds less data than VTK would read, and the data
-// set has the sizes that the file states.
+// VTK's readers, watched. If the file holds less data than an array needs, the array is refused before VTK reads it. The data set
+// has the sizes that the file states.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace riis::vtk {
   fail_file(path, "cell ", cell, " has broken polyhedron faces");
 }
 
-// Runs steps in callbacks from VTK. Exceptions must not pass through VTK, so the first one is kept, and rethrow() throws it
+// Runs steps in callbacks from VTK. Exceptions must not pass through VTK, so the first exception is kept, and rethrow() throws it
 // later.
 class Steps {
  public:

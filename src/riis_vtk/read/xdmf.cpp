@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// XDMF: an .xdmf file describes a mesh, and the numbers are in it, in HDF5 files or in plain binary files (xdmf.org, "XDMF Model
-// and Format"). It is read as FEniCS, dolfinx and meshio write it. The nodes of a cell have VTK's order, as in these programs.
+// XDMF: an .xdmf file describes a mesh, and the numbers are in this file, in HDF5 files or in plain binary files (xdmf.org, "XDMF
+// Model and Format"). The reader knows XDMF as FEniCS, dolfinx and meshio write it. The nodes of a cell have VTK's order, as in
+// these programs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -118,7 +119,7 @@ class XdmfFile {
     fail_file(path_, "has a Grid without a Topology or without a Geometry");
   }
 
-  // Returns the name in a pointer such as //Grid[@Name="mesh"]/..., or "" if it names none.
+  // Returns the name in a pointer such as //Grid[@Name="mesh"]/..., or "" for a pointer without a name.
   static std::string named_in(const std::string &pointer) {
     const std::string begin = "@Name=";
     const std::size_t at = pointer.find(begin);
@@ -127,8 +128,8 @@ class XdmfFile {
     return pointer.substr(first, pointer.find(pointer[first - 1], first) - first);
   }
 
-  // Returns the first grid that itself has a part of a mesh, and that has the given name or is in a grid of this name. The
-  // name "" stands for any name. Returns NULL if there is no such grid.
+  // Returns the first grid with its own part of a mesh and with the given name, on itself or on a grid around it. The name ""
+  // stands for any name. Returns NULL if there is no such grid.
   static const XmlElement *grid_with(const XmlElement &parent, const char *part, const std::string &name) {
     for (const XmlElement &child : parent.children) {
       if (child.name != "Grid") continue;
@@ -386,7 +387,7 @@ const Topology *topology_of(vtkUnstructuredGrid *grid, vtkIdType cell) {
   int vtk_type = grid->GetCellType(cell);
   if (vtk_type == VTK_LINE) vtk_type = VTK_POLY_LINE;
   if (vtk_type == VTK_VERTEX) vtk_type = VTK_POLY_VERTEX;
-  // A Lagrange cell has its order by the number of its nodes.
+  // The number of nodes of a Lagrange cell tells its order.
   const vtkIdType n_nodes = grid->GetCells()->GetCellSize(cell);
   const auto *const found = std::find_if(std::begin(topologies), std::end(topologies), [&](const Topology &t) {
     return t.vtk_type == vtk_type && (t.number != 0 || t.n_nodes == n_nodes);
@@ -485,7 +486,7 @@ class XdmfWriter {
     text_ += "</Topology>\n";
   }
 
-  // Returns the attribute with the array's unit. It is an attribute, because readers expect one element, the numbers.
+  // Returns the attribute with the array's unit. The unit is an attribute, because readers expect one element, the numbers.
   static std::string unit_of(vtkDataArray *array) {
     if (!array->HasInformation() || !array->GetInformation()->Has(vtkDataArray::UNITS_LABEL())) return "";
     return joined(" Unit=\"", in_xml(array->GetInformation()->Get(vtkDataArray::UNITS_LABEL())), "\"");
@@ -505,7 +506,7 @@ class XdmfWriter {
                       "\" Center=\"", center, "\"", unit_of(array), ">\n");
       std::string dataset = std::string(center) + "_" + name;
       std::replace(dataset.begin(), dataset.end(), '/', '_');
-      // Otherwise the names a/b and a_b would become one name.
+      // Without the ending, the names a/b and a_b would become one name.
       while (!datasets_.insert(dataset).second) dataset += '_';
       const std::int64_t n = array->GetNumberOfTuples();
       if (array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT) {

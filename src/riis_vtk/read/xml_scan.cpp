@@ -214,8 +214,8 @@ std::vector<std::uint64_t> XmlSizes::words(const ArrayData &data, int size, bool
 }
 
 // Returns the number of bytes of values that a block of binary data claims. An uncompressed block begins with this number. A
-// compressed block begins with the number of its parts, the size of a part, the size of a smaller last part, and the compressed
-// sizes. In base64, these numbers are encoded separately from the data.
+// compressed block begins with four entries: number of parts, size of a part, size of a smaller last part, and compressed sizes.
+// In base64, these numbers are encoded separately from the data.
 std::uint64_t XmlSizes::n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *element, const ArrayData &data) const {
   vtkXMLDataElement *root = parser->GetRootElement();
   const char *header_type = root->GetAttribute("header_type"), *byte_order = root->GetAttribute("byte_order");
@@ -287,8 +287,8 @@ void XmlSizes::check_array(vtkXMLDataParser *parser, vtkXMLDataElement *element,
   check_bits(parser, element, n * n_components, bits_of(element->GetAttribute("type")));
 }
 
-// Returns the value of an attribute. Returns 0 if it is missing or not a number. VTK also reads such an attribute as 0, or
-// refuses the file.
+// Returns the value of an attribute. Returns 0 for an attribute that is missing or not a number. VTK also reads such an attribute
+// as 0, or refuses the file.
 std::int64_t XmlSizes::count(vtkXMLDataElement *element, const char *attribute) const {
   vtkIdType n = 0;
   if (!element->GetScalarAttribute(attribute, n)) return 0;

@@ -130,7 +130,7 @@ vtkDataArray *displacements_in(const std::string &path, vtkAbstractArray *abstra
   return array;
 }
 
-// Returns the arrays in the order of their numbers. Fails if two have the same number.
+// Returns the arrays in the order of their numbers. Fails if two arrays have the same number.
 std::vector<Displacement> displacements_of(const std::string &path, vtkPointSet *data, const std::string &prefix) {
   std::vector<Displacement> found;
   for (int i = 0; i < data->GetPointData()->GetNumberOfArrays(); ++i) {

@@ -75,15 +75,15 @@ bool is_inner_diagonal(vtkPointSet *data, const vtkIdList *ids, vtkIdType i) {
   return vtkMath::Dot(one.data(), other.data()) > 0;
 }
 
-// Both this file and the core cut quads from their first corner to their third. If only the other diagonal lies inside the
-// quad, the list of corners is therefore rotated by one.
+// This file and the core both cut quads from their first corner to their third. If only the other diagonal lies inside the quad,
+// the list of corners is therefore rotated by one.
 void put_inner_diagonal_first(vtkPointSet *data, vtkIdList *ids) {
   if (!is_inner_diagonal(data, ids, 0) && is_inner_diagonal(data, ids, 1)) {
     std::rotate(ids->begin(), ids->begin() + 1, ids->end());
   }
 }
 
-// The triangles of a quadratic face, by its nodes in VTK's order. Their nodes are the nodes of the face.
+// The triangles of a quadratic face, by its nodes in VTK's order. The triangles' nodes are the nodes of the face.
 const std::vector<std::array<vtkIdType, 3>> *triangles_of_quadratic(int vtk_type) {
   using Triangles = std::vector<std::array<vtkIdType, 3>>;
   static const std::map<int, Triangles> triangles = {

@@ -48,7 +48,7 @@ struct LeafletArray {
 Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted);
 
 // Appends the faces of another surface with their vertices. Each of the joined surfaces becomes a leaflet. Quads are cut if only
-// one of the two has quads. The attachment is lost if only one of the two has it.
+// one of the two surfaces has quads. The attachment is lost if only one of the two surfaces has an attachment.
 void append_faces(Faces &faces, const Faces &other);
 
 // Returns a number for each vertex, from 0 to the number of vertices minus 1. Two vertices have the same number if and only if
@@ -77,9 +77,9 @@ struct Frames {
   std::vector<double> xyz;    // (3, n_vertices, n_keys)
 };
 
-// Reads a file for each time. Fails if a file has other cells than the first file, or if a coordinate is not finite. In .stl
-// files, corners at the same position in the first file become one vertex. In each other file, these corners must also share one
-// position.
+// Reads a file for each time. Fails for a file whose cells differ from the first file's, and for a coordinate that is not finite.
+// In .stl files, corners at the same position in the first file become one vertex. In each other file, these corners must also
+// share one position.
 Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
                        const CaughtOutput &caught);
 
@@ -89,12 +89,12 @@ Frames frames_of_displacements(const std::string &path, const std::string &prefi
                                const LeafletArray &leaflets, const CaughtOutput &caught);
 
 // Reads the frames of svMultiPhysics: a .dat file with the positions of all nodes, frame by frame. The faces are in a .vtu or
-// .vtp file in the same folder. For NAME_motion_open.dat it is NAME_motion_open, NAME_motion or NAME, each also followed by
+// .vtp file in the same folder. For NAME_motion_open.dat the file is NAME_motion_open, NAME_motion or NAME, each also followed by
 // _mesh or _face. The times are multiples of the time step, from 0.
 Frames frames_of_text(const std::string &path, double time_step, const LeafletArray &leaflets,
                       const CaughtOutput &caught);
 
-// Appends the faces of another motion, as append_faces does. Both must have the same times.
+// Appends the faces of another motion, as append_faces does. The two motions must have the same times.
 void append_frames(Frames &frames, const Frames &other);
 
 }  // namespace riis::vtk
