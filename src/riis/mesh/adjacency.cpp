@@ -73,7 +73,7 @@ class RowMaker {
 
  private:
   static constexpr std::int64_t nodes_per_block = 4096;
-  // Each part of the items has its own count for each node. To save time with more parts would cost too much memory.
+  // Each part of the items has its own count for each node. More parts would save time, but need too much memory.
   static constexpr std::int64_t most_parts = 8;
   static constexpr std::int64_t items_ahead = 16, entries_ahead = 24;  // how far ahead memory is requested
   static constexpr std::int64_t most_inserted =
