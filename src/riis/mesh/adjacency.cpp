@@ -112,7 +112,7 @@ class RowMaker {
     });
   }
 
-  // Writes the entries. Afterwards each position in next_ is the end of the entries.
+  // Writes the entries. Afterwards each position in next_ is the end of a part's entries.
   void fill() {
     parallel_for(n_parts_, n_threads_, [&](std::int64_t part, int) {
       Entry *const next = next_of(part);
@@ -210,7 +210,7 @@ class RowMaker {
   int n_threads_;
   std::int64_t n_parts_, n_blocks_;
   UnfilledVector<Entry> next_;       // (n_nodes, n_parts)
-  std::vector<PlainMemory> blocks_;  // hold entries first and columns later
+  std::vector<PlainMemory> blocks_;  // the blocks hold entries first, and columns later
 };
 
 // For lists within NarrowLimits.
