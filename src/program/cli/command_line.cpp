@@ -183,7 +183,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   named(app, "view", "Show a valve in a mesh, in a browser (by the Python package riis)");
   CLI::App *help = named(app, "help", "Explain a topic, or list the topics");
   std::string topic;
-  help->add_option("TOPIC", topic, "One of the topics that riis help lists");
+  help->add_option("TOPIC", topic, "A topic from the list of riis help");
   const auto asks_for_help = [](const std::string &word) { return word == "--help" || word == "-h"; };
   if (argc > 1 && std::string("view") == argv[1] && std::none_of(argv + 2, argv + argc, asks_for_help))
     run_view(argc, argv);
