@@ -337,8 +337,8 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
 #endif
   const std::vector<double> middles = middles_of(triangles);
   add(
-      "nearest middle of a triangle, a loop", n_slow_turns,
-      [&] { distances_to_middles(middles, n, xyz, distance.data()); }, Measures::approximately);
+      "loop over middles of triangles", n_slow_turns, [&] { distances_to_middles(middles, n, xyz, distance.data()); },
+      Measures::approximately);
 #if defined(RIIS_WITH_OPENVDB)
   // Sizes of OpenVDB's voxels: 4 and 8 per half thickness.
   constexpr std::pair<const char *, double> voxels[] = {{"0.025", 0.025}, {"0.0125", 0.0125}};

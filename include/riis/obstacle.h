@@ -88,9 +88,9 @@ RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis
  *   vertex_force  (3, n_vertices): forces are added. A node's force goes to the three vertices of its closest triangle, in the
  *                 shares of the closest point's barycentric coordinates
  * The forces on the vertices of a leaflet add up to leaflet_force of riis_marks_add_reaction, and their moment is
- * leaflet_moment, up to rounding. The power of these forces is the power of the nodes' forces in every motion of the vertices.
- * Vertices with equal coordinates are not joined: a valve repeats its vertices along sides of patches, and arrays may share a
- * vertex between leaflets. With MPI add up the forces of all ranks.
+ * leaflet_moment, up to rounding. In every motion of the vertices, these forces have the power of the nodes' forces. Vertices
+ * with equal coordinates are not joined: a valve repeats its vertices along sides of patches, and arrays may share a vertex
+ * between leaflets. With MPI add up the forces of all ranks.
  * Errors: as riis_marks_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, another number of
  * vertices, or a closest triangle that the surface lacks. */
 RIIS_API riis_status riis_marks_add_vertex_reaction(const riis_marks *marks, const riis_surface *surface,

@@ -186,9 +186,9 @@ RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *poi
  *   open    the map at opening 1; NULL: `closed` serves for all openings
  * Between the openings the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches stay patches
  * between the mapped curves. Error bounds, fixed triangulations and velocities therefore hold as for any valve, and with
- * RIIS_TRIANGULATION_FIXED the warp may move. Curves are cut where landmarks of `closed` lie on the closed valve, and landmarks
- * of `open` on the open valve. The warped valve thus passes through the mapped landmarks on its curves. An annulus that moves
- * needs two valves in turn. In each step call riis_warp_set_targets and this function for one of them, and pass both to
+ * RIIS_TRIANGULATION_FIXED the warp may move. Landmarks of `closed` cut the curves of the closed valve, and landmarks of `open`
+ * cut the curves of the open valve. The warped valve thus passes through the mapped landmarks on its curves. An annulus that
+ * moves needs two valves in turn. In each step call riis_warp_set_targets and this function for one of them, and pass both to
  * riis_surface_update_moving. Either both valves have a warp, or neither has one. A call that makes or updates a surface refuses
  * a warp that folds at the valve or turns a part of it over: RIIS_INVALID_PARAMETER names the place and the value.
  * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`; RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */

@@ -22,8 +22,8 @@ typedef struct riis_surface riis_surface;
 enum {
   RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters; other kinds: the cusp on the x
                                    axis. More cusps follow counter-clockwise, seen from +z */
-  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; other cusps: the second one */
-  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; other cusps: the third one. The fourth one has the id 3 */
+  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; other kinds: the second cusp */
+  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; other kinds: the third cusp. The fourth cusp has the id 3 */
   RIIS_LEAFLET_ANTERIOR = 0,    /* mitral, mitral_coapting, tricuspid: the anterior leaflet */
   RIIS_LEAFLET_POSTERIOR = 1,   /* mitral, mitral_coapting: the posterior leaflet, with all its scallops.
                                    tricuspid: 1 is the septal leaflet, and 2 the posterior one */

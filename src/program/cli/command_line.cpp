@@ -80,8 +80,8 @@ std::vector<std::string> names_of_options(const CLI::App &app) {
 
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
-// Returns a list of the words that CLI11 did not understand, in the order of typing. (CLI11 does not keep this order.) If some of
-// the words are unknown options, the list has only these options. The other words may be their values.
+// Returns a list of the words that CLI11 did not understand, in the order of typing. (CLI11 does not keep this order.) If there
+// are unknown options among these words, the list has only the options. Other words may be values of the options.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();
   const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);
@@ -183,7 +183,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   named(app, "view", "Show a valve in a mesh, in a browser (by the Python package riis)");
   CLI::App *help = named(app, "help", "Explain a topic, or list the topics");
   std::string topic;
-  help->add_option("TOPIC", topic, "One of the topics that riis help lists");
+  help->add_option("TOPIC", topic, "A topic from the list of riis help");
   const auto asks_for_help = [](const std::string &word) { return word == "--help" || word == "-h"; };
   if (argc > 1 && std::string("view") == argv[1] && std::none_of(argv + 2, argv + argc, asks_for_help))
     run_view(argc, argv);

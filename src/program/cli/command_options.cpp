@@ -225,7 +225,7 @@ void declare_threads(Command &command, MarkOptions &options) {
 void declare_search(Command &command, MarkOptions &options) {
   command.choice("--search", "auto (default), exhaustive, neighbor, clusters or paper", search_names,
                  options.mark_options.search);
-  command.parsed("--distance-limit", "L", "Report distances up to this one (default the half thickness)",
+  command.parsed("--distance-limit", "L", "Report distances up to this length (default the half thickness)",
                  options.mark_options.distance_limit, parse_positive);
   declare_threads(command, options);
 }
@@ -592,7 +592,7 @@ void declare_export(Command command, ExportOptions &options) {
                options.name);
   command
       .text("--starts", "closed|open",
-            "State at the solver's first step (default closed, or that of --cycle at time 0)", options.starts)
+            "State at the solver's first step (default closed, or the state of --cycle at time 0)", options.starts)
       ->check(CLI::IsMember(std::vector<std::string>{"closed", "open"}));
   command.choice("--ring", "Ring of a bileaflet valve: a face beside the leaflets (default), or none", ring_names,
                  options.ring);

@@ -143,7 +143,7 @@ MeshCounts sum_of(const MeshCounts &own, const MeshPieces &mesh);
 template <class Thing>
 class JoinedSets {
  public:
-  // Returns whether the two were in different sets.
+  // Unites the sets of two things, and returns whether the sets were different.
   bool unite(const Thing &a, const Thing &b) { return sets_.unite(number(a), number(b)); }
   bool are_joined(const Thing &a, const Thing &b) { return sets_.root(number(a)) == sets_.root(number(b)); }
 

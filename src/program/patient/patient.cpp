@@ -229,7 +229,7 @@ class PatientRun {
     if (!fit["undetermined"].empty())
       steps_.say("place", "not determined by the landmarks, and guessed by proportions: " +
                               joined_by(fit["undetermined"].get<std::vector<std::string>>(), ", ") +
-                              ". More landmarks or --set would tell (logs/place.log)");
+                              ". More landmarks or --set would determine them (logs/place.log)");
     report_["fit"] = fit;
     const PlacedFile file = read_placed("placed.json", placed, unit_);
     for (std::size_t k = 0; k < 3; ++k) centre_[k] = file.where.translation[k];

@@ -305,7 +305,7 @@ class PatientMesher {
     const auto start = std::chrono::steady_clock::now();
     const ProgramEnd end = run_program(limited);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    constexpr int signal_status = 128;  // the status of timeout is higher after a signal
+    constexpr int signal_status = 128;  // after a signal, the status of timeout is higher than this
     const bool is_killed = end.status < 0 || end.status > signal_status;
     if (is_killed && taken.count() >= seconds)
       refuse_data("gmsh did not end within " + printed("%.0f", seconds) + " seconds (" + log + "); " + crossing_text() +

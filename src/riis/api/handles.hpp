@@ -92,7 +92,7 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   riis::KeepsArenas keeps_arenas;
   riis::KeepsMemory keeps_memory;
   riis::UpdatableSurface updatable;
-  riis_surface_options options;  // the options of the last update, with defaults for the fields that the caller lacked
+  riis_surface_options options;  // the options of the last update; fields that an older caller lacked have defaults
   // Identifies the surface: no earlier surface had this number. An address cannot identify a surface, because a later surface may
   // get the same address.
   const std::uint64_t number = next_number();

@@ -75,7 +75,7 @@ ValueAndRate opening_from_times(const riis_opening_times &times, double time) {
 
 namespace {
 
-// Returns the time since the previous state. Also checks the values that drive the law.
+// Returns the time since the previous state. Also checks the pressure difference and the flow.
 double checked_step(double before, double time, double pressure_difference, double flow) {
   check_range("before", "time", before, -largest_number, largest_number);
   check_range("", "time", time, before, largest_number);

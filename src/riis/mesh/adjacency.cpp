@@ -73,7 +73,7 @@ class RowMaker {
 
  private:
   static constexpr std::int64_t nodes_per_block = 4096;
-  // Each part of the items has its own count for each node. To save time with more parts would cost too much memory.
+  // Each part of the items has its own count for each node. More parts would save time, but need too much memory.
   static constexpr std::int64_t most_parts = 8;
   static constexpr std::int64_t items_ahead = 16, entries_ahead = 24;  // how far ahead memory is requested
   static constexpr std::int64_t most_inserted =
@@ -112,7 +112,7 @@ class RowMaker {
     });
   }
 
-  // Writes the entries. Afterwards each position in next_ is the end of the entries.
+  // Writes the entries. Afterwards each position in next_ is the end of a part's entries.
   void fill() {
     parallel_for(n_parts_, n_threads_, [&](std::int64_t part, int) {
       Entry *const next = next_of(part);
@@ -210,7 +210,7 @@ class RowMaker {
   int n_threads_;
   std::int64_t n_parts_, n_blocks_;
   UnfilledVector<Entry> next_;       // (n_nodes, n_parts)
-  std::vector<PlainMemory> blocks_;  // hold entries first and columns later
+  std::vector<PlainMemory> blocks_;  // the blocks hold entries first, and columns later
 };
 
 // For lists within NarrowLimits.

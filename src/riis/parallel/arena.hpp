@@ -17,8 +17,8 @@
 namespace riis {
 
 // An arena is kept and used again. The reason is that TBB frees an arena only after the workers that it called have come and
-// found no work. On a busy machine the workers come too late for a short walk. With a new arena for each walk, each walk
-// therefore made the process grow by some kilobytes (TBB 2021.8).
+// found no work. On a busy machine the workers come too late for a short walk. New arenas for each walk would therefore make the
+// process grow by some kilobytes in each walk (TBB 2021.8).
 struct PooledArena {
   explicit PooledArena(int n_slots) : n_threads(n_slots), arena(n_slots, 1) { arena.initialize(); }
 

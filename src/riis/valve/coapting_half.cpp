@@ -142,8 +142,8 @@ Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double shar
 }
 
 // Gives the part the attachment. One cubic would leave the cylinder in a wide cusp. In a wide cusp an arc leads from the symmetry
-// plane to a second piece, whose start is as high as the middle of the one cubic. The two pieces have one direction where they
-// meet.
+// plane to a second piece. The second piece starts at the height of the single cubic's middle. The two pieces have one direction
+// where they meet.
 void put_attachment(const HalfNumbers &numbers, const Bezier &one_piece, HalfCusp &part) {
   const Vec3 top = one_piece.last();
   part.sinus_below = one_piece;

@@ -32,7 +32,7 @@ ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
   ValveKind kind{"mitral", {
-    {"anterior_ratio", number, "share of the anterior leaflet, with its triangles, in the annulus", 1, {0.41}, 0.05, 0.95},
+    {"anterior_ratio", number, "share of the annulus that the anterior leaflet and its triangles take", 1, {0.41}, 0.05, 0.95},
     {"AP_diameter", length, "depth of the annulus, from the posterior to the anterior point", 1, {3.0}, shortest, longest},
     {"ALPM_diameter", length, "largest width of the annulus", 1, {4.0}, shortest, longest},
     {"ALPM_position_ratio", number, "where the annulus is widest: 0 at the posterior point, 1 at the anterior",
