@@ -118,8 +118,12 @@ python_environment() {
   local venv=$python_folder/fresh
   rm -rf "$venv"
   "$1" -m venv "$venv" &&
-    "$venv/bin/pip" install "$(echo "$PWD/$python_folder/$2"/riis-*.whl)" "${python_test_tools[@]}"
+    "$venv/bin/pip" install "$(echo "$PWD/$python_folder/$2"/riis-*.whl)" "${python_test_tools[@]}" &&
+    touch "$venv/complete"
 }
+
+# python_has_environment: returns whether this environment exists. An installation that was cut off leaves a part of it.
+python_has_environment() { [[ -e $python_folder/fresh/complete ]]; }
 
 # python_is_alone: checks that the module loads no Embree, TBB or libgomp of the system.
 python_is_alone() {
@@ -185,7 +189,7 @@ python_tutorial() {
 
 # python_needs_environment WORD: ends with a message unless ./run python has made the environment.
 python_needs_environment() {
-  [[ -x $python_folder/fresh/bin/python ]] || { echo "./run $1: run ./run python first" >&2; exit 2; }
+  python_has_environment || { echo "./run $1: run ./run python first" >&2; exit 2; }
 }
 
 # Packages that ./run view --check needs besides the program's.
@@ -206,7 +210,7 @@ run_view() {
     echo "./run view: '${*:2}' is not an argument of ./run view --check" >&2
     exit 2
   }
-  [[ -x $python_folder/fresh/bin/python ]] || python_make_here
+  python_has_environment || python_make_here
   packages=("${demo_packages[@]}" "${view_packages[@]}")
   install_missing
   step "build the program" build_demo

@@ -19,7 +19,7 @@ latex2mathml_version=3.81.1
 # procedures. pdoc reads the installed Python package with its stubs.
 run_docs() {
   local reference=$build/reference venv=$build/docs-$ford_version-$pdoc_version-$latex2mathml_version source
-  local site_tools=("ford==$ford_version" "pdoc==$pdoc_version" "latex2mathml==$latex2mathml_version" "${python_build_tools[@]}")
+  local site_tools=("ford==$ford_version" "pdoc==$pdoc_version" "latex2mathml==$latex2mathml_version" "numpy>=1.24,<3")
   packages=("${docs_packages[@]}")
   install_missing
   rm -rf out/docs "$reference"
@@ -27,10 +27,12 @@ run_docs() {
   if [[ ! -x $venv/bin/ford ]]; then
     rm -rf "$venv"
     step "an environment for the tools" "$(python_of_packages)" -m venv "$venv"
-    step "FORD, pdoc, latex2mathml and build tools from PyPI" "$venv/bin/pip" install "${site_tools[@]}"
+    step "FORD, pdoc and latex2mathml from PyPI" "$venv/bin/pip" install "${site_tools[@]}"
   fi
-  step "build the Python package" env PATH="$PWD/$venv/bin:$PATH" "$venv/bin/pip" install --force-reinstall --no-deps \
-    --no-build-isolation --config-settings=build-dir=build-python/docs .
+  # In the folder of ./run python and ./run view --check, so that the package is compiled once for all of them.
+  step "build tools from PyPI" python_tools "$(python_of_packages)"
+  step "build the Python package" python_wheel
+  step "install it" "$venv/bin/pip" install --force-reinstall --no-deps "$(echo "$python_folder"/built/riis-*.whl)"
   # Formulas are checked first, because Doxygen continues even if its filter fails.
   step "check that every formula can be shown" "$venv/bin/python" docs/reference/markdown_pages.py ./*.md docs/*.md \
     docs/{theory,design}/*.md

@@ -481,8 +481,8 @@ TEST(test_skirts_and_files) {
   RUN_REFUSED(2, "--skirt: -1 is not above 0 and finite", "states", csv, "--skirt", "-1");
   RUN_REFUSED(1, "'skirt_length' is not a parameter of the bileaflet valve", "states", csv, "--valve", "bileaflet",
               "--skirt", "1");
-  RUN_REFUSED(1, "wall is not within longest, 0.1", "states", csv, "--valve", "trileaflet", "--skirt", "0.1", "--wall",
-              wall);
+  RUN_REFUSED(1, "the wall is not within --skirt, 0.1", "states", csv, "--valve", "trileaflet", "--skirt", "0.1",
+              "--wall", wall);
   write_wall("millimetres.stl", 10);
   RUN_REFUSED(1, "with its lengths times 0.1 the wall would be: save it in the mesh's unit", "states", csv, "--valve",
               "trileaflet", "--skirt", "2", "--wall", scratch_path("millimetres.stl"));

@@ -117,7 +117,7 @@ TEST(test_other_axes) {
   expect_run_fine(__FILE__, __LINE__);
   skirt_to(write_tube("wall.stl", &wall), "1", "3,2,0");
   assert_int_equal(program_exit_code, 1);
-  assert_non_null(strstr(program_err, "wall is not within longest, 1, at "));
+  assert_non_null(strstr(program_err, "the wall is not within --skirt, 1, at "));
   assert_non_null(strstr(program_err,
                          "; after half a turn about z the wall would be, so one of valve and wall is in LPS "
                          "and the other in RAS: give both the same axes\n"));
@@ -126,7 +126,7 @@ TEST(test_other_axes) {
                      "\"translate\": [3, 2, 0], \"parameters\": {}}");
   run_program("check", "crossings", "--valve", scratch_path("placed.json"), "--skirt", "1.2345678901234567", "--wall",
               write_tube("wall.stl", &wall), NULL);
-  assert_non_null(strstr(program_err, "wall is not within longest, 1.23457, at "));
+  assert_non_null(strstr(program_err, "the wall is not within --skirt, 1.23457, at "));
   assert_non_null(strstr(program_err, " in RAS: place the valve by riis place --axes RAS\n"));
 }
 

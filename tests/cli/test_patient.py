@@ -433,7 +433,10 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         wide = PATIENT.Root()
         wide.annulus, wide.junction, wide.aorta_radius = (17.0, 16.0, 30.0), (17.0, 21.0), 18.0
         write_stl(here / "wide.stl", list(PATIENT.wall_triangles(wide, lambda degrees, z: 0.0)))
-        self.refused(1, "not within.*--skirt '[0-9.]+ mm' accepts it", "--skirt", "2 mm", wall="wide.stl", output="none")
+        done = self.refused(1, "wall.stl: the wall is not within --skirt, 2, at .*--skirt '[0-9.]+ mm' accepts it", "--skirt",
+                            "2 mm", wall="wide.stl", output="none")
+        self.assertRegex(done.stderr, "landmarks.json: the landmarks are [2-5].* mm from the wall of wide.stl on average, and a "
+                         "person sets them within 1 mm: they may belong to another patient")
         self.assertTrue((here / "none" / "UNFINISHED.txt").exists())
 
     def test_unclear_axes(self):
@@ -470,6 +473,10 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.assertRegex(done.stderr, "cannot be written|File too large")
         self.assertTrue((self.folder / "case" / "UNFINISHED.txt").exists())
         self.assertFalse((self.folder / "case" / "patient.json").exists())
+        # The first file that the run writes is on a full disc.
+        (self.folder / "full").mkdir()
+        (self.folder / "full" / "UNFINISHED.txt").symlink_to("/dev/full")
+        self.refused(1, "UNFINISHED.txt: cannot be written: .*The disc is full: free some space, .* by --output", output="full")
 
     @unittest.skipUnless(os.environ.get("RIIS_TEST_LONG") == "1", "long")
     def test_random_roots(self):

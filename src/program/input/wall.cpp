@@ -182,7 +182,10 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   const Surface wall = make_wall(options, file);
   const riis_status status = riis_valve_set_skirt_to_wall(valve, wall, *options.skirt, &options.surface_options);
   if (status == RIIS_INVALID_ARGUMENT) {
-    const std::string reason = options.wall + ": " + riis_last_error();
+    const std::string text = riis_last_error(), argument = "wall is not within longest";
+    const bool is_far = text.rfind(argument, 0) == 0;
+    const std::string reason =
+        options.wall + ": " + (is_far ? "the wall is not within --skirt" + text.substr(argument.size()) : text);
     refuse_data(reason + hint_of_change(options, file, [&](const riis_surface *other) {
                   const Valve copy = copy_of(valve);
                   return riis_valve_set_skirt_to_wall(copy, other, *options.skirt, &options.surface_options) == RIIS_OK;
@@ -206,7 +209,7 @@ SkirtOfFile::SkirtOfFile(const ValveOptions &options, riis_surface_arrays arrays
       create_for<Surface>(options.surface, riis_surface_create_from_arrays, &arrays_, &options.surface_options);
   const Gaps gaps = gaps_of(surface, wall_);
   if (!is_reached(gaps, longest))
-    refuse_data(options.wall + ": wall is not within --skirt, " + shown(longest) + ", of the attachment: " +
+    refuse_data(options.wall + ": the wall is not within --skirt, " + shown(longest) + ", of the attachment: " +
                 (gaps.measures.n_without_wall > 0 ? "it is missed at " + std::to_string(gaps.measures.n_without_wall) +
                                                         " of " + std::to_string(gaps.measures.n_ends) + " ends of edges"
                                                   : "the widest gap is " + shown(gaps.measures.most) + ", at " +

@@ -38,6 +38,8 @@ using Words = std::vector<std::string>;
 constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6, usual_noise = 0.3;
 // A half thickness outside this range has a wrong unit, or closes the open valve.
 constexpr double least_half_thickness_mm = 0.1, most_half_thickness_mm = 4, most_skirt_mm = 30;
+// A person sets landmarks within the first distance of their wall on average. Beyond the second they are doubtful.
+constexpr double usual_distance_mm = 1, doubtful_distance_mm = 2;
 constexpr double usual_band_edge = 0.95, usual_largest_edge = 3;
 // svMultiPhysics spreads K over elements, so that its closed valve leaks much in a coarser mesh (docs/export.md).
 constexpr double uris_band_edge = 0.55;
@@ -157,6 +159,10 @@ class PatientRun {
                    printed("%.3g", frame_.away) + " mm from it on average, at most " + printed("%.3g", frame_.worst) +
                    " mm, " + frame_.farthest,
                steps_.seconds() - begin);
+    if (frame_.away > doubtful_distance_mm)
+      warn(options_.landmarks + ": the landmarks are " + printed("%.3g", frame_.away) + " mm from the wall of " +
+           options_.wall + " on average, and a person sets them within " + shown(usual_distance_mm) +
+           " mm: they may belong to another patient or image. Load both in 3D Slicer");
     steps_.say("folder",
                options_.folder + ", where lengths are in " + name_of(unit_) + ". The next commands run there");
     std::error_code error;
@@ -614,6 +620,13 @@ class PatientRun {
 
 }  // namespace
 
-ExitCode run_patient(const PatientOptions &options) { return PatientRun(options).run(); }
+ExitCode run_patient(const PatientOptions &options) {
+  try {
+    return PatientRun(options).run();
+  } catch (Refusal &refusal) {
+    refusal.text += cure_of_full_disc(refusal.text);
+    throw;
+  }
+}
 
 }  // namespace riis::program

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstdint>
 #include <filesystem>
 #include <system_error>
 
@@ -80,6 +82,16 @@ void PatientFolder::finish() {
   std::error_code error;
   fs::remove(marker_file, error);
   if (error) refuse_data(std::string(marker_file) + ": cannot be removed: " + error.message());
+}
+
+std::string cure_of_full_disc(const std::string &reason) {
+  const auto says = [&](int error) { return reason.find(system_text(error)) != std::string::npos; };
+  // gmsh does not say why it leaves a part of a file.
+  constexpr std::uintmax_t hardly_any = 1 << 20;
+  std::error_code error;
+  const fs::space_info space = fs::space(".", error);
+  if (!says(ENOSPC) && !says(EDQUOT) && (error || space.available >= hardly_any)) return "";
+  return ". The disc is full: free some space, or name a folder on another disc by --output, and run the command again";
 }
 
 PatientSteps::PatientSteps(bool quiet) : program_(path_of_this_program()), quiet_(quiet) {}

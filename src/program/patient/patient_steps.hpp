@@ -28,6 +28,9 @@ class PatientFolder {
   OutputLocks locks_;
 };
 
+// Returns the cure if the disc of the present folder is full, which may be why a step fails, or "".
+std::string cure_of_full_disc(const std::string &reason);
+
 // The result of a command.
 struct StepEnd {
   int status = 0;
