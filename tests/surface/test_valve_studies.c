@@ -2,6 +2,7 @@
  * Studies of the valves that patients have. Random sizes do not cross, closed valves are sealed, symmetric sizes give symmetric
  * valves, and velocities are those of the vertices. RIIS_TEST_LONG=1 makes 300 sets for each row of the random study. */
 #include <riis/riis.h>
+#include <string.h>
 
 #include "test_support.h"
 
