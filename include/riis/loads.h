@@ -54,9 +54,9 @@ RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_poi
  * The force of a leaflet at a node is m w(d) (a + b x s). Here m is the weight of the node, d its distance from the leaflet's
  * edges, w(d) = (1 + cos(pi d / radius)) / 2 up to the radius, and s its place from the middle of the leaflet's nodes. The
  * vectors a and b belong to the leaflet. Of all forces with this sum and moment, these forces have the least sum
- * of |force|^2 / (m w). In a rigid motion their power is force times velocity plus moment times angular velocity. The forces are
- * linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to get the forces of one leaflet. The mechanics
- * of a membrane plays no part in these forces.
+ * of |force|^2 / (m w). In a rigid motion the power of these forces is force times velocity plus moment times angular velocity.
+ * The forces are linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to get the forces of one leaflet.
+ * The mechanics of a membrane plays no part in these forces.
  * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also for a leaflet with a force or a moment whose nodes within the
  * radius are fewer than three, or lie nearly on a line. Nodes lie nearly on a line if their root-mean-square distance from it is
  * less than a hundredth of their root-mean-square distance from their middle. Nodes also lie nearly on a line if the first

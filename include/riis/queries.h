@@ -39,7 +39,7 @@ RIIS_API riis_status riis_closest_point(const riis_surface *surface, const doubl
 /* Options of queries for many points. */
 typedef struct riis_closest_options {
   int64_t struct_size;       /* set by the init function */
-  double distance_limit;     /* >= 0, default infinity. Farther points get far_distance, ids -1 and otherwise zeros */
+  double distance_limit;     /* >= 0, default infinity. Farther points get far_distance, ids of -1, and zeros elsewhere */
   double far_distance;       /* the distance of farther points, outside [0, distance_limit]. Default RIIS_FAR_DISTANCE */
   const uint8_t *point_mask; /* (n_points): points with 0 must be finite, but get no result. NULL: no mask */
   int64_t n_point_ids;       /* length of point_ids; 0 without it */

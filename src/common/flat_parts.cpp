@@ -18,7 +18,7 @@ constexpr double flat_share = 5e-4, pointed_share = 5e-3;
 // The largest angle between a triangle of a flat part and the part's plane, in degrees. Triangles of little height lean more by
 // rounding.
 constexpr double most_lean = 25;
-// A flat part has at least so many triangles.
+// The least number of triangles of a flat part.
 constexpr std::int64_t least_triangles = 4;
 // The wall beside a flat part is measured up to this share of the radius of a disc with the part's area, in sectors.
 constexpr double band_share = 0.5;

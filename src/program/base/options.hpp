@@ -185,7 +185,7 @@ struct ExportOptions : ValveOptions {
   std::optional<TimeSpan> opening_span, closing_span;  // spans of the cycle's time
   double largest_edge = 0;                             // 0: the library's own triangles
   std::string name;                                    // of the valve in the solver; "": from the folder
-  std::string starts;                                  // "closed" or "open"; "": as the cycle is at time 0
+  std::string starts;                                  // "closed" or "open"; "": the state of the cycle at time 0
   std::int32_t ring = ring_face;                       // a UrisRing
 };
 

@@ -37,7 +37,7 @@ struct PlacedFile {
   riis_surface_options where = defaults<riis_surface_options>();  // the placement
   Json parameters, warp;                                          // null: the valve has no warp
 };
-// `root` is the content of the file. Without a unit, the placement has the file's.
+// `root` is the content of the file. Without `unit`, the placement keeps the unit of the file.
 PlacedFile read_placed(const std::string &path, const Json &root, std::optional<Unit> unit = std::nullopt);
 
 // If --valve is a disease or the file of a placed valve, replaces it by the kind. The file's placement replaces the options for

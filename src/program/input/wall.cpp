@@ -44,7 +44,7 @@ Surface make_wall(const ValveOptions &options, const SurfaceFile &file, Change c
   return create_for<Surface>(options.wall, riis_surface_create_from_arrays, &arrays, &how);
 }
 
-// Returns the advice for a wall whose axes are not the valve's.
+// Returns the advice for a wall whose axes differ from the valve's.
 std::string axes_advice(const ValveOptions &options) {
   if (options.placed.empty()) return "give both the same axes";
   const Json placed = parse_json_file(options.placed, "a placed valve");

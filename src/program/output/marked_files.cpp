@@ -41,7 +41,7 @@ std::string padded(std::size_t number, std::size_t n_digits) {
 struct StepName {
   std::string part, digits, ending;
 
-  // Returns whether the part is that of a piece of a mesh, such as p0012.
+  // Returns whether the part names a piece of a mesh, such as p0012.
   bool is_of_piece() const {
     return part.size() >= 5 && part[0] == 'p' && part.find_first_not_of("0123456789", 1) == std::string::npos;
   }

@@ -64,7 +64,7 @@ void check_place(const std::string &path) {
 
 struct NamedFile {
   std::string option, path;
-  std::string ending{};  // that the file must have; "": any
+  std::string ending{};  // the required ending of the file; "": any ending
 };
 
 using NamedFiles = std::vector<NamedFile>;

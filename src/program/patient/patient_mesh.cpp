@@ -109,7 +109,7 @@ class GmshReader {
     while (next_ < end && (*next_ == ' ' || *next_ == '\n' || *next_ == '\r')) ++next_;
     Number value{};
     const auto [after, error] = number_from_chars(next_, end, value);
-    if (error != std::errc()) refuse_file(path_, "there is no number where one is expected, so it is not whole");
+    if (error != std::errc()) refuse_file(path_, "a number is missing, so the file is not whole");
     next_ = after;
     return value;
   }

@@ -112,8 +112,8 @@ double determinant(const double m[3][3]) {
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-// The solver turns tetrahedra and wedges that are inside out by swapping nodes 0 and 1. A tetrahedron has the same points and
-// weights with and without that swap, so only the determinant's sign changes.
+// The solver turns tetrahedra and wedges that are inside out by swapping nodes 0 and 1. The swap changes neither points nor
+// weights of a tetrahedron, and only changes the determinant's sign.
 void turn_elements(SolverMesh &mesh, const std::string &path) {
   const SolverElement &element = *mesh.element;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {

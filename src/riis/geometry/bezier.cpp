@@ -134,7 +134,7 @@ double stepwise_quadrature(const Speed &speed, double t0, double t1) {
   return sum;
 }
 
-// A part of a curve, from one parameter to another. The length of the whole curve decides how large an error of a length may be.
+// A part of a curve, from one parameter to another. The allowed error of a length is a share of the whole curve's length.
 struct SpeedOnPart {
   Speed speed;
   double from, to, length, whole_length;

@@ -28,8 +28,7 @@ struct ToGroup {
 };
 
 // Measures a point. Every distance is the distance to some point of the triangle, to rounding. A point counts as inside only if
-// it is inside by a margin. A point that is inside by less gets the distance to the nearest edge, which is wrong by at most the
-// margin.
+// it is inside by a margin. A point closer to an edge gets its distance to this edge, which is wrong by at most the margin.
 RIIS_INLINE ToGroup measure_to_group(const TriangleGroup &group, Floats3 p, Floats margin) {
   const auto along = [&](const float(*axis)[16], const float *origin) RIIS_LAMBDA {
     const Floats3 unit = load(axis);

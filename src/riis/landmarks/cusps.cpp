@@ -119,8 +119,8 @@ class CuspModel : public LandmarkModel {
   void add(std::size_t landmark, const std::vector<Vec3> &local, Vec3 place, std::vector<Offset> &out) const {
     out.push_back({landmark, local[landmark] - shift_ - place});
   }
-  // The closed cusps meet at x on the x axis, which is 0 but for two cusps. The height of this point varies between people so
-  // much that it says little about the sizes.
+  // The closed cusps meet at x on the x axis; only two cusps have an x other than 0. The height of this point varies between
+  // people so much that it says little about the sizes.
   void add_coaptation(const std::vector<Vec3> &local, double x, std::vector<Offset> &out) const {
     for (const std::size_t i : coaptation_) {
       const Vec3 p = local[i] - shift_;

@@ -77,7 +77,7 @@ class Team {
     if (!may_start_.is_made() || !may_end_.is_made()) return 0;
     if (n_workers_ < n_workers) {
       n_processors_ = default_thread_count();
-      // A caller's handlers of signals run on the caller's threads. The signal of an error cannot be blocked.
+      // A caller's handlers of signals run on the caller's threads. Signals of errors are not blocked.
       sigset_t blocked, before;
       sigfillset(&blocked);
       for (const int error : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) sigdelset(&blocked, error);

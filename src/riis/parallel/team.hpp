@@ -20,8 +20,9 @@ int run_by_team(int n_threads, void (*work)(void *context, int thread), void *co
 // caller's own loops. A loop, however, waits for all threads, however long another process holds a processor. After such a wait,
 // teams run the loops for some time. If OpenMP then runs only a few loops until the next such wait, the machine is busy, and the
 // teams' time doubles. A team also waits if another process interrupts its thread inside a block. The calling thread therefore
-// begins a team's loop alone. The calling thread works alone for the time that recent loops lost by calling their teams. If the
-// team then loses as much again, the loop takes at most twice as long as with the better choice. All times are in nanoseconds.
+// begins a team's loop alone. The calling thread works alone for the time that recent loops lost by calling their teams. Even if
+// the team then loses the same time again, the loop takes at most twice as long as with the better choice. All times are in
+// nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;

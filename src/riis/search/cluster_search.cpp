@@ -191,7 +191,7 @@ class ClusterSearch {
   // limit (docs/theory/clusters.md, "Every distance").
   void search_every_cluster() {
     const auto n = nodes_.n_clusters();
-    // A thread compares a region again if another thread had some of its clusters.
+    // Threads that share the clusters of a region must each compare the region.
     const std::int64_t per_block = n < 64 * request_.n_threads ? 1 : Clusters::clusters_per_region;
     constexpr std::int64_t few = 4;  // searching this many takes about half a millisecond
     n_threads_ =

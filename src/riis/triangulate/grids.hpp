@@ -15,7 +15,7 @@ namespace riis {
 // of a u curve, of a v curve, and of merged grid lines. A share below bounds each of these errors. At least 1 - 2 * (curve_share
 // + merge_share) remains for the split of a quad into triangles.
 inline constexpr double curve_share = 0.45, merge_share = 0.01;
-// The lines of a plan use up their share nearly everywhere. With a larger share, too little would remain for the quads, so
+// The errors of a plan's lines reach this share nearly everywhere. With a larger share, too little would remain for the quads, so
 // many of them would be subdivided.
 inline constexpr double planned_curve_share = 0.39;
 // A point of a patch of arcs has three errors: the mean error of two curves, at most half the error of O, and the error of the

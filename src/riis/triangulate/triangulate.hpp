@@ -53,9 +53,9 @@ struct GridPlan {
   std::size_t n_rows = 1;  // the number of rows of all patches of arcs
 };
 
-// Makes the plan from the patches at each of the openings. All must use one numbering of curves. Keeps each curve of a Coons
-// patch within max_error times of_curves times its tightness, and the curves of other patches within their own share. Fails with
-// RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER if no lines are enough.
+// Makes the plan from the patches at each of the openings. The patches of all openings must use one numbering of curves. Keeps
+// each curve of a Coons patch within max_error times of_curves times its tightness, and the curves of other patches within their
+// own share. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER if no lines are enough.
 GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, double of_curves,
                     const Vector<double> &tightness);
 

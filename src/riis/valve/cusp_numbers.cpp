@@ -56,7 +56,7 @@ HalfNumbers blend(const HalfNumbers &a, const HalfNumbers &b, double opening) {
 }
 
 // Mixes the places of two states, with a share for each control point of the free edge. The middle's share holds for all numbers
-// of the symmetry plane, and the commissure has its own. `made` keeps its other numbers.
+// of the symmetry plane, and the commissure has its own share. `made` keeps its other numbers.
 void mix_places(const HalfNumbers &closed, const HalfNumbers &open, const std::array<double, 4> &shares,
                 HalfNumbers &made) {
   for (auto list : {&HalfNumbers::edge_x, &HalfNumbers::edge_y, &HalfNumbers::sag})

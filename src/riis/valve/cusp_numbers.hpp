@@ -90,8 +90,8 @@ using CuspNumbers = Vector<HalfNumbers>;
 // Blends the numbers of two states.
 CuspNumbers blend(const CuspNumbers &a, const CuspNumbers &b, double opening);
 
-// The length of half a free edge as a function of the depth of its middle below its end. A fixed quadrature rule computes it, so
-// that it is a smooth function of the cusp.
+// The length of half a free edge as a function of the depth of its middle below its end. A fixed quadrature rule computes this
+// length, and thus makes it a smooth function of the cusp.
 class EdgeLength {
  public:
   explicit EdgeLength(const HalfNumbers &half);

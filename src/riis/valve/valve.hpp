@@ -83,7 +83,8 @@ struct ValveKind {
   // anywhere, and their triangles may then go through each other by as much as the triangles' error.
   bool has_exact_contacts = false;
   // True if the orifice is seen along the valve's z axis. If false, the orifice is seen along the vector area of the edges that
-  // are farthest from its middle. If cusps differ and their open edges reach beyond the attachment, that area would be oblique.
+  // are farthest from its middle. The vector area would be oblique for different cusps whose open edges reach beyond the
+  // attachment.
   bool is_seen_along_z = false;
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
