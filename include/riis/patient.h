@@ -182,8 +182,8 @@ RIIS_API riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *i
 RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *points, double *mapped);
 
 /* Warps a valve: its curves are mapped at every opening, before the placement. The valve copies both maps.
- *   closed  the map at opening 0; NULL, with `open` NULL, removes the warp
- *   open    the map at opening 1; NULL: `closed` serves for all openings
+ *   closed  the map at opening 0. If both maps are NULL, the valve loses its warp.
+ *   open    the map at opening 1. If this map is NULL, `closed` serves for all openings.
  * Between the openings the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches stay patches
  * between the mapped curves. Error bounds, fixed triangulations and velocities therefore hold as for any valve, and with
  * RIIS_TRIANGULATION_FIXED the warp may move. Landmarks of `closed` cut the curves of the closed valve, and landmarks of `open`

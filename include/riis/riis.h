@@ -27,7 +27,7 @@
  * - Ids: values called *_id count from 0, also in messages. If a struct has a field index_base, the ids in this struct count from
  *   that base, 0 (default) or 1. A field id_bits gives the ids' width: 32 (default) or 64.
  * - Points: point i is x[i * stride], y[i * stride], z[i * stride]. Coordinates are finite, of magnitude at most 1e60. The
- *   stride counts numbers and is at least 1: 1 for separate arrays, and 3 for xyz(3,n) with y = x + 1, z = x + 2. A field
+ *   stride is in numbers, not bytes, and is at least 1: 1 for separate arrays, 3 for xyz(3,n) with y = x + 1, z = x + 2. A field
  *   real_bits gives the numbers' width: 64 (default) or 32. Without this field the numbers are doubles. These rules also hold for
  *   vectors.
  * - Order: the first argument is the object that the function is named after. Then come arguments that the call reads,

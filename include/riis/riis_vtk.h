@@ -401,7 +401,7 @@ typedef struct riis_vtk_picture_options {
   const char *const *leaflet_names; /* (n_leaflet_names): the names by leaflet_id, for the key of the colours. Default
                                        NULL: "leaflet 0", ..., as for leaflets without a name here */
   int64_t n_leaking_edges;/* >= 0, default 0 */
-  const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, dark red and in front of everything. Default
+  const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, which are drawn dark red before the rest. Default
                                    NULL: the picture says nothing of leaks. If n_leaking_edges is 0 and leaking_edges is not NULL,
                                    the picture says that no edge leaks */
   int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */

@@ -31,8 +31,7 @@ TEST(test_texts) {
   char first[512];
   snprintf(first, sizeof first, ": give one of its meshes, such as '%s'\n", scratch_path("a b000000.pvtu"));
   RUN_REFUSED(1, first, "mark", scratch_path("list.pvd"));
-  RUN_REFUSED(1, "; dolfinx writes what riis reads by io.XDMFFile or io.VTKFile in place of io.VTXWriter\n", "mark",
-              "heart.bp");
+  RUN_REFUSED(1, "; in dolfinx, write with io.XDMFFile or io.VTKFile in place of io.VTXWriter\n", "mark", "heart.bp");
   const char *endings[] = {"cgns", "case", "encas", "vtkhdf", "pvti", "pvts", "tec", "vtmb", "vtpc", "vtpd"};
   for (int i = 0; i < 10; ++i) {
     char name[32];

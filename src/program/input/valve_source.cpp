@@ -419,7 +419,7 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
     if (has_text(refusal, "holds multiblock")) return by_paraview(path);
     if (ending == ".pvd") return "; a .pvd is a list of files: give one of its meshes" + first_file_of_list(path);
     if (ending == ".bp" || has_text(refusal, "of ADIOS2"))
-      return "; dolfinx writes what riis reads by io.XDMFFile or io.VTKFile in place of io.VTXWriter";
+      return "; in dolfinx, write with io.XDMFFile or io.VTKFile in place of io.VTXWriter";
     if (cad_files.count(ending) != 0) return meshed_by_gmsh(path, 3, "vtk");
     if (ending == ".feb") return "; FEBio Studio converts it: File > Export FE Model..., " + with_ending(path, "vtk");
     if (ending == ".re2" || ending == ".rea")

@@ -50,7 +50,7 @@ class Marking {
   const Box &swept() const { return swept_; }
 
  private:
-  // The numbers of one valve from all pieces.
+  // The sums of one valve over all pieces.
   struct ValveSums {
     MeshLeaks leaks;
     riis_mark_stats marks = no_stats();

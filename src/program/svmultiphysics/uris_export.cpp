@@ -396,9 +396,11 @@ std::string mesh_block(const ExportOptions &options, const std::string &named_fo
                      "block must stay 1" +
                      "\n     " + text_of_units(options);
   if (edges > fine_edges) {
-    text += "\n     svMultiPhysics measures to middles of triangles; to be within 1 %, export with largest-edge " +
-            shown(fine_edges * leaflets.half_thickness() / options.to_solver) +
-            (options.to_solver == 1 ? "" : std::string(" in ") + name_of(*options.unit));
+    text +=
+        "\n     svMultiPhysics measures distances to the middles of triangles; for errors below 1 %, export with "
+        "largest-edge " +
+        shown(fine_edges * leaflets.half_thickness() / options.to_solver) +
+        (options.to_solver == 1 ? "" : std::string(" in ") + name_of(*options.unit));
   }
   if (!options.cycle.empty() && options.starts.empty())
     text += std::string("\n     at time 0 of the cycle the valve is ") + (motion.starts_closed ? "closed" : "open") +

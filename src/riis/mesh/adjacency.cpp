@@ -88,8 +88,8 @@ class RowMaker {
     return {block * nodes_per_block, std::min((block + 1) * nodes_per_block, lists_.n_nodes)};
   }
 
-  // Counts the entries of each part at each node. After that, replaces each count by the position in the block where the part's
-  // entries begin.
+  // Counts the entries of each part at each node. After that, replaces each count by the position, within the block, at
+  // which the part's entries begin.
   void count() {
     resize(next_, n_parts_ * lists_.n_nodes);
     parallel_for(n_parts_, n_threads_, [&](std::int64_t part, int) {

@@ -195,8 +195,8 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
   return made;
 }
 
-// Needs are computed on narrow steps, but the error of a wide segment is bounded a little less closely. Lines are therefore
-// chosen for only this share of the allowed error.
+// Needs are computed on narrow steps, but the error of a wide segment is bounded a little less closely. The lines therefore use
+// up only this share of the allowed error.
 constexpr double most_of_allowed = 0.9;
 // The number of steps on which needs are computed is steps_per_segment times the largest number of segments of a curve. The
 // number of steps stays between least_steps and most_steps.

@@ -25,8 +25,8 @@ constexpr double most_between_ends = 0.5;
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
 // The sine also falls to 0 if the sine of the line's angle to the axis is below this.
 constexpr double least_sine_to_axis = 0.2;
-// A side whose rise has at least this sine leans as its tangent does. A flatter side leans less, and a side perpendicular
-// to the axis does not lean.
+// If the sine of a side's angle to the plane across the axis is at least this, the skirt leans as the side's tangent does. Beside
+// a flatter side it leans less, and beside a side in that plane it does not lean.
 constexpr double least_rise = 0.5;
 // A skirt that is turned at rest keeps its place, up to this turn by the warp. In between it goes over.
 constexpr double most_turn_as_at_rest = pi / 4;

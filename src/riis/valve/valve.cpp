@@ -56,7 +56,7 @@ bool is_of_bump(std::string_view name) { return name.substr(0, 5) == "bump_"; }
 
 bool is_of_a_leaflet(const ParameterSpec &spec) { return spec.name.find('.') != std::string::npos; }
 
-// Says whether a name means a parameter, and how.
+// Whether a name belongs to a parameter, and what it stands for.
 struct Naming {
   bool names_it = false;
   bool is_whole = false;  // it names no other parameter

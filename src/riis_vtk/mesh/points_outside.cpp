@@ -119,7 +119,7 @@ class SolidCells {
     }
   }
 
-  // Calls visit(a, b, c) with the triangles of all faces.
+  // Calls visit(a, b, c) once for each triangle of each face.
   template <class Visit>
   void for_each_triangle(vtkIdType cell, const Visit &visit) {
     const int n_faces = polygons_.n_faces_of_volume(cell);
