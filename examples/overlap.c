@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Marks the next time step on a second thread while the solver is busy with this one. This is the way for a solver on a GPU. The
+ * Marks the next time step on a second thread while the solver is busy with this one. A solver on a GPU works in this way. The
  * main thread only waits for the GPU meanwhile. Afterwards it uploads a short list of nodes, K and K u_surface.
  *
  * The opening of the next step must be known before the present step is solved. Laws in time know it: tables and times of

@@ -3,14 +3,14 @@
 ! Lengths are in cm.
 !
 ! The ring of radius 1.2 lies at z = 0, and blood flows to +z. The tips of the posts, the commissures, are at z = 1.2. A leaflet
-! consists of two patches. They meet in the leaflet's middle line, from the ring to the free edge. Each patch lies between two
-! curves from a commissure to the middle line. The attachment at v = 0 goes down the post to the ring. The curve at v = 1 is half
-! of the free edge. The patch's side at the commissure is a point, so the patch consists of straight lines from the attachment to
-! the free edge. When the valve opens, only the free edges and the middle lines move.
+! consists of two patches. The two halves meet in the leaflet's middle line, from the ring to the free edge. Each patch lies
+! between two curves from a commissure to the middle line. The attachment at v = 0 goes down the post to the ring. The curve at v
+! = 1 is half of the free edge. The patch's side at the commissure is a point, so the patch consists of straight lines from the
+! attachment to the free edge. When the valve opens, only the free edges and the middle lines move.
 !
-! When the valve is closed, each half of a free edge runs from its commissure to the axis. It has the same control points as the
-! adjacent half of the neighbouring leaflet, so the leaflets meet without a hole. All control points of a leaflet lie in its third
-! of the ring, at every opening. A third is convex, so the whole leaflet stays in it, and leaflets never cross.
+! When the valve is closed, each half of a free edge runs from its commissure to the axis. The curve has the same control points
+! as the adjacent half of the neighbouring leaflet, so the leaflets meet without a hole. All control points of a leaflet lie in
+! its third of the ring, at every opening. A third is convex, so the whole leaflet stays in it, and leaflets never cross.
 program prosthesis
   use riis
   implicit none

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! A solver in single precision. Its mesh moves, and its leaflets are triangles of its own. riis copies the coordinates and
-! converts them to double precision, so that the solver may change its arrays between calls.
+! A solver in single precision. The solver's mesh moves, and the leaflets are the solver's own triangles. riis copies the
+! coordinates and converts them to double precision, so that the solver may change its arrays between calls.
 program single_precision
   use riis
   use, intrinsic :: iso_fortran_env, only: int64, real32

@@ -95,8 +95,8 @@ contains
     if (jump .and. has_valve) call make_shape
   end subroutine riis_pressure_valve_moved
 
-  ! The shape of the jump: the potential of K times the normals. It steps by about one number across the valve, and is smooth at
-  ! a free edge.
+  ! The shape of the jump: the potential of K times the normals. The pressure steps by about one number across the valve, and is
+  ! smooth at a free edge.
   subroutine make_shape
     integer :: c
     shape_of_jump = 0

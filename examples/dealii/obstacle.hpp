@@ -54,7 +54,7 @@ class Obstacle {
     riis::check(riis_surface_update_moving(surface, valve, before, time_step, nullptr, nullptr));
   }
 
-  // Adopts the points to mark. They must stay in place until the next call.
+  // Adopts the points to mark. The arrays must stay in place until the next call.
   void set_points(const Points &points) {
     riis_mesh *const old = mesh;
     const double *const x = points.empty() ? nullptr : points[0].begin_raw();

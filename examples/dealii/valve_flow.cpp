@@ -144,13 +144,13 @@ void Parameters::read(const std::vector<std::string> &files) {
 
 // The system is (A B^T; B 0). A good preconditioner is (A B^T; 0 -S) with the Schur complement S = B A^-1 B^T. Here A is
 // nearly a mass matrix: a velocity has the inertia rho/dt and the resistance K, and both are much larger than the viscosity. So S
-// is close to B D^-1 B^T, with the lumped mass matrix D. It is a Laplacian of the pressure with the coefficient 1/(rho/dt + K),
-// and B gives it the boundary conditions of the flow. Each velocity in D has its own K. With one K per cell, a cell partly in
-// the band would also resist flow along the band. Where viscosity and grad-div dominate, S is close to the pressure's mass
-// matrix over their coefficients. The sum of both inverses serves (Cahouet, Chabard 1988).
+// is close to B D^-1 B^T, with the lumped mass matrix D. This matrix is a Laplacian of the pressure with the coefficient
+// 1/(rho/dt + K), and B gives it the boundary conditions of the flow. Each velocity in D has its own K. With one K per cell, a
+// cell partly in the band would also resist flow along the band. Where viscosity and grad-div dominate, S is close to the
+// pressure's mass matrix over their coefficients. The sum of both inverses serves (Cahouet, Chabard 1988).
 //
 // MUMPS factorises A. In the band the grad-div term is larger than all other terms of A, and it couples the components of the
-// velocity. So an incomplete LU or SOR does not converge there.
+// velocity. An incomplete LU or SOR therefore does not converge there.
 class Preconditioner {
  public:
   Preconditioner(const PETSc::BlockSparseMatrix &system, const PETSc::Vector &diagonal, const PETSc::SparseMatrix &mass)

@@ -89,8 +89,8 @@ contains
     drop = lasting() - minval(pressure)
   end subroutine advance
 
-  ! Returns the drop from rest before the valve to the outlet, where the pressure is 0. It lacks the pressure that the jet has
-  ! gained again behind the valve.
+  ! Returns the drop from rest before the valve to the outlet, where the pressure is 0. This drop lacks the pressure that the jet
+  ! has gained again behind the valve.
   real(dp) function lasting()
     lasting = pressure(1) + fluid%rho / 2 * speed**2
   end function lasting

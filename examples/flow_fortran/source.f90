@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
 !> Computes the source in the band of a moving valve (README.md, "The source in the band").
 !!
-!! A face with a large K has the velocity of the leaflet, and the pressure hardly changes it. So if a cell has only such faces and
+!! A face with a large K has the velocity of the leaflet, and the pressure hardly changes it. If a cell has only such faces and
 !! walls, its divergence is the divergence of u_surface. The source allows this divergence. Without the source the pressure grows
 !! until blood flows through these faces.
 module flow_source

@@ -211,7 +211,7 @@ static void advance_valve(void) {
 
 /* ---- The hooks of code_saturne. ---- */
 
-/* Head losses need a zone. It contains all cells, because the valve moves. */
+/* Head losses need a zone. The zone contains all cells, because the valve moves. */
 void cs_user_zones(void) {
   if (setting("VALVE_PRESENT") > 0) cs_volume_zone_define("valve", "all[]", CS_VOLUME_ZONE_HEAD_LOSS);
 }

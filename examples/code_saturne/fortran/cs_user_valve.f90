@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Puts a heart valve into code_saturne 6.0, by a momentum source, in Fortran. The momentum equation gets the source -K (u -
 ! u_surface). -K is its implicit part, and K u_surface its explicit part. The pressure equation of code_saturne does not take this
-! source into account. So the pressure drop builds up over several time steps, and stays too small. The head losses in ../c avoid
-! this.
+! source into account. The pressure drop therefore builds up over several time steps, and stays too small. The head losses in ../c
+! avoid this.
 module valve_in_root
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int64_t, c_null_char, c_ptr
   use riis

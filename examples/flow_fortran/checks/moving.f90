@@ -245,7 +245,7 @@ contains
   end subroutine check_jet
 
   !> (j) Between closed ends the sum of all sources must be 0. The trileaflet valve opens in the middle of a wide box, where the
-  !! walls at the ends have little effect. It also opens in its closed root, from an opening of 0.5.
+  !! walls at the ends have little effect. The valve also opens in its closed root, from an opening of 0.5.
   subroutine check_box(first)
     integer, intent(in) :: first                  ! the first row to run; rows 5 and 6 are the root
     character(len=17), parameter :: names(6) = [character(len=17) :: 'box, open, net', 'box, open', 'box, closed', &

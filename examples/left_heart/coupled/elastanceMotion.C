@@ -7,8 +7,8 @@
 // when the step is solved. elastanceTable is a function object that writes a row for each step.
 //
 // p is the pressure that does the wall's work: the sum of p_f dV_f over the sum of dV_f. dV_f is the volume that the face f
-// sweeps if the amplitude grows, relative to the base. So the work of the blood on the wall is exactly the integral of p dV,
-// without the work that the whole heart's descent takes.
+// sweeps if the amplitude grows, relative to the base. The work of the blood on the wall is therefore exactly the integral of p
+// dV, without the work that the whole heart's descent takes.
 #include "Function1.H"
 #include "IOdictionary.H"
 #include "OSspecific.H"
