@@ -93,9 +93,9 @@ typedef struct riis_placement_arrays {
   double *standard_error;    /* (number of parameters, in the order of riis_valve_get_parameter), in the parameter's
                                 unit; infinite for RIIS_SIZE_TIED, 0 for RIIS_SIZE_KEPT */
   int32_t *size_state;       /* (number of parameters): RIIS_SIZE_* */
-  double *place;             /* (3, n_landmarks): the landmarks' places on the closed valve, mesh units: the sources of a
-                                warp whose targets are the landmarks. A commissure's place is the mean of its cusps' ends.
-                                Points of the attachment have the places with which this warp bends least */
+  double *place;             /* (3, n_landmarks): the landmarks' places on the closed valve, mesh units: the sources of a warp
+                                to the landmarks. A commissure's place is the mean of its cusps' ends. Points of the attachment
+                                have the places with which this warp bends least. Equal points of one line have one place */
 } riis_placement_arrays;
 RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
 /* Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement.

@@ -98,7 +98,7 @@ def place(
         subject, unit = "landmarks", None
         content: str | dict[str, Any] = {**stated, "axes": "mesh", "landmarks": dict(landmarks)}
     elif isinstance(landmarks, str | os.PathLike):
-        subject, content = os.fspath(landmarks), Path(landmarks).read_text("utf-8", "replace")
+        subject, content = os.fspath(landmarks), Path(landmarks).read_text("utf-8-sig", "replace")
     else:
         raise TypeError(f"landmarks must be a mapping of names to points, or a path, not {type(landmarks).__name__}")
     cloud = None if nodes is None else numpy.ascontiguousarray(nodes, numpy.float64)

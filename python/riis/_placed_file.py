@@ -35,7 +35,7 @@ def read_placed(path: str | os.PathLike[str], unit: str | None = None) -> Placed
 def open_placed(path: str | os.PathLike[str], unit: str | None) -> tuple[PlacedFile, Valve]:
     """Reads a placed valve as read_placed does. Returns the file's content and the valve."""
     name = os.fspath(path)
-    file = PlacedFile(name, Path(path).read_text("utf-8", "replace"), unit)
+    file = PlacedFile(name, Path(path).read_text("utf-8-sig", "replace"), unit)
     try:
         valve = Valve(file.kind)
         file.set_parameters(valve)

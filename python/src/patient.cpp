@@ -136,11 +136,12 @@ nb::dict fields_of(const program::Placed &placed) {
 }
 
 // Makes Python's object of a warp that the valve has.
-nb::object object_of(riis::Warp warp, const nb::dict &fields, double noise, Valve &valve) {
+nb::object object_of(riis::Warp warp, const program::Placed &placed, const nb::dict &fields, double noise,
+                     Valve &valve) {
   auto own = std::make_unique<Warp>();
   own->handle = warp.release();
-  own->sources = fields["places"];
-  own->targets = fields["points"];
+  own->sources = points_of(placed.sources);
+  own->targets = points_of(placed.targets);
   own->placement = fields["placement"];
   own->noise = noise;
   nb::object made = nb::cast(own.release(), nb::rv_policy::take_ownership);
@@ -183,7 +184,7 @@ nb::dict place_landmarks(const std::string &subject, nb::handle content, nb::han
   nb::dict fields = fields_of(*placed);
   fields["valve"] = made;
   if (placed->is_warped) {
-    fields["warp"] = object_of(std::move(warp), fields, smoothing, valve);
+    fields["warp"] = object_of(std::move(warp), *placed, fields, smoothing, valve);
     fields["warp_noise"] = smoothing;
     fields["warped_residuals"] = copy_of(placed->still_off.data(), {placed->still_off.size()});
   }

@@ -2,6 +2,7 @@
 """riis.place against scipy's least squares, and the files and names of landmarks."""
 
 import json
+import pickle
 
 import numpy
 import pytest
@@ -192,8 +193,13 @@ def test_warps(kind, tmp_path):
     assert numpy.linalg.norm(attachment - further["attachment"][0], axis=1).min() < 0.5
     with pytest.raises(riis.InvalidArgumentError, match="it must be none, exact or smoothed"):
         riis.place(named, kind, unit="mm", warp="yes")
+    # A point of the attachment may be equal to another landmark. It is refused if it is only near.
+    at = named["commissure_left_non"]
+    twice = riis.place({**named, "attachment": [at, at]}, kind, unit="mm", warp="exact")
+    assert (twice.places[6:] == twice.places[list(named).index("commissure_left_non")]).all()
+    numpy.testing.assert_array_equal(pickle.loads(pickle.dumps(twice.warp)).map(points), exact.warp.map(points))
     with pytest.raises(riis.InvalidArgumentError, match='"commissure_left_non" and "attachment_1" are in one place on'):
-        riis.place({**named, "attachment": [named["commissure_left_non"]]}, kind, unit="mm")
+        riis.place({**named, "attachment": [at + 0.01]}, kind, unit="mm")
 
 
 @pytest.mark.parametrize("kind", ["trileaflet", "coapting", "aortic"])

@@ -60,14 +60,16 @@ TEST(every_format_gives_the_same) {
   expect_sizes(program_out);
   char text[4096], slicer[4096];
   int n = snprintf(text, sizeof text,
-                   "# a comment\n# unit = cm\n# axes = mesh\n# valve = trileaflet\n# flow = 1, 0, 0\nname,x,y,z\n");
+                   "\xef\xbb\xbf# a comment\n# unit = cm;;;\n# axes = mesh\n# valve = trileaflet\n# flow = 1, 0, 0\n"
+                   "name,x,y,z\n");
   int m = snprintf(slicer, sizeof slicer,
                    "{\"markups\": [{\"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"mm\", "
                    "\"locked\": true, \"controlPoints\": [");
   for (int i = 0; i < 6; ++i) {
     double p[3];
     landmark(i, 1, p);
-    n += snprintf(text + n, sizeof text - (size_t)n, "%s;%.17g;%.17g;%.17g\r\n", names[i], p[0], p[1], p[2]);
+    n += snprintf(text + n, sizeof text - (size_t)n,
+                  i % 2 ? "%s;%.17g;%.17g;%.17g\r\n" : "\"%s \",%.17g,\"%.17g\",%.17g\n", names[i], p[0], p[1], p[2]);
     landmark(i, 10, p);
     m += snprintf(slicer + m, sizeof slicer - (size_t)m,
                   "{\"label\": \"%s\", \"position\": [%.17g, %.17g, %.17g], \"positionStatus\": \"defined\"}, ",
@@ -627,6 +629,44 @@ TEST(folds_are_refused) {
   RUN_REFUSED(1, "points.json: the warp turns a part of patch", "place", json_of_points(8, labels, points), "--valve",
               "coapting", "--warp", "exact", "--quiet");
   RUN_FINE("place", json_of_points(6, labels, points), "--valve", "coapting", "--warp", "exact", "--quiet");
+}
+
+/* Landmarks in one place may demand the same, as an annulus point at the anterior horn does. Others contradict each other. */
+TEST(landmarks_in_one_place_are_met_or_refused) {
+  enum { n = 18 };
+  const char *labels[n] = {"anterior_horn"};
+  char annulus_names[n][16];
+  double annulus[n][3];
+  for (int i = 0; i < n; ++i) {
+    const double angle = acos(-1.0) * (i - 1) / 8;
+    annulus[i][0] = 18 * sin(angle), annulus[i][1] = (cos(angle) > 0 ? 12.5 : 15) * cos(angle);
+    annulus[i][2] = 1.5 + 1.5 * cos(2 * angle);
+    if (i > 0) snprintf(annulus_names[i], sizeof annulus_names[i], "annulus_%d", i), labels[i] = annulus_names[i];
+  }
+  memcpy(annulus[0], annulus[1], sizeof annulus[0]);
+  memcpy(annulus[n - 1], annulus[n - 2], sizeof annulus[0]);
+  RUN_FINE("place", json_of_points(n, labels, annulus), "--valve", "mitral", "--flow", "0,0,-1", "--warp", "exact",
+           "--output", "-");
+  if (!(json_number(program_out, "worst") > 0.1 && json_number(program_out, "warped_worst") < 0.02))
+    fail_msg("residuals %g and %g mm", json_number(program_out, "worst"), json_number(program_out, "warped_worst"));
+  const char *sources = strstr(program_out, "\"sources\": ["),
+             *end = sources ? strstr(sources, "\"targets\": [") : NULL;
+  int n_brackets = 0;
+  for (const char *c = sources; c && c < end; ++c) n_brackets += *c == '[';
+  assert_int_equal(n_brackets - 1, n - 2);
+  scratch_write_text("met.json", program_out);
+  RUN_FINE("surface", "--valve", scratch_path("met.json"), "--quiet", "--output", scratch_path("met.vtp"));
+  RUN_FINE("place", json_of_points(n, labels, annulus), "--valve", "mitral", "--flow", "0,0,-1", "--warp", "exact",
+           "--quiet", "--c", "-");
+  assert_non_null(strstr(program_out, "sources.n_points = 16;"));
+  /* The valve has its trigones beside its horn. */
+  labels[n - 1] = "trigone";
+  memcpy(annulus[n - 1], annulus[0], sizeof annulus[0]);
+  RUN_REFUSED(1, "points.json: \"anterior_horn\" and \"trigone\" are in one place, but on the valve they are ", "place",
+              json_of_points(n, labels, annulus), "--valve", "mitral", "--flow", "0,0,-1", "--warp", "exact",
+              "--quiet");
+  assert_non_null(strstr(program_err, " mm apart, so no warp meets both: leave one of them out"));
+  RUN_FINE("place", json_of_points(n, labels, annulus), "--valve", "mitral", "--flow", "0,0,-1", "--quiet");
 }
 
 /* The sizes from landmarks may not fit the other sizes. */

@@ -33,7 +33,7 @@ typedef struct patient {
 
 typedef struct answer {
   riis_placement placement;
-  double residual[most], standard_error[most_parameters];
+  double residual[most], standard_error[most_parameters], place[most][3];
   int32_t state[most_parameters];
 } answer;
 
@@ -121,6 +121,7 @@ static riis_status try_to_place(riis_valve *valve, const patient *p, const char 
   arrays.residual = to->residual;
   arrays.standard_error = to->standard_error;
   arrays.size_state = to->state;
+  arrays.place = to->place[0];
   return riis_place(valve, &landmarks, held, &arrays, &to->placement, sizeof to->placement);
 }
 static answer place(riis_valve *valve, const patient *p) {
@@ -669,6 +670,35 @@ TEST(test_exact_mitral) {
   }
 }
 
+/* An annulus point may be equal to its neighbour or to the horn. Both landmarks then have one place, which is that of the horn. */
+TEST(test_repeated_points_of_annuli) {
+  enum { n = 16, horn = n };
+  for (int trial = 0; trial < trials_of(12); ++trial) {
+    double sizes[n_sizes], ratio;
+    patient p = mitral(n, trial % 2 == 1, sizes, &ratio);
+    const bool is_exact = trial % 4 < 2;
+    if (!is_exact) disturb(&p, 0.03);
+    int nearest = 0;
+    double least = HUGE_VAL;
+    for (int i = 0; i < n; ++i) {
+      double square = 0;
+      for (int k = 0; k < 3; ++k) square += (p.xyz[i][k] - p.xyz[horn][k]) * (p.xyz[i][k] - p.xyz[horn][k]);
+      if (square < least) least = square, nearest = i;
+    }
+    const int first = (nearest + 6) % n, second = (nearest + 7) % n;
+    memcpy(p.xyz[nearest], p.xyz[horn], sizeof p.xyz[horn]);
+    memcpy(p.xyz[second], p.xyz[first], sizeof p.xyz[first]);
+    place_patient(&p, scales[trial % 3]);
+    riis_valve *valve = new_valve("mitral");
+    const answer found = place(valve, &p);
+    for (int k = 0; k < n_sizes && is_exact; ++k) CHECK_NEAR(value(valve, mitral_names[k]), sizes[k], 0.01);
+    const int earlier = first < second ? first : second, later = first < second ? second : first;
+    assert_memory_equal(found.place[nearest], found.place[horn], sizeof found.place[horn]);
+    assert_memory_equal(found.place[later], found.place[earlier], sizeof found.place[earlier]);
+    assert_true(found.residual[nearest] == found.residual[horn] && found.residual[later] == found.residual[earlier]);
+  }
+}
+
 /* Without flow and commissures, the horns show the atrium's side if the annulus is a saddle. */
 TEST(test_saddle) {
   double sizes[n_sizes], ratio;
@@ -1089,7 +1119,7 @@ TEST(test_refused_annuli) {
         p.xyz[2][k] = p.xyz[10][k], p.xyz[10][k] = x;
       });
   REFUSED("landmark 3 (annulus) and landmark 4 (annulus) are in one place",
-          memcpy(p.xyz[4], p.xyz[3], sizeof p.xyz[3]));
+          (memcpy(p.xyz[4], p.xyz[3], sizeof p.xyz[3]), p.xyz[4][2] += 0.001));
   REFUSED("has the anterior_horn 0 times|needs 1", p.n = 16);
   REFUSED("landmark 16 (anterior_horn)|must be on the annulus", memset(p.xyz[16], 0, sizeof p.xyz[16]));
   REFUSED("landmarks.flow is at 90 degrees", (p.flow[2] = 0, p.flow[0] = 1));

@@ -406,6 +406,24 @@ TEST(test_gmsh_groups) {
   assert_int_equal(shim_read_corners(scratch_path("twice.vtu"), NULL), 12);
   shim_read_corners(scratch_path("twice.vtu"), found);
   assert_memory_equal(found, corners, sizeof corners);
+  /* In a partitioned mesh of version 4.1, the elements belong to parts of the volumes. The parts state the groups. */
+  scratch_write_text(
+      "parts.msh",
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n1 0 0 1\n1 0 0 0 0\n1 0 0 0 1 1 1 2 5 6 0\n$EndEntities\n"
+      "$PartitionedEntities\n2\n1\n9 2\n1 0 0 2\n2 0 1 2 1 2 0 0 0 0\n3 3 1 1 1 0 0 0 1 1 1 2 5 6 0\n"
+      "4 3 1 1 2 0 0 0 1 1 1 1 7 2 8 -9\n$EndPartitionedEntities\n"
+      "$Nodes\n1 5 1 5\n3 3 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n$EndNodes\n"
+      "$Elements\n2 2 1 2\n3 3 4 1\n1 1 2 3 4\n3 4 4 1\n2 2 3 4 5\n$EndElements\n"
+      "$GhostElements\n1\n1 1 1 2\n$EndGhostElements\n");
+  const char *const wheres[4] = {"gmsh:physical=5", "gmsh:physical=6", "gmsh:physical=7", "gmsh:physical=5,7"};
+  for (int i = 0; i < 4; ++i) {
+    riis_vtk_mesh *mesh = NULL;
+    int64_t n_chosen = 0;
+    expect_fine(riis_vtk_mesh_read(scratch_path("parts.msh"), &mesh));
+    expect_fine(riis_vtk_mesh_choose_cells(mesh, wheres[i], &n_chosen));
+    assert_int_equal(n_chosen, i == 3 ? 2 : 1);
+    riis_vtk_mesh_destroy(&mesh);
+  }
 #ifdef RIIS_GMSH
   char geo[4096], options[256];
   snprintf(geo, sizeof geo, "%sPhysical Volume(11) = {hex[1], 201};\n", geometry);

@@ -62,14 +62,15 @@ static void add_points(int is_binary, int is_big) {
   }
 }
 
-/* As in a textured model, vertices have several texture coordinates and normals. Corners count from the start or the end. */
+/* As in a textured model, vertices have several texture coordinates and normals. Corners count from the start or the end. The
+ * file begins with a byte order mark, and a face has its old keyword fo. */
 static void write_obj(void) {
-  add_text("# a model in C:\\models\\\nmtllib model.mtl\no valve\nvt 0 0\nvt 0.5 1\nvn 0 0 1\n");
+  add_text("\xef\xbb\xbf# a model in C:\\models\\\nmtllib model.mtl\no valve\nvt 0 0\nvt 0.5 1\nvn 0 0 1\n");
   for (int i = 0; i < n_vertices; ++i)
     add_text(i % 2 ? "v %.17g %.17g \\\n  %.17g\n" : "v %.17g %.17g %.17g 1\r\n", xyz[i][0], xyz[i][1], xyz[i][2]);
   const char *const forms[4] = {" %d", " %d/1", " %d/2/1", " %d//1"};
   for (int face = 0, at = 0; face < n_faces; at += sizes[face++]) {
-    add_text("g part_%d\nusemtl red\nf", face);
+    add_text("g part_%d\nusemtl red\n%s", face, face == 2 ? "fo" : "f");
     for (int k = 0; k < sizes[face]; ++k)
       add_text(forms[(face + k) % 4], face == 1 ? corners[at + k] - n_vertices : corners[at + k] + 1);
     add_text(" # face %d\n", face);
@@ -81,7 +82,10 @@ static void write_ply(int is_binary, int is_big) {
            is_binary ? is_big ? "binary_big_endian" : "binary_little_endian" : "ascii", n_vertices);
   add_text("property double z\nelement face %d\nproperty uchar part\nproperty list uchar int vertex_indices\n",
            n_faces);
-  add_text("property list ushort float texture\nelement edge 1\nproperty short a\nproperty uint b\nend_header\n");
+  add_text("property list ushort float texture\nelement edge 1\nproperty int64 a\nproperty uint b\nend_header\n");
+  /* The lines of old files end in a carriage return alone. */
+  for (size_t i = 0; i < n_bytes && is_big; ++i)
+    if (bytes[i] == '\n') bytes[i] = '\r';
   add_points(is_binary, is_big);
   for (int face = 0, at = 0; face < n_faces; at += sizes[face++]) {
     const uint16_t one = 1;
@@ -102,8 +106,7 @@ static void write_ply(int is_binary, int is_big) {
     add_text("1 2\n");
     return;
   }
-  const int16_t a = 1;
-  add_number(&a, sizeof a, is_big);
+  add_long(1, is_big);
   add_int(2, is_big);
 }
 

@@ -39,7 +39,7 @@ def cycle_of(source: str, period: float, interpolation: Any) -> Cycle:
 def _read_cycle(path: str) -> tuple[Reals, Reals]:
     """Reads a cycle as the program does: a time and an opening in each line, perhaps names of columns first, and comments."""
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        text = Path(path).read_text(encoding="utf-8-sig")
     except (OSError, ValueError) as error:
         raise refuse(f"builtin_or_csv: {path!r} is neither {', '.join(CYCLES)} nor a file that can be read: {error}") from None
     keys: list[tuple[float, float]] = []

@@ -166,7 +166,7 @@ def read_file(path: str | os.PathLike[str], unit: str | None, axes: str | None) 
     """Reads a file of landmarks. unit and axes belong to the mesh. By default the file's apply."""
     name = os.fspath(path)
     turned = axes if axes in ("LPS", "RAS") else None
-    found = read_landmarks(name, Path(path).read_text("utf-8", "replace"), unit, turned)
+    found = read_landmarks(name, Path(path).read_text("utf-8-sig", "replace"), unit, turned)
     points: dict[str, Vector] = {}
     kind = found["valve"] or None
     for given, point in zip(found["names"], found["points"]):

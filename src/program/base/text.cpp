@@ -69,6 +69,22 @@ std::string shortest(double number) {
   return {text, static_cast<std::size_t>(end - text)};
 }
 
+int decimal_exponent(double number) {
+  char text[32];
+  const char *end = std::to_chars(text, text + sizeof text, number, std::chars_format::scientific).ptr;
+  const char *const exponent = std::find(static_cast<const char *>(text), end, 'e') + 1;
+  int value = 0;
+  std::from_chars(exponent + (*exponent == '+' ? 1 : 0), end, value);
+  return value;
+}
+
+double power_of_ten(int exponent) {
+  const std::string text = "1e" + std::to_string(exponent);
+  double value = 0;
+  number_from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
 std::string printed(const char *format, double number) {
   char text[64];
   std::snprintf(text, sizeof text, format, number);
@@ -156,7 +172,9 @@ std::string text_of_file(const std::string &path) {
   if (text.str().empty()) refuse_file(path, "is empty");
   if (text.str().rfind("version https://git-lfs.github.com/spec/", 0) == 0)
     refuse_file(path, "is a pointer of Git LFS, not the file itself: git lfs pull fetches the file");
-  return text.str();
+  // Windows programs begin a text with a byte order mark.
+  const std::string mark = "\xef\xbb\xbf";
+  return text.str().substr(text.str().rfind(mark, 0) == 0 ? mark.size() : 0);
 }
 
 // ---- Times ----
@@ -236,7 +254,19 @@ std::string trimmed(const std::string &text) {
 }
 
 std::vector<std::string> csv_cells(const std::string &line) {
-  std::vector<std::string> cells = split(line, ",;");
+  std::vector<std::string> cells(1);
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"')
+      cells.back() += line[++i];
+    else if (c == '"' && (is_quoted || trimmed(cells.back()).empty()))
+      is_quoted = !is_quoted;
+    else if (!is_quoted && (c == ',' || c == ';'))
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
   for (std::string &cell : cells) cell = trimmed(cell);
   return cells;
 }
@@ -258,7 +288,9 @@ std::vector<CsvLine> csv_lines(const std::string &text) {
     if (line[0] != '#') {
       lines.push_back({where, line, {}});
     } else if (const std::size_t equals = line.find('='); equals != std::string::npos) {
-      lines.push_back({where, "", {{trimmed(line.substr(1, equals - 1)), trimmed(line.substr(equals + 1))}}});
+      // A spreadsheet fills the line with empty cells.
+      const std::string value = line.substr(equals + 1, line.find_last_not_of(",; ") - equals);
+      lines.push_back({where, "", {{trimmed(line.substr(1, equals - 1)), trimmed(value)}}});
     }
   }
   return lines;

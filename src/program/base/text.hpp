@@ -29,6 +29,10 @@ std::vector<double> parse_list(const std::string &text, const std::string &subje
 std::string printed(const char *format, double number);
 // Returns the shortest text that reads back as the same number, in any locale.
 std::string shortest(double number);
+// Returns the power of ten of a number's first digit. For example, it is 2 for 123. The number is finite and not 0.
+int decimal_exponent(double number);
+// Returns the double that is nearest to 10 to this power, or 0 if the power is too small or too large.
+double power_of_ten(int exponent);
 
 // Returns numbers with a text between them.
 std::string numbers_text(const double *numbers, std::size_t n, const char *between,
@@ -70,7 +74,8 @@ std::string text_of_file(const std::string &path);
 // In: the text of a CSV. Out: its rows, and the facts that lines # NAME = VALUE state. Other lines with # are comments.
 
 std::string trimmed(const std::string &text);
-// Returns the cells of a line, which commas or semicolons separate.
+// Returns the cells of a line, which commas or semicolons separate. A cell in quotation marks may contain these, and two marks
+// in it stand for one.
 std::vector<std::string> csv_cells(const std::string &line);
 // Reads a number, whose refusal names the file.
 double number_in_file(const std::string &path, const std::string &text, const std::string &subject);

@@ -84,13 +84,12 @@ constexpr double most_edge = 10, most_edge_of_valve = 0.4;
 constexpr double smallest_half_thickness = 0.3;
 // A vessel that is too narrow or too wide by more than these ratios is impossible. The valve may stand in a wide basin.
 constexpr double most_too_narrow = 1.5, most_too_wide = 10;
-// A unit is possible if it is at most this much odder than the likeliest unit. Oddities are logarithms of ratios.
-constexpr double most_odd = 1;
-// The present unit of a wide basin is right if each other unit is odder by at least this much.
-constexpr double surely_odder = 0.3;
+// A unit is possible if it is at most this many times as odd as the likeliest unit. Oddities are products of ratios above 1.
+constexpr double most_odd = 2.7;
+// The present unit of a wide basin is right if each other unit is at least this many times as odd.
+constexpr double surely_odder = 1.35;
 
-// Returns the logarithm of a ratio above 1, and 0 otherwise.
-double excess(double ratio) { return ratio > 1 ? std::log(ratio) : 0; }
+double excess(double ratio) { return std::max(ratio, 1.0); }
 
 double narrowness_at(double factor, const Sizes &s) {
   return excess(least_width * s.surface.largest_side() / (factor * s.mesh_sides[1]));
@@ -103,10 +102,10 @@ double wideness_at(double factor, const Sizes &s) {
 // Returns how odd the sizes are if the mesh's lengths are multiplied by the factor. The default half thickness has the valve's
 // unit, and thus limits the mesh's edges from above and below.
 double oddity_at(double factor, const Sizes &s, double edge) {
-  double oddity = narrowness_at(factor, s) + wideness_at(factor, s) +
+  double oddity = narrowness_at(factor, s) * wideness_at(factor, s) *
                   excess(factor * edge / (longest_edge * s.surface.largest_side()));
   if (s.has_usual_half && edge > 0)
-    oddity += excess(factor * edge / (usual_edge * s.half_thickness)) +
+    oddity *= excess(factor * edge / (usual_edge * s.half_thickness)) *
               excess(shortest_edge * s.half_thickness / (factor * edge));
   return oddity;
 }
@@ -142,14 +141,14 @@ UnitJudgement judge_units(const Sizes &s, const std::vector<double> &factors) {
   std::sort(possible.begin(), possible.end());
   possible.erase(std::unique(possible.begin(), possible.end()), possible.end());
   const auto is_impossible = [&](double factor) {
-    return narrowness_at(factor, s) > std::log(most_too_narrow) || wideness_at(factor, s) > std::log(most_too_wide);
+    return narrowness_at(factor, s) > most_too_narrow || wideness_at(factor, s) > most_too_wide;
   };
   possible.erase(std::remove_if(possible.begin(), possible.end(), is_impossible), possible.end());
-  if (narrowness_at(1, s) == 0 && judgement.is_possible(1)) {
+  if (narrowness_at(1, s) == 1 && judgement.is_possible(1)) {
     // A basin may have long edges everywhere but near the valve.
     const double edge = s.near_edge > 0 ? std::min(s.near_edge, s.median_edge) : s.median_edge;
     judgement.is_right |= s.is_unit_known || std::all_of(possible.begin(), possible.end(), [&](double factor) {
-                            return factor == 1 || oddity_at(factor, s, edge) >= oddity_at(1, s, edge) + surely_odder;
+                            return factor == 1 || oddity_at(factor, s, edge) >= oddity_at(1, s, edge) * surely_odder;
                           });
   }
   const auto oddity = [&](double factor) { return oddity_at(factor, s, s.median_edge); };
@@ -159,13 +158,13 @@ UnitJudgement judge_units(const Sizes &s, const std::vector<double> &factors) {
       s.has_usual_half ? most_edge * s.half_thickness : most_edge_of_valve * s.surface.largest_side();
   const auto is_unlikely = [&](double factor) {
     return is_about(factor, s.unnamed_factor) ? factor * s.median_edge > longest * (1 + 1e-6)
-                                              : oddity(factor) > least + most_odd;
+                                              : oddity(factor) > least * most_odd;
   };
   possible.erase(std::remove_if(possible.begin(), possible.end(), is_unlikely), possible.end());
   return judgement;
 }
 
-bool is_as_wide(const Sizes &s, double factor) { return narrowness_at(factor, s) == 0 && wideness_at(factor, s) == 0; }
+bool is_as_wide(const Sizes &s, double factor) { return narrowness_at(factor, s) == 1 && wideness_at(factor, s) == 1; }
 
 const std::vector<double> &unit_factors() {
   static const std::vector<double> all = {0.1, 10, 0.01, 100, 0.001, 1000};
@@ -218,11 +217,14 @@ double better_half_thickness(const Sizes &s) {
     return !is_too_large(half_thickness, s) && !is_too_small(half_thickness, s);
   };
   const double usual = usual_half_thickness * s.surface.largest_side();
+  const auto distance = [&](double half_thickness) {
+    return excess(half_thickness / usual) * excess(usual / half_thickness);
+  };
   double best = 0;
   for (const double factor : unit_factors()) {
     const double candidate = s.half_thickness * factor;
     if (!fits(candidate)) continue;
-    if (best == 0 || std::abs(std::log(candidate / usual)) < std::abs(std::log(best / usual))) best = candidate;
+    if (best == 0 || distance(candidate) < distance(best)) best = candidate;
   }
   if (best != 0) return best;
   return s.median_edge > 0 && fits(s.median_edge) ? s.median_edge : 0;

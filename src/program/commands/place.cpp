@@ -78,7 +78,7 @@ std::string c_of(const Placed &placed) {
   for (int k = 0; k < 3; ++k)
     text += "options.translation[" + std::to_string(k) + "] = " + shortest(at.translation[k]) + ";\n";
   if (placed.is_warped) {
-    const std::string n = std::to_string(placed.places.size() / 3);
+    const std::string n = std::to_string(placed.sources.size() / 3);
     const auto array = [&](const char *name, const std::vector<double> &xyz) {
       std::string made = std::string("const double ") + name + "[][3] = {";
       for (std::size_t i = 0; i < xyz.size(); i += 3)
@@ -86,7 +86,7 @@ std::string c_of(const Placed &placed) {
       return made + "};\n";
     };
     text += "/* The warp takes landmarks on the valve to the patient's landmarks. */\n" +
-            array("on_valve", placed.places) + array("in_patient", placed.landmarks.xyz) +
+            array("on_valve", placed.sources) + array("in_patient", placed.targets) +
             "riis_points sources, targets;\nriis_warp_options warp_options;\nriis_warp *warp = NULL;\n";
     for (const auto &[points, from] : {std::pair("sources", "on_valve"), std::pair("targets", "in_patient")}) {
       const std::string to = points;
@@ -132,9 +132,8 @@ std::string fortran_of(const Placed &placed) {
       return made + "], [3, " + std::to_string(xyz.size() / 3) + "])";
     };
     text += "! The warp takes landmarks on the valve to the patient's landmarks.\ncall warp%create(" +
-            array(placed.places) + ", &\n  noise=" + in_fortran(placed.warp_noise) + ", " + where +
-            "call warp%set_targets(" + array(placed.landmarks.xyz) +
-            ")\ncall valve%set_warp(warp)\ncall warp%destroy()\n";
+            array(placed.sources) + ", &\n  noise=" + in_fortran(placed.warp_noise) + ", " + where +
+            "call warp%set_targets(" + array(placed.targets) + ")\ncall valve%set_warp(warp)\ncall warp%destroy()\n";
   }
   return text + "call surface%create(valve, " + where;
 }

@@ -49,10 +49,10 @@ struct Place {
   bool may_repeat;  // whether other landmarks may have the same name
 };
 
-// Returns the name in small letters, with _ for blanks and hyphens.
+// Returns the name in small letters, with _ for blanks and hyphens in it.
 std::string plain(const std::string &name) {
   std::string made;
-  for (const char c : name)
+  for (const char c : trimmed(name))
     made += c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return made;
 }

@@ -6,6 +6,7 @@
 #include <regex>
 #include <utility>
 
+#include "common/elementary.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
@@ -92,10 +93,42 @@ std::vector<double> distances_from(riis_valve *valve, riis_surface_options where
   return distances_to(create<Surface>(riis_surface_create, valve, &where), xyz);
 }
 
+// Finds the pairs of the warp. Refuses two landmarks that the warp cannot both meet.
+void pair_landmarks(Placed &placed, bool is_exact) {
+  const LandmarkFile &landmarks = placed.landmarks;
+  const auto apart = [](const std::vector<double> &xyz, std::size_t i, std::size_t k) {
+    return hypotenuse(xyz[3 * i] - xyz[3 * k], xyz[3 * i + 1] - xyz[3 * k + 1], xyz[3 * i + 2] - xyz[3 * k + 2]);
+  };
+  const double same_place = distance_error * placed.placement.scale;
+  placed.sources.clear(), placed.targets.clear(), placed.paired_names.clear();
+  for (std::size_t i = 0; i < landmarks.names.size(); ++i) {
+    bool is_repeated = false;
+    for (std::size_t k = 0; k < i; ++k) {
+      const double on_valve = apart(placed.places, i, k), in_patient = apart(landmarks.xyz, i, k);
+      const bool is_one_source = on_valve <= 1e-6 * placed.placement.scale, is_one_target = in_patient <= same_place;
+      is_repeated = is_repeated || (is_one_source && is_one_target);
+      if (is_one_source == is_one_target || (!is_one_source && !is_exact)) continue;
+      const std::string unit = std::string(" ") + name_of(landmarks.unit);
+      const auto words = [&](bool is_one, double distance) {
+        return is_one ? "in one place" : digits(distance, 3) + unit + " apart";
+      };
+      refuse_data(landmarks.path + ": " + quoted(landmarks.names[k]) + " and " + quoted(landmarks.names[i]) + " are " +
+                  words(is_one_target, in_patient) + ", but on the valve they are " + words(is_one_source, on_valve) +
+                  ", so no warp meets both: leave one of them out");
+    }
+    if (is_repeated) continue;
+    const auto at = static_cast<std::ptrdiff_t>(3 * i);
+    placed.sources.insert(placed.sources.end(), placed.places.begin() + at, placed.places.begin() + at + 3);
+    placed.targets.insert(placed.targets.end(), landmarks.xyz.begin() + at, landmarks.xyz.begin() + at + 3);
+    placed.paired_names.push_back(landmarks.names[i]);
+  }
+}
+
 // Warps the valve to the landmarks. Refuses a warp that folds at one of five openings.
 Warp unfolded_warp(const Placed &placed, riis_valve *valve, double noise, Reader reader) {
-  const LandmarkFile &landmarks = placed.landmarks;
-  const riis_points from = points_of(placed.places), to = points_of(landmarks.xyz);
+  LandmarkFile landmarks = placed.landmarks;
+  landmarks.names = placed.paired_names;
+  const riis_points from = points_of(placed.sources), to = points_of(placed.targets);
   auto how = defaults<riis_warp_options>();
   how.placement = &placed.where;
   how.noise = noise;
@@ -199,6 +232,7 @@ Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, cons
 }
 
 Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader reader) {
+  pair_landmarks(placed, noise == 0);
   Warp warp = [&] {
     try {
       return unfolded_warp(placed, valve, noise, reader);
@@ -289,7 +323,7 @@ Json parameters_of(const riis_valve *valve) {
 }
 
 std::string filled(const std::string &text, std::size_t width) {
-  return text + std::string(std::max(width, text.size()) - text.size(), ' ');
+  return text + std::string(std::max(width, text.size() + 1) - text.size(), ' ');
 }
 
 // A distance from the valve, or 0 for a distance within the error of such distances.
@@ -326,8 +360,8 @@ std::string placed_file_of(const Placed &placed, const riis_valve *valve) {
   };
   if (placed.is_warped) {
     Json warp = Json::object();
-    warp["sources"] = json_of_points(placed.places);
-    warp["targets"] = json_of_points(placed.landmarks.xyz);
+    warp["sources"] = json_of_points(placed.sources);
+    warp["targets"] = json_of_points(placed.targets);
     warp["noise"] = placed.warp_noise;
     root["warp"] = warp;
   }

@@ -84,6 +84,9 @@ struct Placed {
   std::vector<double> places;                                     // (3, n), of the landmarks on the valve
   riis_surface_options where = defaults<riis_surface_options>();  // the placement
   bool is_warped = false;
+  // Of the warp: the landmarks on the valve and in the patient, (3, n), and their names. Landmarks in one place are one pair.
+  std::vector<double> sources, targets;
+  std::vector<std::string> paired_names;
   double warp_noise = 0;          // the noise that smooths the warp; 0: the warp meets the landmarks
   std::vector<double> still_off;  // distances of the landmarks from the warped closed valve, right to a micrometre
 };

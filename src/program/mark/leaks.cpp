@@ -40,7 +40,7 @@ namespace {
 
 // Rounds up to three digits, so that the number also closes the leaks when the user types it as printed.
 double rounded_up(double x) {
-  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
+  const double unit = power_of_ten(decimal_exponent(x) - 2);
   for (int steps = 0;; ++steps) {
     char text[64];
     double rounded = 0;

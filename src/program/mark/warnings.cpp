@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/elementary.hpp"
 #include "common/number_from_chars.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/ranks.hpp"
@@ -29,9 +30,9 @@ constexpr int64_t fewest_judged_nodes = 100;
 // Returns a coordinate as text, rounded to a tenth of the edge or finer. The text has no trailing zeros, and 0 has no sign.
 std::string coordinate_text(double x, double edge) {
   constexpr int most_digits = 17;  // the most digits of a double
-  int n_digits = 6;
-  if (edge > 0) n_digits = static_cast<int>(std::floor(std::log10(std::abs(x))) - std::floor(std::log10(edge)) + 2);
-  if (x == 0 || n_digits < 1) return "0";
+  if (x == 0) return "0";
+  const int n_digits = edge > 0 ? decimal_exponent(x) - decimal_exponent(edge) + 2 : 6;
+  if (n_digits < 1) return "0";
   char text[32];
   const int precision = std::min(n_digits, most_digits);
   double rounded = 0;
@@ -127,7 +128,7 @@ std::vector<double> factors_of_units(const Situation &s) {
 UnitJudgement judgement_of(const Situation &s, bool is_unit_known) {
   Sizes sizes = s;
   sizes.is_unit_known = is_unit_known;
-  if (s.n_marked > 0) sizes.near_edge = std::cbrt(2 * s.half_thickness * s.area / static_cast<double>(s.n_marked));
+  if (s.n_marked > 0) sizes.near_edge = cube_root(2 * s.half_thickness * s.area / static_cast<double>(s.n_marked));
   return judge_units(sizes, factors_of_units(s));
 }
 

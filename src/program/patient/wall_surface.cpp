@@ -515,9 +515,9 @@ class WallRepair {
 ClosedSurface read_closed_surface(const std::string &path) { return WallRepair(path).result(); }
 
 std::string point_text(const Vector3 &point, double size) {
-  const int n_digits = std::clamp(static_cast<int>(std::ceil(3 - std::log10(std::max(size, 1e-300)))), 0, 17);
+  const int n_digits = std::clamp(3 - decimal_exponent(std::max(size, 1e-300)), 0, 17);
   const std::string format = "%." + std::to_string(n_digits) + "f";
-  const double step = std::pow(10, -n_digits);
+  const double step = power_of_ten(-n_digits);
   std::string text;
   for (const double x : point) {
     const double shown = std::abs(x) < 0.5 * step ? 0 : x;  // never -0.00

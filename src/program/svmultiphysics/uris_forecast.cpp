@@ -256,7 +256,8 @@ class Forecaster {
     for (const double of_node : mesh_.node_volume) {
       const double of_edges = edge * std::cbrt(std::max(of_node, 0.0) / volume);
       // A node beside the wall has a small volume, but the edges of its neighbours.
-      n_nodes += std::pow(std::max(of_edges, edge) / (std::max(of_edges, edge) - shorter), 3);
+      const double ratio = std::max(of_edges, edge) / (std::max(of_edges, edge) - shorter);
+      n_nodes += ratio * ratio * ratio;
     }
     return ", or edges of " + in_mesh(edge / factor) + " in the band, " + shown(1 / factor) +
            " times as long as now, in about " + rounded(n_nodes) + " nodes";
@@ -264,7 +265,7 @@ class Forecaster {
 
   // Returns a count with two digits that are not 0.
   static std::string rounded(double count) {
-    const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(count)) - 1));
+    const double unit = power_of_ten(std::max(0, decimal_exponent(count) - 1));
     return grouped(static_cast<std::int64_t>(std::llround(count / unit) * std::llround(unit)));
   }
 

@@ -65,6 +65,7 @@ riis::Landmarks landmarks_of(const riis_landmarks &given) {
     made.list.push_back(
         {(1 / given.scale) * (points[static_cast<std::size_t>(i)] - made.mean), role, {leaflet(0), leaflet(1)}});
   }
+  riis::find_repeated(made.list);
   return made;
 }
 

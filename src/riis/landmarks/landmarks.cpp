@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
@@ -30,6 +31,24 @@ std::string unit_in_brackets(double scale) {
   return "";
 }
 
+// Landmarks that are at most this far apart are in one place, in centimetres.
+constexpr double same_place = 1e-4;
+
+// Returns whether a valve that has landmark a where it is also meets landmark b, which is in the same place.
+bool implies(const Landmark &a, const Landmark &b) {
+  const auto is_one_of = [&](std::initializer_list<std::int32_t> roles) {
+    return std::find(roles.begin(), roles.end(), a.role) != roles.end();
+  };
+  if (b.role == RIIS_LANDMARK_ANNULUS)
+    return is_one_of({RIIS_LANDMARK_ANNULUS, RIIS_LANDMARK_ANTERIOR_HORN, RIIS_LANDMARK_POSTERIOR_HORN,
+                      RIIS_LANDMARK_TRIGONE, RIIS_LANDMARK_POSTEROMEDIAL, RIIS_LANDMARK_ANTEROLATERAL,
+                      RIIS_LANDMARK_COMMISSURE});
+  if (b.role != RIIS_LANDMARK_ATTACHMENT) return false;
+  const bool is_of_leaflet =
+      b.leaflet_ids[0] == -1 || a.leaflet_ids[0] == b.leaflet_ids[0] || a.leaflet_ids[1] == b.leaflet_ids[0];
+  return is_of_leaflet && is_one_of({RIIS_LANDMARK_ATTACHMENT, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COMMISSURE});
+}
+
 // The least width of the landmarks, as a share of their length.
 constexpr double least_width = 0.05;
 
@@ -37,9 +56,24 @@ constexpr double least_width = 0.05;
 
 std::vector<std::size_t> Landmarks::with_role(std::int32_t role) const {
   std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < list.size(); ++i)
-    if (list[i].role == role) numbers.push_back(i);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::optional<std::size_t> other = list[i].repeated;
+    if (list[i].role == role && !(other && list[*other].role == role)) numbers.push_back(i);
+  }
   return numbers;
+}
+
+void find_repeated(std::vector<Landmark> &list) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      if (k == i || distance(list[i].point, list[k].point) > same_place || !implies(list[k], list[i])) continue;
+      if (implies(list[i], list[k]) && i < k) continue;
+      list[i].repeated = k;
+      break;
+    }
+  for (Landmark &landmark : list)
+    while (landmark.repeated && list[*landmark.repeated].repeated)
+      landmark.repeated = list[*landmark.repeated].repeated;
 }
 
 Vec3 Landmarks::mean_of(const std::vector<std::size_t> &numbers) const {

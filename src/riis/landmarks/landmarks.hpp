@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,8 @@ struct Landmark {
   Vec3 point;                               // in centimetres, relative to the mean of all landmarks
   std::int32_t role;                        // RIIS_LANDMARK_*
   std::array<std::int32_t, 2> leaflet_ids;  // -1: not given
+  // The landmark in the same place that demands all that this one demands. For example, the annulus passes through its horns.
+  std::optional<std::size_t> repeated = std::nullopt;
 };
 
 struct Landmarks {
@@ -29,12 +32,15 @@ struct Landmarks {
   Vec3 flow;       // unit vector, or 0 if unknown
 
   bool has_flow() const { return !(flow == Vec3{0, 0, 0}); }
-  // Returns the numbers of the landmarks that have this role, in ascending order.
+  // Returns the numbers of the landmarks that have this role, in ascending order. Leaves out those that repeat one of this role.
   std::vector<std::size_t> with_role(std::int32_t role) const;
   std::size_t count(std::int32_t role) const { return with_role(role).size(); }
   Vec3 at(std::size_t i) const { return list[i].point; }
   Vec3 mean_of(const std::vector<std::size_t> &numbers) const;
 };
+
+// Finds the landmarks that repeat others.
+void find_repeated(std::vector<Landmark> &list);
 
 // Returns the name of a role, such as "nadir".
 const char *role_name(std::int32_t role);

@@ -170,6 +170,7 @@ struct WarpPairs {
   WarpPairs(const Landmarks &landmarks, const std::vector<Vec3> &local, double radius, bool with_attachment,
             const std::vector<Vec3> &places) {
     for (std::size_t i = 0; i < places.size(); ++i) {
+      if (landmarks.list[i].repeated) continue;
       if (landmarks.list[i].role == RIIS_LANDMARK_ATTACHMENT && !with_attachment) continue;
       const auto is_near = [&](Vec3 other) { return distance(other, places[i]) <= one_place_share * radius; };
       if (std::any_of(sources.begin(), sources.end(), is_near)) continue;
@@ -240,13 +241,15 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
 }
 
 // Moves equal places of different landmarks apart, such as beside a commissure that is off the valve's commissure.
-void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landmarks, const std::vector<Vec3> &local,
-                     double radius, std::vector<Vec3> &places) {
+void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
+                     const std::vector<std::size_t> &along, const std::vector<Vec3> &local, double radius,
+                     std::vector<Vec3> &places) {
   const double one_place = one_place_share * radius;
-  for (const std::size_t i : landmarks.with_role(RIIS_LANDMARK_ATTACHMENT))
+  for (const std::size_t i : along)
     for (std::size_t k = 0; k < places.size(); ++k) {
       const double apart = distance(local[i], local[k]);
-      if (k == i || distance(places[i], places[k]) > one_place || apart <= one_place) continue;
+      if (k == i || landmarks.list[k].repeated || distance(places[i], places[k]) > one_place || apart <= one_place)
+        continue;
       const std::int32_t leaflet_id = landmarks.list[i].leaflet_ids[0];
       const auto here = nearest_on(parts, {}, places[k], leaflet_id);
       if (!here) continue;
@@ -262,7 +265,9 @@ void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landm
 // the landmarks in the valve's frame.
 void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const std::vector<Vec3> &local, double radius,
                          std::vector<Vec3> &places) {
-  const std::vector<std::size_t> along = landmarks.with_role(RIIS_LANDMARK_ATTACHMENT);
+  std::vector<std::size_t> along = landmarks.with_role(RIIS_LANDMARK_ATTACHMENT);
+  const auto is_repeated = [&](std::size_t i) { return landmarks.list[i].repeated.has_value(); };
+  along.erase(std::remove_if(along.begin(), along.end(), is_repeated), along.end());
   if (along.empty()) return;
   const Vector<AttachmentPart> parts = attachment_of(valve);
   constexpr int most_rounds = 10;
@@ -281,16 +286,17 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
     }
     if (moved <= 1e-6 * radius) break;
   }
-  separate_places(parts, landmarks, local, radius, places);
+  separate_places(parts, landmarks, along, local, radius, places);
   slide_along_attachment(parts, landmarks, local, radius, places);
   const double one_place = one_place_share * radius;
   for (const std::size_t i : along)
     for (std::size_t k = 0; k < places.size(); ++k) {
       const double apart = distance(places[i], places[k]);
-      if (k == i || apart > one_place) continue;
+      if (k == i || landmarks.list[k].repeated || apart > one_place) continue;
       fail(RIIS_INVALID_ARGUMENT, words_for(landmarks, std::min(i, k)), " and ", words_for(landmarks, std::max(i, k)),
            " are in one place on the valve's attachment: ", rounded(landmarks.scale * apart, 3),
-           " apart, but two landmarks must be more than ", rounded(landmarks.scale * one_place, 3), " apart");
+           " apart, but two landmarks must be more than ", rounded(landmarks.scale * one_place, 3),
+           " apart; leave one of them out");
     }
 }
 
@@ -391,6 +397,11 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
   place_on_attachment(placed.valve, landmarks, local, model.radius, fitted.places);
   for (const std::size_t i : landmarks.with_role(RIIS_LANDMARK_ATTACHMENT))
     fitted.residuals[i] = distance(local[i], fitted.places[i]);
+  for (std::size_t i = 0; i < landmarks.list.size(); ++i)
+    if (const std::optional<std::size_t> other = landmarks.list[i].repeated) {
+      fitted.places[i] = fitted.places[*other];
+      fitted.residuals[i] = fitted.residuals[*other];
+    }
 
   const double scale = landmarks.scale;
   for (const Vec3 at : fitted.places)

@@ -12,6 +12,7 @@
 #include <vtkXMLRectilinearGridWriter.h>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "riis_vtk/base/files.hpp"
 #include "riis_vtk/mesh/mesh.hpp"
 
@@ -48,7 +49,7 @@ void find_outside(const GridAxes &axes, std::int64_t n_points, const double *xyz
       const double x = xyz[3 * i + static_cast<std::int64_t>(axis)];
       beyond[axis] = std::max({axes.of[axis].front() - x, x - axes.of[axis].back(), 0.0});
     }
-    if (std::hypot(beyond[0], beyond[1], beyond[2]) <= distance) is_outside[i] = 0;
+    if (hypotenuse(beyond[0], beyond[1], beyond[2]) <= distance) is_outside[i] = 0;
   }
 }
 

@@ -21,6 +21,7 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "riis_vtk/mesh/mesh.hpp"
 #include "riis_vtk/read/grid_files.hpp"
 #include "riis_vtk/read/other_files.hpp"
@@ -135,7 +136,7 @@ double median_edge_of(const CellCenters &centers) {
   for (std::int64_t i = 0; i < n; i += step) {
     const double *const a = centers.xyz.data() + 3 * view(centers.pairs)[2 * i];
     const double *const b = centers.xyz.data() + 3 * view(centers.pairs)[2 * i + 1];
-    lengths.push_back(std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
+    lengths.push_back(hypotenuse(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
   }
   return median_of(std::move(lengths));
 }

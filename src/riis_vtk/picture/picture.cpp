@@ -11,6 +11,7 @@
 #include <vtkImageData.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "common/elementary.hpp"
 #include "riis_vtk/base/files.hpp"
 #include "riis_vtk/mesh/mesh.hpp"
 #include "riis_vtk/picture/drawing.hpp"
@@ -103,7 +104,7 @@ void check_rotation(const riis_vtk_picture_options &options) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (!(std::abs(axis[k]) <= 1e50)) refuse_option("rotation_axis[", k, "] is ", axis[k], ", not -1e50 to 1e50");
   }
-  if (std::hypot(axis[0], axis[1], axis[2]) < 1e-50) {
+  if (hypotenuse(axis[0], axis[1], axis[2]) < 1e-50) {
     refuse_option("rotation_axis is (", axis[0], ", ", axis[1], ", ", axis[2], "), shorter than 1e-50");
   }
   if (!(std::abs(options.rotation_angle) <= 1e6)) {

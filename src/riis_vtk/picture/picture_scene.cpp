@@ -24,6 +24,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "riis_vtk/mesh/mesh.hpp"
 #include "riis_vtk/mesh/outside_faces.hpp"
 #include "riis_vtk/picture/drawing.hpp"
@@ -152,7 +153,7 @@ void add_axes(vtkRenderer *renderer, const Layout &layout, double x, double y, d
   const char *const names[3] = {"x", "y", "z"};
   std::vector<Line> lines;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double dx = view.right()[k], dy = view.up()[k], part = std::hypot(dx, dy);
+    const double dx = view.right()[k], dy = view.up()[k], part = hypotenuse(dx, dy);
     const double half = 0.3 * layout.letter();
     if (part < 0.05) {
       add_text(renderer, names[k], x - 3 * half, y - 3 * half, layout.letter(), ink);

@@ -115,8 +115,12 @@ class GmshFile {
         has_elements_ = true;
         is_new_ ? read_elements() : read_old_elements();
         elements_ = begin.substr(0, begin.size() - in_.rest().size());
-      } else if (section == "Entities" && is_new_ && groups_.empty()) {
-        read_entities();
+      } else if (section == "Entities" && is_new_ && !has_entities_) {
+        read_entities(false);
+        has_entities_ = true;
+      } else if (section == "PartitionedEntities" && is_new_ && !has_parts_) {
+        read_entities(true);
+        has_parts_ = true;
       } else if (section == "PhysicalNames" && names_.empty()) {
         read_names();
       } else {
@@ -341,19 +345,28 @@ class GmshFile {
     if (n_read != n) in_.refuse("$Elements has ", n_read, " of the ", n, " elements that it claims");
   }
 
-  // Reads the physical groups of the model's points, curves, surfaces and volumes. An entity may have several groups.
-  void read_entities() {
+  // Reads the physical groups of the model's points, curves, surfaces and volumes. An entity may have several groups. In a mesh
+  // that gmsh has partitioned, the elements belong to parts of these entities, which have groups of their own.
+  void read_entities(bool are_parts) {
+    if (are_parts) {
+      read_sizes(1);  // the number of partitions
+      const std::int64_t n_ghosts = in_.count(size_bytes, 2, "ghost entities");
+      read_integers(2 * n_ghosts);
+    }
     std::int64_t n[4];
     for (std::int64_t &n_entities : n) n_entities = in_.count(size_bytes, 8, "entities");
     for (int dimension = 0; dimension < 4; ++dimension) {
       for (std::int64_t i = 0; i < n[dimension]; ++i) {
         const std::int64_t entity = in_.integer(int_bytes);
+        if (are_parts) {
+          read_integers(2);  // the whole entity
+          read_integers(in_.count(size_bytes, 2, "partitions of an entity"));
+        }
         for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) in_.real(real_bytes);
         const std::int64_t n_groups = in_.count(size_bytes, 2, "physical groups");
         for (std::int64_t k = 0; k < n_groups; ++k) groups_[{dimension, entity}].push_back(in_.integer(int_bytes));
         if (dimension == 0) continue;
-        const std::int64_t n_sides = in_.count(size_bytes, 2, "sides of an entity");
-        for (std::int64_t k = 0; k < n_sides; ++k) in_.integer(int_bytes);
+        read_integers(in_.count(size_bytes, 2, "sides of an entity"));
       }
     }
   }
@@ -362,6 +375,10 @@ class GmshFile {
 
   void read_sizes(int n) {
     for (int i = 0; i < n; ++i) in_.integer(size_bytes);
+  }
+
+  void read_integers(std::int64_t n) {
+    for (std::int64_t i = 0; i < n; ++i) in_.integer(int_bytes);
   }
 
   void add_point() {
@@ -463,7 +480,7 @@ class GmshFile {
 
   const std::string &path_;
   Source in_;
-  bool is_new_ = false, has_elements_ = false;
+  bool is_new_ = false, has_elements_ = false, has_entities_ = false, has_parts_ = false;
   std::string_view nodes_, elements_;  // the bytes of the sections, without their first and last lines
   std::optional<NodeTags> tags_;
   std::map<std::array<std::int64_t, 2>, std::vector<std::int64_t>> groups_;  // by dimension and entity

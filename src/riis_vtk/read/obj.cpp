@@ -23,6 +23,7 @@ class ObjFile {
   ObjFile(const std::string &path, std::string_view bytes) : path_(path), bytes_(bytes), in_(path, bytes) {}
 
   vtkSmartPointer<vtkUnstructuredGrid> read() {
+    if (const std::string_view mark = "\xef\xbb\xbf"; bytes_.substr(0, mark.size()) == mark) in_.skip(mark.size());
     while (!in_.rest().empty()) {
       // The statement is copied before its lines are skipped, so that errors name its first line.
       std::string_view rest = in_.rest();
@@ -52,7 +53,7 @@ class ObjFile {
     const std::string_view keyword = take_word(text);
     if (keyword == "v") {
       read_vertex(text);
-    } else if (keyword == "f") {
+    } else if (keyword == "f" || keyword == "fo") {  // fo is the old name of a face
       read_face(text);
     } else if (keyword == "l" || keyword == "p") {
       in_.refuse("'", keyword, "' is not a face; a surface has faces only");

@@ -85,6 +85,7 @@ template std::uint8_t Source::raw();
 template std::int16_t Source::raw();
 template std::uint16_t Source::raw();
 template std::uint32_t Source::raw();
+template std::uint64_t Source::raw();
 
 std::int64_t Source::integer(int n_bytes) {
   if (is_binary) return n_bytes == 4 ? raw<std::int32_t>() : raw<std::int64_t>();

@@ -13,6 +13,7 @@
 namespace riis::vtk {
 namespace {
 
+// Only trimesh writes the types of 8 bytes.
 struct PlyType {
   std::string_view name, other_name;
   int n_bytes;
@@ -21,6 +22,7 @@ struct PlyType {
 constexpr PlyType ply_types[] = {{"char", "int8", 1, false},    {"uchar", "uint8", 1, false},
                                  {"short", "int16", 2, false},  {"ushort", "uint16", 2, false},
                                  {"int", "int32", 4, false},    {"uint", "uint32", 4, false},
+                                 {"int64", "int64", 8, false},  {"uint64", "uint64", 8, false},
                                  {"float", "float32", 4, true}, {"double", "float64", 8, true}};
 
 struct PlyProperty {
@@ -64,14 +66,26 @@ class PlyFile {
  private:
   // ---- The header ----
 
+  // Takes a line that ends in a line feed or in a carriage return alone. Old files have the latter, and their first line tells.
+  std::string_view take_header_line(std::string_view &text) const {
+    if (!has_returns_) return take_line(text);
+    const std::string_view line = text.substr(0, text.find('\r'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    return line;
+  }
+
   std::vector<PlyElement> read_header() {
     if (in_.word() != "ply") fail_file(path_, "is not a PLY file: it does not begin with ply");
-    in_.line();
+    has_returns_ = in_.rest().substr(0, 1) == "\r" && in_.rest().substr(0, 2) != "\r\n";
+    if (has_returns_)
+      in_.skip(1);
+    else
+      in_.line();
     std::vector<PlyElement> elements;
     std::string_view format;
     for (;;) {
       if (in_.rest().empty()) fail_file(path_, "is truncated: its header has no end_header");
-      std::string_view rest = in_.rest(), line = take_line(rest);
+      std::string_view rest = in_.rest(), line = take_header_line(rest);
       const std::string_view keyword = take_word(line);
       if (keyword == "format") {
         format = take_word(line);
@@ -129,8 +143,12 @@ class PlyFile {
         return in_.raw<std::uint16_t>();
       case 4:
         return in_.raw<std::int32_t>();
-      default:
+      case 5:
         return in_.raw<std::uint32_t>();
+      case 6:
+        return in_.raw<std::int64_t>();
+      default:
+        return static_cast<std::int64_t>(in_.raw<std::uint64_t>());
     }
   }
   double number(const PlyType &type) {
@@ -221,6 +239,7 @@ class PlyFile {
 
   const std::string &path_;
   Source in_;
+  bool has_returns_ = false;  // lines end in a carriage return alone
   PlainGrid mesh_;
   std::set<std::string> names_;                          // of the elements
   std::vector<vtkSmartPointer<vtkDoubleArray>> arrays_;  // of the faces
