@@ -670,7 +670,7 @@ TEST(test_exact_mitral) {
   }
 }
 
-/* An annulus point may be equal to its neighbour or to the horn. Both landmarks then have one place, which is that of the horn. */
+/* An annulus point may be equal to its neighbour or to the horn. Both landmarks then have one place: the horn has its own. */
 TEST(test_repeated_points_of_annuli) {
   enum { n = 16, horn = n };
   for (int trial = 0; trial < trials_of(12); ++trial) {
