@@ -37,6 +37,9 @@ constexpr double end_edge_share = 0.35;
 // gmsh gets this time, and this time for each triangle, in seconds. A surface that gmsh cannot make anew may keep gmsh busy for
 // hours.
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
+constexpr double first_share = 0.25;
+// Nodes are moved by at most this share of the wall's size.
+constexpr double moved_share = 1e-8;
 // The wall goes through itself if triangles overlap by more than this share of its size.
 constexpr double least_crossing_share = 1e-5;
 // The number of triangles of a new patch that are compared with the wall.
@@ -292,6 +295,8 @@ class PatientMesher {
   // Runs gmsh on a .geo file. Without a written mesh, refuses with gmsh's last error. `cure` follows that error.
   GmshMesh run_gmsh(double seconds, const std::string &dimension, const std::string &geo, const std::string &mesh,
                     const std::string &cure) {
+    seconds = std::ceil(seconds);  // timeout gets whole seconds
+    is_too_slow_ = false;
     const std::string log = in_gmsh(fs::path(geo).stem().string() + ".log");
     std::error_code ignored;
     fs::remove(mesh, ignored);
@@ -307,7 +312,8 @@ class PatientMesher {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     constexpr int signal_status = 128;  // after a signal, the status of timeout is higher than this
     const bool is_killed = end.status < 0 || end.status > signal_status;
-    if (is_killed && taken.count() >= seconds)
+    is_too_slow_ = is_killed && taken.count() >= seconds;
+    if (is_too_slow_)
       refuse_data("gmsh did not end within " + printed("%.0f", seconds) + " seconds (" + log + "); " + crossing_text() +
                   cure);
     if (end.error != 0) refuse_data("gmsh: cannot be run: " + system_text(end.error));
@@ -323,15 +329,25 @@ class PatientMesher {
 
   // Makes the surface anew, with the edges of the size field, and names its triangles.
   void make_surface() {
-    write_text(in_gmsh("wall.msh"), text_of_wall());
     write_text(in_gmsh("surface.geo"),
                "// The wall has a surface for each end, and its rims as lines, so no angle is needed.\n"
                "Merge \"wall.msh\";\nClassifySurfaces{Pi, 1, 1, Pi};\nCreateGeometry;\n" +
                    size_lines());
-    surface_ =
-        run_gmsh(options_.surface_seconds > 0 ? options_.surface_seconds
-                                              : least_seconds + seconds_per_triangle * static_cast<double>(old_.n()),
-                 "-2", in_gmsh("surface.geo"), in_gmsh("surface.msh"), cure_of_surface());
+    const double seconds = options_.surface_seconds > 0
+                               ? options_.surface_seconds
+                               : least_seconds + seconds_per_triangle * static_cast<double>(old_.n());
+    // Rarely gmsh divides a clean surface without end, and not if its nodes have other last digits. So gmsh first gets a part of
+    // the time, and then the rest for nodes that are moved by some billionths of the wall's size.
+    for (const bool is_moved : {false, true}) {
+      write_text(in_gmsh("wall.msh"), text_of_wall(is_moved));
+      try {
+        surface_ = run_gmsh((is_moved ? 1 - first_share : first_share) * seconds, "-2", in_gmsh("surface.geo"),
+                            in_gmsh("surface.msh"), cure_of_surface());
+        break;
+      } catch (const Refusal &) {
+        if (is_moved || !is_too_slow_) throw;
+      }
+    }
     name_patches();
     check_closed(surface_);
     check_ends(surface_);
@@ -372,8 +388,15 @@ class PatientMesher {
            point_text(deepest, wall_.size) + " in the mesh's unit; ";
   }
 
-  std::string text_of_wall() const {
-    GmshText text(old_.points);
+  std::string text_of_wall(bool is_moved) const {
+    std::vector<Vector3> points = old_.points;
+    if (is_moved) {
+      constexpr std::size_t n_steps = 1009;  // a prime: neighbours get different steps
+      const double step = moved_share * wall_.size / n_steps;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) points[i][k] += step * static_cast<double>(((3 * i + k) * 389) % n_steps);
+    }
+    GmshText text(points);
     const std::vector<Corners> beyond = neighbours_of(old_);
     for (std::int64_t i = 0; i < old_.n(); ++i) {
       const std::int32_t end = view(wall_.end_of)[i];
@@ -616,6 +639,7 @@ class PatientMesher {
   const std::vector<BoundaryGroup> groups_;
   const std::string gmsh_folder_;
   Triangles old_;
+  bool is_too_slow_ = false;  // gmsh did not end in its time
   GmshMesh surface_, mesh_;
   std::vector<std::vector<std::pair<Corners, std::int64_t>>>
       faces_;  // by group: triangles of the boundary and their cells
