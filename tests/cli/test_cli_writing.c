@@ -252,8 +252,12 @@ static void run_and_interrupt(int signal_number) {
   const int n_files = scratch_n_files();
   const pid_t process = start_program("mark", scratch_path("large.vtu"), "--output", scratch_path("marked.vtu"),
                                       "--stats", scratch_path("late.json"), NULL);
-  /* Both outputs have a lock file before they are written. */
-  for (int n_tries = 0; scratch_n_files() <= n_files + 2 && n_tries < 100000; ++n_tries) usleep(500);
+  /* Both outputs have a lock file before they are written. An emulator takes minutes to begin. */
+  siginfo_t ended = {0};
+  while (scratch_n_files() <= n_files + 2 && ended.si_pid == 0) {
+    assert_int_equal(waitid(P_PID, (id_t)process, &ended, WEXITED | WNOHANG | WNOWAIT), 0);
+    usleep(500);
+  }
   kill(process, signal_number);
   finish_program(process);
 }
