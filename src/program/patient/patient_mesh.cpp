@@ -38,8 +38,8 @@ constexpr double end_edge_share = 0.35;
 // hours.
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
 constexpr double first_share = 0.25;
-// Nodes are moved by at most this share of the wall's size.
-constexpr double moved_share = 1e-8;
+// Nodes are moved by at most this share of the wall's size, less than a file with numbers of single precision rounds.
+constexpr double moved_share = 1e-7;
 // The wall goes through itself if triangles overlap by more than this share of its size.
 constexpr double least_crossing_share = 1e-5;
 // The number of triangles of a new patch that are compared with the wall.
@@ -337,7 +337,7 @@ class PatientMesher {
                                ? options_.surface_seconds
                                : least_seconds + seconds_per_triangle * static_cast<double>(old_.n());
     // Rarely gmsh divides a clean surface without end, and not if its nodes have other last digits. So gmsh first gets a part of
-    // the time, and then the rest for nodes that are moved by some billionths of the wall's size.
+    // the time, and then the rest for moved nodes.
     for (const bool is_moved : {false, true}) {
       write_text(in_gmsh("wall.msh"), text_of_wall(is_moved));
       try {
