@@ -169,12 +169,14 @@ std::string text_of_file(const std::string &path) {
   if (file) text << file.rdbuf();
   // Opening a folder as a file succeeds. Only reading the folder fails, so folders are recognised here.
   if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + system_text(errno));
-  if (text.str().empty()) refuse_file(path, "is empty");
-  if (text.str().rfind("version https://git-lfs.github.com/spec/", 0) == 0)
+  std::string content = text.str();
+  if (content.empty()) refuse_file(path, "is empty");
+  if (content.rfind("version https://git-lfs.github.com/spec/", 0) == 0)
     refuse_file(path, "is a pointer of Git LFS, not the file itself: git lfs pull fetches the file");
   // Windows programs begin a text with a byte order mark.
   const std::string mark = "\xef\xbb\xbf";
-  return text.str().substr(text.str().rfind(mark, 0) == 0 ? mark.size() : 0);
+  if (content.rfind(mark, 0) == 0) content.erase(0, mark.size());
+  return content;
 }
 
 // ---- Times ----
