@@ -175,9 +175,10 @@ TEST(test_end_is_the_narrowest_place) {
   assert_non_null(strstr(program_leaks,
                          "the passage is wide everywhere: no place on it is nearer to the surface than "
                          "its end at "));
-  assert_non_null(strstr(program_leaks,
-                         " from it. Either the points are beside the surface, or it does not stand in "
-                         "their way: give points on both sides of it, farther away\n"));
+  assert_non_null(
+      strstr(program_leaks,
+             " from it. Either the points are beside the surface, or the surface does not stand between the "
+             "points: give points on both sides, farther away\n"));
   assert_null(strstr(program_leaks, "--half-thickness"));
 }
 

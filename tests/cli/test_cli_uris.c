@@ -299,7 +299,7 @@ TEST(test_largest_edge) {
     snprintf(coarse_folder, sizeof coarse_folder, "coarse_%d", v);
     snprintf(fine_folder, sizeof fine_folder, "fine_%d", v);
     EXPORT(coarse_folder, RAMPS, "--valve", valves[v]);
-    assert_non_null(strstr(program_out, "to be within 1 %, export with largest-edge 0.015 -->\n"));
+    assert_non_null(strstr(program_out, "for errors below 1 %, export with largest-edge 0.015 -->\n"));
     uris_valve coarse = exported;
     int n_more = 0;
     EXPORT(fine_folder, RAMPS, "--valve", valves[v], "--largest-edge", "0.18");
