@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -37,8 +38,9 @@ constexpr double end_edge_share = 0.35;
 // gmsh gets this time, and this time for each triangle, in seconds. A surface that gmsh cannot make anew may keep gmsh busy for
 // hours.
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
+// The share of this time for the first try, if there is a second one.
 constexpr double first_share = 0.25;
-// Nodes are moved by at most this share of the wall's size, less than a file with numbers of single precision rounds.
+// The second try moves nodes by at most this share of the wall's size. Files in single precision round by as much.
 constexpr double moved_share = 1e-7;
 // The wall goes through itself if triangles overlap by more than this share of its size.
 constexpr double least_crossing_share = 1e-5;
@@ -293,11 +295,28 @@ class PatientMesher {
            "Mesh.MeshSizeFromCurvature = 0;\n";
   }
 
-  // Runs gmsh on a .geo file. Without a written mesh, refuses with gmsh's last error. `cure` follows that error.
+  // Runs gmsh. Returns nothing if gmsh did not end in this time.
+  static std::optional<ProgramEnd> end_of_gmsh(const std::vector<std::string> &words, double seconds) {
+    // gmsh does not end by SIGTERM. timeout gets whole seconds.
+    const double limit = std::ceil(seconds);
+    std::vector<std::string> limited{"timeout", "--foreground", "--signal=KILL", printed("%.0f", limit)};
+    limited.insert(limited.end(), words.begin(), words.end());
+    const auto start = std::chrono::steady_clock::now();
+    ProgramEnd end = run_program(limited);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    if (is_killed(end) && taken.count() >= limit) return std::nullopt;
+    return end;
+  }
+
+  static bool is_killed(const ProgramEnd &end) {
+    constexpr int signal_status = 128;  // after a signal, the status of timeout is higher than this
+    return end.status < 0 || end.status > signal_status;
+  }
+
+  // Runs gmsh on a .geo file. Without a written mesh, refuses with gmsh's last error. `cure` follows that error. If there is
+  // change_input and gmsh does not end in a part of the time, calls it and runs gmsh again for the rest.
   GmshMesh run_gmsh(double seconds, const std::string &dimension, const std::string &geo, const std::string &mesh,
-                    const std::string &cure) {
-    seconds = std::ceil(seconds);  // timeout gets whole seconds
-    is_too_slow_ = false;
+                    const std::string &cure, const std::function<void()> &change_input = {}) {
     const std::string log = in_gmsh(fs::path(geo).stem().string() + ".log");
     std::error_code ignored;
     fs::remove(mesh, ignored);
@@ -305,22 +324,19 @@ class PatientMesher {
     const std::vector<std::string> words{"gmsh", dimension, "-nt",   "1",  "-v", "4", "-log",
                                          log,    "-format", "msh22", "-o", mesh, geo};
     options_.announce(joined_by(words, " "));
-    // gmsh does not end by SIGTERM.
-    std::vector<std::string> limited{"timeout", "--foreground", "--signal=KILL", printed("%.0f", seconds)};
-    limited.insert(limited.end(), words.begin(), words.end());
-    const auto start = std::chrono::steady_clock::now();
-    const ProgramEnd end = run_program(limited);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    constexpr int signal_status = 128;  // after a signal, the status of timeout is higher than this
-    const bool is_killed = end.status < 0 || end.status > signal_status;
-    is_too_slow_ = is_killed && taken.count() >= seconds;
-    if (is_too_slow_)
+    std::optional<ProgramEnd> ended = end_of_gmsh(words, change_input ? first_share * seconds : seconds);
+    if (!ended && change_input) {
+      change_input();
+      ended = end_of_gmsh(words, (1 - first_share) * seconds);
+    }
+    if (!ended)
       refuse_data("gmsh did not end within " + printed("%.0f", seconds) + " seconds (" + log + "); " + crossing_text() +
                   cure);
+    const ProgramEnd &end = *ended;
     if (end.error != 0) refuse_data("gmsh: cannot be run: " + system_text(end.error));
     const std::string log_text = fs::exists(log, ignored) ? text_of_file(log) : "";
     const std::string error = last_error_in(log_text);
-    const std::string why = !error.empty() ? error : is_killed ? "a signal ended it" : end.last_message;
+    const std::string why = !error.empty() ? error : is_killed(end) ? "a signal ended it" : end.last_message;
     if (!error.empty() || end.status != 0 || !fs::exists(mesh, ignored))
       refuse_data("gmsh fails: " + (why.empty() ? "it writes no mesh" : why) + " (" + log + "); " + crossing_text() +
                   cure);
@@ -337,18 +353,10 @@ class PatientMesher {
     const double seconds = options_.surface_seconds > 0
                                ? options_.surface_seconds
                                : least_seconds + seconds_per_triangle * static_cast<double>(old_.n());
-    // Rarely gmsh divides a clean surface without end, and not if its nodes have other last digits. So gmsh first gets a part of
-    // the time, and then the rest for moved nodes.
-    for (const bool is_moved : {false, true}) {
-      write_text(in_gmsh("wall.msh"), text_of_wall(is_moved));
-      try {
-        surface_ = run_gmsh((is_moved ? 1 - first_share : first_share) * seconds, "-2", in_gmsh("surface.geo"),
-                            in_gmsh("surface.msh"), cure_of_surface());
-        break;
-      } catch (const Refusal &) {
-        if (is_moved || !is_too_slow_) throw;
-      }
-    }
+    write_text(in_gmsh("wall.msh"), text_of_wall(old_.points));
+    // Rarely gmsh divides a clean surface without end, but not if its nodes have other last digits.
+    surface_ = run_gmsh(seconds, "-2", in_gmsh("surface.geo"), in_gmsh("surface.msh"), cure_of_surface(),
+                        [&] { write_text(in_gmsh("wall.msh"), text_of_wall(moved_points())); });
     name_patches();
     check_closed(surface_);
     check_ends(surface_);
@@ -389,14 +397,16 @@ class PatientMesher {
            point_text(deepest, wall_.size) + " in the mesh's unit; ";
   }
 
-  std::string text_of_wall(bool is_moved) const {
+  std::vector<Vector3> moved_points() const {
+    constexpr std::size_t n_steps = 1009;  // a prime: neighbours get different steps
+    const double step = moved_share * wall_.size / n_steps;
     std::vector<Vector3> points = old_.points;
-    if (is_moved) {
-      constexpr std::size_t n_steps = 1009;  // a prime: neighbours get different steps
-      const double step = moved_share * wall_.size / n_steps;
-      for (std::size_t i = 0; i < points.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) points[i][k] += step * static_cast<double>(((3 * i + k) * 389) % n_steps);
-    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) points[i][k] += step * static_cast<double>(((3 * i + k) * 389) % n_steps);
+    return points;
+  }
+
+  std::string text_of_wall(const std::vector<Vector3> &points) const {
     GmshText text(points);
     const std::vector<Corners> beyond = neighbours_of(old_);
     for (std::int64_t i = 0; i < old_.n(); ++i) {
@@ -640,7 +650,6 @@ class PatientMesher {
   const std::vector<BoundaryGroup> groups_;
   const std::string gmsh_folder_;
   Triangles old_;
-  bool is_too_slow_ = false;  // gmsh did not end in its time
   GmshMesh surface_, mesh_;
   std::vector<std::vector<std::pair<Corners, std::int64_t>>>
       faces_;  // by group: triangles of the boundary and their cells
