@@ -24,10 +24,11 @@ run_docs() {
   install_missing
   rm -rf out/docs "$reference"
   mkdir -p out "$reference/fortran"
-  if [[ ! -x $venv/bin/ford ]]; then
+  if [[ ! -e $venv/complete ]]; then
     rm -rf "$venv"
     step "an environment for the tools" "$(python_of_packages)" -m venv "$venv"
     step "FORD, pdoc and latex2mathml from PyPI" "$venv/bin/pip" install "${site_tools[@]}"
+    touch "$venv/complete" # an installation that was cut off leaves a part
   fi
   # In the folder of ./run python and ./run view --check, so that the package is compiled once for all of them.
   step "build tools from PyPI" python_tools "$(python_of_packages)"
