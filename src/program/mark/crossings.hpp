@@ -18,7 +18,7 @@ namespace riis::program {
 CrossingReport look_for_crossings(const ValveOptions &options, const riis_valve *valve, const riis_surface *surface,
                                   const std::string &part);
 
-// Checks the openings 0, 0.5 and 1, as far as the valve can have them, and warns of a crossing. Does not check a default shape.
+// Checks each of the openings 0, 0.5 and 1 that the valve can have, and warns of a crossing. Does not check a default shape.
 // has_open_state tells whether the user chose the open state.
 std::optional<CrossingReport> check_shape(const ValveOptions &options, const riis_valve *valve, bool has_open_state,
                                           const std::string &part = "");

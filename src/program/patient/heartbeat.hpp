@@ -12,10 +12,10 @@ inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and i
 // The dwell time of the law. The leaflets push blood back while they close, and must not open for the pressure that this makes.
 // A motion therefore ends before the next may begin, as in svMultiPhysics.
 inline constexpr double dwell_seconds = motion_seconds;
-inline constexpr double opening_pressure =
-    50;  // Pa; at this difference, rounding cannot open a valve between equal pressures
-inline constexpr double closing_flow_of_mitral =
-    1e-4;  // m3/s; below this flow a mitral valve closes, so that less blood returns
+// Pa. At this difference, rounding cannot open a valve between equal pressures.
+inline constexpr double opening_pressure = 50;
+// m3/s. Below this flow a mitral valve closes, so that less blood returns.
+inline constexpr double closing_flow_of_mitral = 1e-4;
 
 // A pressure in time, linear between its keys. It repeats after beat_period.
 struct PressureCurve {
