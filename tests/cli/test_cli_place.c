@@ -102,12 +102,14 @@ TEST(fcsv_gives_the_same) {
   const struct {
     const char *heading, *row;
     double sign;
-  } versions[] = {{"# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n# columns = "
-                   "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n",
-                   "vtkMRMLMarkupsFiducialNode_%d,%.17g,%.17g,%.17g,0,0,0,1,1,1,0,%s,,\n", 1},
-                  {"# Markups fiducial file version = 4.6\n# CoordinateSystem = 0\n# columns = "
-                   "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label\n",
-                   "node_%d,%.17g,%.17g,%.17g,0,0,0,1,1,1,0,%s\n", -1}};
+  } versions[] = {
+      {"# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n# columns = "
+       "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n",
+       "vtkMRMLMarkupsFiducialNode_%d,%.17g,%.17g,%.17g,0,0,0,1,1,1,0,%s,,\n", 1},
+      {"# Markups fiducial file version = 4.6\n# CoordinateSystem = 0\n# columns = "
+       "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label\n",
+       "node_%d,%.17g,%.17g,%.17g,0,0,0,1,1,1,0,%s\n", -1},
+      {"# CoordinateSystem = LPS\n", "vtkMRMLMarkupsFiducialNode_%d,%.17g,%.17g,%.17g,0,0,0,1,1,1,0,%s,,\n", 1}};
   for (size_t version = 0; version < sizeof versions / sizeof *versions; ++version) {
     char text[4096];
     int n = snprintf(text, sizeof text, "%s", versions[version].heading);

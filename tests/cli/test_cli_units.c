@@ -140,10 +140,11 @@ TEST(test_wrong_valve_units) {
   expect_warning(program_exit_code, ": write --unit mm\n");
   expect_cured(meshes[2], NULL);
   run_program("mark", meshes[1], "--scale", "0.01", NULL);
-  expect_warning(3, "the mesh looks as if it were in centimetres, as the surface is");
+  expect_warning(3, "the mesh looks as if it were in centimetres, the surface in metres (sides ");
   expect_warning(3, ": write --unit cm in place of --scale 0.01\n");
   expect_cured(meshes[1], NULL);
   run_program("mark", meshes[0], "--unit", "mm", NULL);
+  expect_warning(3, "the mesh looks as if it were in metres, the surface in millimetres (sides ");
   expect_warning(3, ": write --unit m in place of --unit mm\n");
   expect_cured(meshes[0], NULL);
   /* If both the unit and the half thickness are wrong, one warning corrects both. */

@@ -301,7 +301,7 @@ Axes fcsv_axes(const std::string &path, const std::string &value) {
 // Reads an .fcsv file, which earlier versions of 3D Slicer wrote. Its lengths are in mm. The axes are a name or a number.
 void read_fcsv(const std::string &text, LandmarkFile &file) {
   const std::string &path = file.path;
-  std::vector<std::string> columns = {"label", "x", "y", "z"};
+  std::vector<std::string> columns;
   std::string system;
   std::vector<CsvFile::Row> rows;
   for (const CsvLine &line : csv_lines(text)) {
@@ -311,6 +311,12 @@ void read_fcsv(const std::string &text, LandmarkFile &file) {
       columns = csv_cells(line.fact->second);
     else if (line.fact->first == "CoordinateSystem")
       system = line.fact->second;
+  }
+  if (columns.empty()) {
+    // Versions 4 and 5 write the label as the twelfth of 14 cells. Version 3 writes it first.
+    const bool is_version_3 = rows.empty() || rows.front().cells.size() < 12;
+    columns = is_version_3 ? std::vector<std::string>{"label", "x", "y", "z"}
+                           : split("id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label", ",");
   }
   file.axes = fcsv_axes(path, system);
   file.unit = Unit::millimetre;

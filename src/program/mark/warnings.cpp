@@ -137,12 +137,10 @@ std::string text_of_units(const Situation &s, const std::vector<Cure> &cures) {
   for (const Cure &cure : cures)
     if (cure.units) meshes.emplace_back(words_of(cure.units->mesh));
   if (meshes.size() < cures.size()) return "the mesh and the surface look as if they were in different units";
-  UnitPair first = *cures.front().units;
-  if (s.options.placed_unit) first.surface = *s.options.placed_unit;
-  const std::string text = "the mesh looks as if it were in " + joined_by(meshes, " or ");
-  return text + (cures.size() == 1 && first.mesh == first.surface
-                     ? ", as the surface is"
-                     : std::string(", the surface in ") + words_of(first.surface));
+  // The sides that stand beside this text have the present scale, which the user's options may have chosen.
+  const Unit own = cures.front().units->surface;
+  const Unit present = unit_reached(own, s.options.surface_options.scale).value_or(own);
+  return "the mesh looks as if it were in " + joined_by(meshes, " or ") + ", the surface in " + words_of(present);
 }
 
 // Returns the user's own options for the scale, which the user must replace.
