@@ -11,16 +11,19 @@ sources=$(readlink -f "$1") scratch=$2
 plant() {
   local long
   rm -rf "$scratch"
-  mkdir -p "$scratch/src" "$scratch/bench/steps" "$scratch/build-lint/src/riis/CMakeFiles/riis_objects.dir/Unity"
+  mkdir -p "$scratch"/{src,bench/steps,tests/cli} "$scratch/build-lint/src/riis/CMakeFiles/riis_objects.dir/Unity"
   cd "$scratch"
   cp "$sources/.clang-format" "$sources/.clang-tidy" .
   printf -v long '%0150d' 0
   printf '#include <string>\n\nstd::string twice(const std::string &text) { return text + text; }\n' >src/twice.cpp
   printf 'constexpr int n_steps = 2;\nstatic_assert(n_steps > 1);\n' >bench/steps/steps.cpp
+  printf 'int main(void) { return 0; }\n' >tests/cli/test_none.c
   printf '[{"directory": "%s",\n  "command": "%s",\n  "file": "%s/src/twice.cpp"\n},\n' \
     "$PWD" "c++ -std=c++17 -Wall -Wextra -c src/twice.cpp" "$PWD" >build-lint/compile_commands.json
-  printf '{"directory": "%s",\n  "command": "%s",\n  "file": "%s/bench/steps/steps.cpp"\n}]\n' \
+  printf '{"directory": "%s",\n  "command": "%s",\n  "file": "%s/bench/steps/steps.cpp"\n},\n' \
     "$PWD" "c++ -Wall -Wextra -c bench/steps/steps.cpp" "$PWD" >>build-lint/compile_commands.json
+  printf '{"directory": "%s",\n  "command": "%s",\n  "file": "%s/tests/cli/test_none.c"\n}]\n' \
+    "$PWD" "cc -std=c11 -Wall -Wextra -c tests/cli/test_none.c" "$PWD" >>build-lint/compile_commands.json
   echo "#include \"$PWD/src/twice.cpp\"" >build-lint/src/riis/CMakeFiles/riis_objects.dir/Unity/unity_0_cxx.cxx
   # shellcheck disable=SC2016 # the planted scripts' own variables
   printf '#!/bin/bash\n# shellcheck source=steps.sh\n. steps.sh\nstep "$1"\n' >run
@@ -62,7 +65,7 @@ other_version=$(
 "$lint" "$sources" tools
 
 plant
-for part in format shell columns python includes tidy bench; do accepts "$part"; done
+for part in format shell columns python includes tidy clang; do accepts "$part"; done
 echo 'int  f( ){return 0;}' >>src/twice.cpp
 refuses format 'src/twice.cpp:4:'
 # shellcheck disable=SC2016
@@ -96,7 +99,9 @@ refuses tidy bugprone-use-after-move
 printf '\nclass Idle {\n  int unused_ = 0;\n};\n' >>src/twice.cpp
 refuses tidy clang-diagnostic-unused-private-field
 printf '\nclass Idle {\n  int unused_ = 0;\n};\n' >>bench/steps/steps.cpp
-refuses bench clang-diagnostic-unused-private-field
+refuses clang clang-diagnostic-unused-private-field
+echo 'static int unused(void) { return 1; }' >>tests/cli/test_none.c
+refuses clang clang-diagnostic-unused-function
 mkdir -p src/riis/api
 printf 'using std::string;\nusing std::move;\nvoid keep(string);\n' >src/riis/api/moved.cpp
 refuses tidy 'src/riis/api/moved.cpp: the name move of a using-declaration is not used'

@@ -10,7 +10,7 @@
 #   includes each file of the core compiles alone, though other builds read the core in batches or with a precompiled header
 #   tidy     clang-tidy 14 (.clang-tidy) reports nothing in the files of build-lint/compile_commands.json; each name of a
 #            using-declaration is used
-#   bench    clang warns of nothing in the benchmarks
+#   clang    clang warns of nothing in the benchmarks, examples and tests; ./run sanitize compiles the core's tests by clang
 #   tools    the programs for the other parts are installed; status 77 if one is missing or of another version
 # shellcheck disable=SC2317 # the parts are called by their names
 set -euo pipefail
@@ -116,24 +116,33 @@ usings() {
   return "$status"
 }
 
-# compiled_files: prints the files of build-lint/compile_commands.json.
-compiled_files() { sed -nE 's/^ *"file": "(.*)",?$/\1/p' build-lint/compile_commands.json | sort -u; }
+# compiled_files: prints the files of build-lint/compile_commands.json that are in this folder.
+compiled_files() { sed -nE 's/^ *"file": "(.*)",?$/\1/p' build-lint/compile_commands.json | sed -n "s|^$PWD/||p" | sort -u; }
 
-# The benchmarks. The programs of ./run figures and the study of accuracy are read like the library.
-of_bench='/bench/(accuracy/accuracy|(peers|proofs|scale|shared|stages|steps)/)'
+# The programs of ./run figures and the study of accuracy are read like the library.
+of_bench='^bench/(accuracy/accuracy|(peers|proofs|scale|shared|stages|steps)/)'
+of_tests='^(build-lint/)?(examples|tests)/'
+of_sanitize='^tests/(geometry|install|marking|process|support|surface)/'
 
-bench() {
-  mapfile -t found < <(compiled_files | grep -E "$of_bench")
-  # clang-tidy needs a check beside clang's warnings. CMake gives no option for a standard that gcc has by itself, and clang 14
-  # has another one.
-  printf '%s\0' "${found[@]}" | xargs -0 -P "$(nproc)" -n 1 clang-tidy-14 -p build-lint --quiet --header-filter="^$PWD/bench/" \
-    --checks='-*,clang-diagnostic-*,modernize-use-override' --extra-arg=-std=gnu++17 >&2 2>/dev/null
+# warned FLAG...: reads the files that are named on standard input. clang-tidy needs a check beside clang's warnings.
+warned() {
+  tr '\n' '\0' | xargs -0 -r -P "$(nproc)" -n 1 clang-tidy-14 -p build-lint --quiet \
+    --header-filter="^$PWD/(bench|examples|tests)/" --checks='-*,clang-diagnostic-*,modernize-use-override' "$@" >&2 2>/dev/null
+}
+
+clang() {
+  local status=0
+  mapfile -t found < <(compiled_files | grep -E "$of_bench|$of_tests" | grep -v -E "$of_sanitize")
+  # CMake gives no option for a standard that gcc has by itself, and clang 14 has another one.
+  printf '%s\n' "${found[@]}" | sed '/\.c$/d' | warned --extra-arg=-std=gnu++17 || status=1
+  printf '%s\n' "${found[@]}" | sed -n '/\.c$/p' | warned || status=1
+  return "$status"
 }
 
 tidy() {
   local status=0 faults
   usings || status=1
-  mapfile -t found < <(compiled_files | grep -v -E "$of_bench")
+  mapfile -t found < <(compiled_files | grep -v -E "$of_bench|$of_tests")
   # In a unity build a batch file includes the sources, so clang-tidy treats them as headers.
   faults=$(printf '%s\0' "${found[@]}" |
     xargs -0 -P "$(nproc)" -n 1 clang-tidy-14 -p build-lint --quiet --header-filter="^$PWD/(src|include)/" 2>/dev/null) ||
