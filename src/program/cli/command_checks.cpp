@@ -48,7 +48,7 @@ void finish_units(ValveOptions &options) {
   apply_units(options);
 }
 
-// Refuses a motion without a time, a time without a motion, and a period without a motion or a cycle.
+// Refuses a motion without a time, and a time without a motion. Also refuses a period if there is neither a motion nor a cycle.
 void check_motion(const Command &command, const MarkOptions &options) {
   check_surface_files(command, options);
   const bool moves = is_motion(options);
@@ -65,8 +65,8 @@ void check_open_state(const ValveOptions &options) {
     refuse_usage("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
 }
 
-// Refuses an open state without an opening. Most valves are closed by default, so the option would have no effect, and the user
-// would not notice.
+// Refuses an open state if the user gave no opening. Most valves are closed by default, so the open state would have no effect,
+// and the user would not notice.
 void check_open_state_is_met(const MarkOptions &options) {
   if (!options.params_open.empty() && !sets_opening(options) && options.series.cycle.empty())
     refuse_usage("--params-open needs --opening or --cycle: without either the valve does not open to that state");
@@ -104,8 +104,8 @@ void finish_valve(const Command &command, ValveOptions &options) {
   finish_units(options);
 }
 
-// Finishes the options of a surface in a mesh. Options that the command lacks have no effect. `sweeps_openings` says whether the
-// command itself opens the valve.
+// Completes the options of a surface in a mesh. If the command lacks an option, the option has no effect. `sweeps_openings` says
+// whether the command opens the valve by itself.
 void finish_surface_in_place(const Command &command, MarkOptions &options, bool sweeps_openings = false) {
   check_valve(command, options);
   check_series(command, options);
@@ -119,7 +119,7 @@ void check_distance(const Command &command, const MarkOptions &options) {
     refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
 }
 
-// Refuses looks that no picture has, and looks that a movie or a picture without a mesh cannot have.
+// Refuses looks that no picture has. Also refuses looks that a movie, or a picture without a mesh, cannot have.
 void check_style(const Command &command, const MarkOptions &options) {
   const std::string &movie = options.series.movie;
   const PictureStyle &style = options.style;
@@ -147,7 +147,7 @@ void check_folder_name(const std::string &folder) {
     refuse_usage("FOLDER: '" + folder + "' has a blank, and svMultiPhysics cannot read such a path");
 }
 
-// A kind of valve has its sizes in centimetres, so its scale tells the unit of the mesh.
+// The sizes of a kind of valve are in centimetres, so the scale of the valve tells the unit of the mesh.
 void check_solver_scale(const ExportOptions &options) {
   if (options.unit || !options.has_scale || is_valve_file(options.valve)) return;
   const auto unit = unit_reached(Unit::centimetre, options.surface_options.scale);
@@ -157,7 +157,8 @@ void check_solver_scale(const ExportOptions &options) {
                " in place of --scale, and riis export converts");
 }
 
-// svMultiPhysics gets grams, centimetres and seconds. Without --unit, plain numbers are in the solver's units.
+// svMultiPhysics gets numbers in grams, centimetres and seconds. Without --unit, numbers are taken as they are, in the solver's
+// units.
 void finish_solver_units(ExportOptions &options) {
   check_solver_scale(options);
   const auto in_solver_units = [&](const std::optional<Amount> &given, const Quantity &quantity, double usual) {
@@ -173,7 +174,8 @@ void finish_solver_units(ExportOptions &options) {
   options.viscosity = in_solver_units(options.given_viscosity, a_viscosity, blood_viscosity);
 }
 
-// Turns the area into the mesh's unit. The parameters of a kind are in centimetres, so without --scale the unit is known.
+// Converts the area into the mesh's unit. The parameters of a kind are in centimetres. Without --scale the mesh's unit is
+// therefore known.
 void finish_areas(AreaOptions &options) {
   const bool is_in_centimetres = !options.has_scale && !is_valve_file(options.valve);
   const std::optional<Unit> unit = options.unit        ? options.unit
@@ -262,7 +264,7 @@ AreaOptions finish_from_area(const Command &command, AreaOptions options) {
 
 ExportOptions finish_export(const Command &command, ExportOptions options) {
   check_folder_name(options.folder);
-  // Two dashes would end a comment in the XML.
+  // Two dashes in a row would end the comment in the XML file.
   if (command.has("--name") && (!is_prefix(options.name) || options.name.find("--") != std::string::npos))
     refuse_usage("--name: '" + options.name.substr(0, 64) + "' must be 1 to 64 letters, digits, _, . and single -");
   if (command.has("--ring") && options.valve != "bileaflet")

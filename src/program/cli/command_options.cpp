@@ -15,13 +15,13 @@ namespace {
 // The largest number of openings that riis states and riis size-field accept.
 constexpr std::int32_t most_states = 100001;
 
-// The position of each name is the value of LandmarkWarp that it stands for.
+// A name's position in the list is the value of its LandmarkWarp.
 const std::vector<std::string> warp_names = {"none", "exact", "smoothed"};
 
-// The position of each name is the value of UrisRing that it stands for.
+// A name's position in the list is the value of its UrisRing.
 const std::vector<std::string> ring_names = {"face", "none"};
 
-// Refuses numbers that are not above 0. RIIS_AUTO is a negative number, and a user's number must not be mistaken for it.
+// Refuses numbers that are not above 0. RIIS_AUTO is a negative number, so a negative number of the user would be taken for it.
 double parse_positive(const std::string &text, const std::string &subject) {
   const double number = parse_number(text, subject);
   if (!(number > 0)) refuse_usage(subject + ": " + text + " is not above 0");
@@ -48,7 +48,7 @@ std::int32_t parse_count(const std::string &text, const std::string &subject) {
   return n;
 }
 
-// Returns a function that reads an amount of a quantity.
+// Returns a function that reads a number with its unit.
 auto amount_of(const Quantity &quantity) {
   return [&](const std::string &text, const std::string &subject) { return parse_amount(text, subject, quantity); };
 }
@@ -103,7 +103,7 @@ void declare_opening(Command &command, ValveOptions &options) {
                  parse_opening);
 }
 
-// Declares the options of a valve's shape besides its opening.
+// Declares the options of a valve's shape, without its opening.
 void declare_shape(Command &command, ValveOptions &options) {
   command.text("--params-open", "FILE.json", "Parameters of the state that the valve opens to", options.params_open);
   command.text("--warp", "FILE.json|.csv", "Landmarks on the valve, and in the patient, to which the valve is warped",
@@ -144,7 +144,7 @@ CLI::Option *declare_surface_files(Command &command, ValveOptions &options) {
   return surface;
 }
 
-// Declares the options of a surface from a file, and the options of any surface's triangles.
+// Declares the options of a surface from a file, and the options of the triangles of any surface.
 void declare_file(Command &command, ValveOptions &options) {
   riis_surface_options &how = options.surface_options;
   command.group("Surface");
@@ -199,7 +199,7 @@ void declare_half_thickness(Command &command, ValveOptions &options) {
                  options.surface_options.offset, parse_number);
 }
 
-// Declares all options that determine a placed surface, except for its half thickness.
+// Declares the options of a placed surface, without the option of its half thickness.
 void declare_surface_in_place(Command &command, ValveOptions &options) {
   declare_valve(command, options);
   declare_opening(command, options);
@@ -208,7 +208,7 @@ void declare_surface_in_place(Command &command, ValveOptions &options) {
   declare_placement(command, options);
 }
 
-// Declares all options that determine a placed surface and its half thickness.
+// Declares the options of a placed surface, with the option of its half thickness.
 void declare_placed_valve(Command &command, ValveOptions &options) {
   declare_surface_in_place(command, options);
   declare_half_thickness(command, options);
@@ -309,8 +309,8 @@ void declare_style(Command &command, PictureStyle &style) {
   command.choice("--picture-panels", "both (default), valve or marks", panel_names, style.panels, "WHICH");
 }
 
-// --view is declared after --picture, so CLI11 passes the pictures first. The number of pictures is then known when the views are
-// read.
+// CLI11 passes on the pictures before the views, because --view is declared after --picture. The number of pictures is therefore
+// known when the views are read.
 void declare_pictures(Command &command, MarkOptions &options) {
   CLI::Option *const pictures =
       command
@@ -351,7 +351,7 @@ CLI::Option *declare_case(Command &command, SeriesOptions &series) {
                       series.case_file);
 }
 
-// Excludes those of the command's options for which the case file has its own values.
+// Excludes the options of the command for which the case file has its own values.
 void exclude_by_case(const Command &command, CLI::Option *all_of_it) {
   for (const char *name :
        {"--surface", "--leaflets",      "--valve",         "--opening",        "--params",         "--params-open",

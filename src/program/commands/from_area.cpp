@@ -19,7 +19,7 @@
 namespace riis::program {
 namespace {
 
-// The areas to reach, in the mesh's unit, and their times if they come from a file.
+// The areas that the user wants, in the mesh's unit. Areas from a file also have times.
 struct Areas {
   std::vector<double> times, areas;
 };
@@ -39,7 +39,7 @@ struct Solution {
 
 std::string words_of(const AreaOptions &options) { return options.is_effective ? "effective area" : "area"; }
 
-// Returns a number with more digits than a summary has, so that the number gives the area again.
+// Returns a number with nine digits. With so many digits, an opening or a size gives the area again.
 std::string exact(double number) { return printed("%.9g", number); }
 
 std::string text_of_range(const AreaOptions &options, const riis_area_range &range) {
@@ -47,7 +47,7 @@ std::string text_of_range(const AreaOptions &options, const riis_area_range &ran
          " goes from " + exact(range.least) + " to " + exact(range.most);
 }
 
-// A size belongs to the open valve, unless the user chose an opening.
+// If the user chose no opening, a size is found for the open valve.
 Valve valve_of(const AreaOptions &options) {
   Valve valve = make_valve(options);
   if (options.solve == "opening" || sets_opening(options)) return valve;
@@ -68,7 +68,8 @@ class Search {
 
   const riis_valve *valve() const { return valve_; }
 
-  // Warns if the band closes the gap of a closed valve whose size was found. Without a half thickness, the band is not known.
+  // Warns if a valve's size was found, but the band closes the gap of the valve when it is closed. Without a half thickness, the
+  // band is not known.
   void judge_gap(const Solution &found) const {
     const bool is_size = options_.solve != "opening" && options_.solve != "scale";
     if (!is_size || !options_.has_half_thickness || opening_of(valve_) != 0) return;
@@ -100,7 +101,7 @@ class Search {
                              made->values.data(), made->reached.data(), &made->range, sizeof made->range);
   }
 
-  // Refuses the first area of the file that is out of reach. Returns if the call was refused for another reason.
+  // Refuses the first area of the file that the valve cannot reach. Without such an area, refuses with the library's reason.
   void refuse_row(const Areas &wanted, const std::string &reason) const {
     Solution all;
     if (call({}, &all) != RIIS_OK) throw Refusal{exit_wrong_usage, with_option_named(reason)};
@@ -117,7 +118,7 @@ class Search {
   riis_area_search search_ = defaults<riis_area_search>();
 };
 
-// Says where the area turns, because other openings or sizes then have the same area.
+// Tells at which openings or sizes the area stops growing or falling, because several openings or sizes then have one area.
 void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
   if (range.n_turns == 0) return;
   std::vector<std::string> places;
@@ -129,7 +130,7 @@ void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
        "; of several solutions " + taken + " was found, and --from and --to lead to the others");
 }
 
-// Jumps of an adapted triangulation are smaller than this share of the area, unless the area is small.
+// The area of an adapted triangulation jumps by less than this share of the area, except for small areas.
 constexpr double fair_error = 1e-4;
 
 void warn_of_jumps(const Areas &wanted, const Solution &found) {
@@ -159,7 +160,7 @@ std::string text_of_size(const AreaOptions &options, const riis_valve *valve, co
          summary_line("range", text_of_range(options, found.range)) + summary_line("cost", text_of_cost(found.range));
 }
 
-// The rate of a cubic is a parabola between two keys. The opening is therefore fastest at a key or at the parabola's vertex.
+// Between two keys, the rate of a cubic is a parabola. The opening is therefore fastest at a key or at the parabola's vertex.
 std::string text_of_rate(const OpeningLaw &law, std::vector<double> times, double period) {
   if (period > 0) times.push_back(times.front() + period);
   double fastest = 0, at = times.front();
