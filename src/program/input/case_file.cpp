@@ -66,7 +66,7 @@ class CaseReader {
     if (values.has("times") && options.series.times.empty()) options.series.times = times_of(values);
   }
 
-  // Reads R, a number or a text with a unit.
+  // Reads R, which is a number or a text with a unit.
   static std::optional<Amount> resistance_of(const CaseValues &values) {
     const char *const key = "resistance";
     if (!values.has(key)) return std::nullopt;
@@ -84,8 +84,8 @@ class CaseReader {
     }
   }
 
-  // Gives R of each valve in the units of the mesh. K is a sum over the valves, so all valves must agree about the mesh's unit.
-  // Without "unit", a placed valve has the unit of its file.
+  // Converts the resistance R of each valve into the units of the mesh. K is a sum over the valves, so all valves need the same
+  // unit of the mesh. Without "unit", a placed valve has the unit of its file.
   void apply_resistances(const CaseValues &values) {
     const ValveSource *first = nullptr;
     for (ValveSource &valve : all_.valves) {
@@ -125,7 +125,7 @@ class CaseReader {
     return all_.files.back();
   }
 
-  // Returns the paths that a key gives, as one text or as an array of texts.
+  // Returns the paths that a key gives. The value of the key is a text or an array of texts.
   std::vector<std::string> files_of(const CaseValues &values, const char *key) {
     if (!values.needed(key).is_array()) return {file_of(values, key)};
     std::vector<std::string> files;
@@ -241,7 +241,7 @@ class CaseReader {
     set_skirt(source.options, source.valve, source.subject);
   }
 
-  // Reads the warp, and gives it to the valve at the first time.
+  // Reads the warp, and warps the valve as at the first time.
   void set_warp(const CaseValues &values, riis_valve *valve, ValveSource &source) {
     const std::vector<double> &times = all_.options.series.times;
     source.warp = read_warp(source.options);
@@ -256,7 +256,7 @@ class CaseReader {
     source.warp.apply(times.empty() ? 0 : times.front(), valve);
   }
 
-  // Sets parameters from an object, or from a file if a path is given.
+  // Sets parameters from an object, or from the file whose path is given.
   void set_parameters_of(const CaseValues &values, const char *key, riis_valve *valve) {
     if (!values.has(key)) return;
     if (values.needed(key).is_string())
@@ -265,7 +265,7 @@ class CaseReader {
       set_from_json(valve, values.needed(key), values.subject() + ": " + key);
   }
 
-  // Sets the law of opening. Also sets the valve to its largest opening, which fails if the valve cannot open.
+  // Sets the law of opening. Also opens the valve as far as the law opens it, which fails if the valve cannot open.
   void set_law(const CaseValues &values, riis_valve *valve, ValveSource &source) {
     const std::vector<double> &times = all_.options.series.times;
     source.law = OpeningLaw(opening_of(valve));
@@ -371,7 +371,7 @@ void read_valve(const MarkOptions &options, ValveSource &source) {
   }
   const SeriesOptions &series = options.series;
   source.law = OpeningLaw(read_cycle(series.cycle, options.period, series.interpolation), series.cycle);
-  // make_valve refuses a file of patches if the valve cannot open as far as the law requires.
+  // With this opening, make_valve refuses a file of patches that cannot open as far as the law opens it.
   source.options.opening = largest_opening(source.law, options.series.times);
   source.valve = make_valve(source.options, OpeningCheck::yes, &source.warp);
 }
@@ -409,7 +409,8 @@ void read_surfaces(Case &all) {
       continue;
     }
     KeyframeFiles read = read_keyframes(options, all.seconds);
-    // Outputs are written after all frames are read, so the user would not notice an output that replaces a frame.
+    // Outputs are written after all frames are read. Without this check, an output could replace a frame, and the user would not
+    // notice.
     check_no_output_is("a frame of --surface " + options.surface, read.files, options);
     source.keyframes = std::move(read.keyframes);
     all.files.insert(all.files.end(), read.files.begin(), read.files.end());

@@ -15,7 +15,8 @@
 namespace riis::program {
 namespace {
 
-// The names of leaflets: of three cusps, of a tricuspid valve, and of any number of cusps. A name stands before its beginning.
+// The words for leaflets: of a valve with three cusps, of a tricuspid valve, and of a valve with any number of cusps. A longer
+// word such as non_coronary comes before its beginning, non.
 struct LeafletWord {
   const char *word;
   std::int32_t leaflet_id;
@@ -24,7 +25,8 @@ constexpr LeafletWord leaflet_words[] = {{"right", 0},    {"left", 1},   {"non_c
                                          {"anterior", 0}, {"septal", 1}, {"posterior", 2},    {"cusp_0", 0},
                                          {"cusp_1", 1},   {"cusp_2", 2}, {"cusp_3", 3}};
 
-// The words for roles. Some words may stand for several landmarks, because a valve has several landmarks of that role.
+// The words for the roles of landmarks. Some words may name several landmarks, because a valve has several landmarks with that
+// role.
 struct RoleWord {
   const char *word;
   std::int32_t role;
@@ -49,7 +51,7 @@ struct Place {
   bool may_repeat;  // whether other landmarks may have the same name
 };
 
-// Returns the name in small letters, with _ for blanks and hyphens in it.
+// Returns the name in small letters. Blanks and hyphens become _.
 std::string plain(const std::string &name) {
   std::string made;
   for (const char c : trimmed(name))
@@ -61,7 +63,8 @@ bool is_number(const std::string &text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// Takes a leaflet's name from the start of the text. Returns the leaflet id of a name, or -1.
+// Takes a leaflet's name from the start of the text. Returns the id of the leaflet, or -1 if the text does not begin with such a
+// name.
 std::int32_t take_leaflet(std::string &text) {
   for (const auto &[name, leaflet_id] : leaflet_words) {
     const std::string word = name;
@@ -72,8 +75,8 @@ std::int32_t take_leaflet(std::string &text) {
   return -1;
 }
 
-// Reads a name: the word of a role, and perhaps more. A number may follow, or one leaflet after a nadir, or two leaflets after a
-// commissure. For a point of the attachment, a leaflet and a number may follow.
+// Reads the name of a landmark, which begins with the word of a role. A number may follow, a leaflet after a nadir, or two
+// leaflets after a commissure. After the word attachment, a leaflet and a number may follow.
 std::optional<Place> place_of_name(const std::string &name) {
   const std::string text = plain(name);
   for (const RoleWord &known : role_words) {
@@ -129,7 +132,7 @@ class Collector {
     file_.xyz.insert(file_.xyz.end(), point.begin(), point.end());
   }
 
-  // Checks the landmarks as a whole, and takes the direction of flow from its two points.
+  // Checks the landmarks as a whole. Takes the direction of flow from the two points flow_from and flow_to.
   void finish() {
     if (file_.names.empty()) refuse_file(file_.path, "holds no landmarks");
     if (ends_.empty()) return;
@@ -219,7 +222,7 @@ void read_json(const Json &root, LandmarkFile &file) {
       to.add(name, point_of(file.path, quoted(name), value));
       continue;
     }
-    // Only a name that several landmarks may have takes numbers. Another name may have a list of one point.
+    // The points of a list get numbered names if several landmarks may have the name. Otherwise the list may have only one point.
     const std::optional<Place> place = place_of_name(name);
     for (std::size_t i = 0; i < value.size(); ++i) {
       const std::string own = place && place->may_repeat ? name + "_" + std::to_string(i + 1) : name;
@@ -231,7 +234,7 @@ void read_json(const Json &root, LandmarkFile &file) {
 
 // ---- 3D Slicer ----
 
-// Returns the unit of a list of points. By 3D Slicer's schema it is a text, or an array whose first entry is the text; the
+// Returns the unit of a list of points. In 3D Slicer's schema, the unit is a text, or an array whose first entry is the text. The
 // default is mm.
 Unit slicer_unit(const std::string &path, const Json &list, const std::string &where) {
   const auto found = list.find("coordinateUnits");
@@ -241,7 +244,7 @@ Unit slicer_unit(const std::string &path, const Json &list, const std::string &w
   return stated_unit(path, unit.get<std::string>());
 }
 
-// A file of 3D Slicer has many keys, which change from version to version. Only the keys needed here are read.
+// A file of 3D Slicer has many keys, which differ between versions. Only the keys needed here are read.
 void read_slicer(const Json &root, LandmarkFile &file) {
   const std::string &path = file.path;
   const Json &lists = root["markups"];
@@ -274,8 +277,8 @@ void read_slicer(const Json &root, LandmarkFile &file) {
       const Json &point = (*points)[k];
       const std::string at = where + ", control point " + std::to_string(k);
       if (!point.is_object()) refuse_file(path, at + " must be an object, not of type " + point.type_name());
-      // A closed curve is an annulus, whatever its points are called. An open curve is also an annulus, except for points with
-      // names of landmarks.
+      // A closed curve is an annulus, whatever the names of its points are. An open curve is also an annulus, unless its points
+      // have the names of landmarks.
       const std::string given = is_closed_curve ? "" : text_in(point, "label", at);
       const bool is_annulus = is_closed_curve || (is_curve && !is_landmark(given));
       const std::string label = is_annulus ? "annulus_" + std::to_string(++n_annulus) : given;
@@ -298,7 +301,8 @@ Axes fcsv_axes(const std::string &path, const std::string &value) {
   refuse_file(path, "CoordinateSystem is " + quoted(value) + "; it must be LPS, RAS, 0 for RAS or 1 for LPS");
 }
 
-// Reads an .fcsv file, which earlier versions of 3D Slicer wrote. Its lengths are in mm. The axes are a name or a number.
+// Reads an .fcsv file, which earlier versions of 3D Slicer wrote. Its lengths are in mm. The file gives its axes as a name or as
+// a number.
 void read_fcsv(const std::string &text, LandmarkFile &file) {
   const std::string &path = file.path;
   std::vector<std::string> columns = {"label", "x", "y", "z"};

@@ -16,7 +16,7 @@ namespace riis::program {
 
 namespace {
 
-// Checks a law. Reports the law's faults as bad data, because all values of the law come from the user.
+// Checks a law. Reports a fault of the law as bad data, because all values of the law come from the user.
 void check_law(riis_status status, const std::string &subject) {
   if (status == RIIS_INVALID_ARGUMENT) refuse_data(subject + ": " + riis_last_error());
   check(status, subject);
@@ -81,7 +81,7 @@ const std::vector<std::string> &interpolation_names() {
 
 namespace {
 
-// The library has the same limits for a table.
+// The library limits tables in the same way.
 constexpr std::size_t most_keys = 1000000;
 constexpr double largest_key_time = 1e30;
 

@@ -34,7 +34,7 @@ bool is_part(const riis_valve *valve, const std::string &name) {
   });
 }
 
-// Returns a parameter's own name, given this name or its second name, such as "root_radius" for "annulus".
+// Returns the first name of a parameter that has two names. For example, "annulus" is the second name of "root_radius".
 std::string own_name(const riis_valve *valve, const std::string &name) {
   const std::size_t dot = name.rfind('.'), start = dot == std::string::npos ? 0 : dot + 1;
   for (const riis_parameter &parameter : all_parameters(valve)) {
@@ -107,7 +107,7 @@ namespace {
 
 std::string text_of(double number) { return printed("%g", number); }
 
-// Returns the description with the parameter's rule and its second name.
+// Returns the description of a parameter, followed by its rule and its second name.
 std::string description_of(const riis_parameter &parameter) {
   std::string text = parameter.description;
   if (*parameter.rule) text += std::string("; unless set: ") + parameter.rule;
@@ -130,20 +130,20 @@ Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
           text_of(parameter.minimum) + " to " + text_of(parameter.maximum), description_of(parameter)};
 }
 
-// The rows of a part of the valve with a number, such as bump_0, or the row of another parameter.
+// The rows of a numbered part of the valve, such as bump_0, or the row of a parameter without such a part.
 struct Part {
   std::string name;  // "" without a number
   std::vector<Row> rows;
 };
 
-// Returns "bump_0" for "bump_0.open", and "" for names without a number.
+// Returns the numbered part of a name, such as "bump_0" for "bump_0.open". Returns "" if the name has none.
 std::string numbered_part(const std::string &name) {
   const std::size_t dot = name.find('.');
   const bool has_number = dot != std::string::npos && dot > 0 && name[dot - 1] >= '0' && name[dot - 1] <= '9';
   return has_number ? name.substr(0, dot) : "";
 }
 
-// Returns the rows of the table. The rows of a part follow each other.
+// Returns the rows of the table. The rows of one part are neighbours.
 std::vector<Part> parts_of(const riis_valve *valve) {
   std::vector<Part> parts = {{"", {{"name", "value", "unit", "range", "description"}}}};
   for (const riis_parameter &parameter : all_parameters(valve)) {
@@ -156,7 +156,7 @@ std::vector<Part> parts_of(const riis_valve *valve) {
   return parts;
 }
 
-// Returns whether two names of parts differ by their numbers only.
+// Returns whether two parts have names and rows that differ only in their numbers.
 bool are_alike(const Part &a, const Part &b) {
   const auto without_number = [](const Part &part) {
     std::string text = part.name.substr(0, part.name.find_last_not_of("0123456789") + 1);
@@ -167,7 +167,7 @@ bool are_alike(const Part &a, const Part &b) {
   return !a.name.empty() && !b.name.empty() && without_number(a) == without_number(b);
 }
 
-// Returns whether a part is a bump at no place. Such a bump does nothing.
+// Returns whether a part is a bump that has no place. A bump without a place does nothing.
 bool is_idle_bump(const riis_valve *valve, const std::string &part) {
   const auto has_no = [&](const char *place) {
     double number = 0;

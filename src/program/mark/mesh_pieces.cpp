@@ -134,7 +134,7 @@ PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const
 
 namespace {
 
-// Returns the moments of the nodes of a grid, from sums along its axes.
+// Returns the moments of a grid's nodes. They are computed from sums along the grid's axes.
 Moments moments_of(const riis_grid &axes) {
   const std::array<std::int64_t, 3> sizes = {axes.ni, axes.nj, axes.nk};
   const std::array<const void *, 3> x = {axes.x, axes.y, axes.z};
@@ -265,7 +265,8 @@ std::vector<SharedNode> in_one_list(std::vector<std::vector<SharedNode>> by_piec
   return all;
 }
 
-// Shares out nodes among the ranks by their keys. Global ids are dense, so they are mixed to share them out evenly.
+// Distributes nodes among the ranks by their keys. Global ids are dense, so a hash of the id chooses the rank, and the ranks get
+// about equal numbers of nodes.
 template <class Node>
 std::vector<Node> shared_out(std::vector<Node> nodes) {
   const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
