@@ -161,7 +161,7 @@ OutputLocks locks_of(const NamedFiles &outputs) {
   return OutputLocks(written);
 }
 
-// Refuses a picture early, before all other work, if there is neither a display nor a program that makes one.
+// Refuses a picture before all other work if the machine has neither a display nor a program that makes one.
 void check_display() {
   const char *display = std::getenv("DISPLAY");
   if (!display || !*display) check_virtual_display();

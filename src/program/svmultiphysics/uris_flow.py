@@ -92,7 +92,8 @@ def region_of(problem):
     owners, numbers = np.concatenate(owners), np.concatenate(numbers)
     _, same = np.unique(np.concatenate(keys), return_inverse=True)
     inside = is_inside[owners]
-    # The region ends at a face with one element inside: at a wall if the face has no other element, else at a cut.
+    # The region ends at a face that has only one element of the region. If the face has no other element, it is on a wall,
+    # otherwise on a cut.
     is_end = inside & (np.bincount(same, inside)[same] == 1)
     is_last = np.bincount(same)[same] == 1
     is_wall, is_cut = np.zeros(n, bool), np.zeros(n, bool)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that are the axes of a rectilinear grid. Points and cells are made only for callers that need them.
+// Meshes whose nodes are given by the axes of a rectilinear grid. Points and cells are made only if a caller needs them.
 #include <algorithm>
 #include <cmath>
 #include <utility>

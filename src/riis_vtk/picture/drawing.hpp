@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The X display and the steps of drawing that pictures and the paper's figures share.
+// The X display, and the steps of drawing that the pictures and the paper's figures have in common.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -15,12 +15,12 @@ class vtkUnsignedCharArray;
 
 namespace riis::vtk {
 
-// Holds a connection to the X display while VTK draws. On Linux VTK 9.1 renders only through X and GLX, and aborts the process
-// if either is missing. An X server resets itself after its last client has left, and refuses connections meanwhile. So this
-// connection stays open.
+// Holds a connection to the X display while VTK draws. On Linux, VTK 9.1 draws only through X and GLX. If one of them is missing,
+// VTK aborts the process. After its last client has left, an X server resets itself, and refuses connections during this time.
+// Therefore this connection stays open.
 class HeldDisplay {
  public:
-  // Fails with RIIS_UNAVAILABLE if there is no display, or if the display lacks GLX.
+  // Fails with RIIS_UNAVAILABLE if there is no display, or if the display has no GLX.
   HeldDisplay();
   ~HeldDisplay();
   HeldDisplay(const HeldDisplay &) = delete;
@@ -40,11 +40,12 @@ vtkSmartPointer<vtkRenderer> two_sided_renderer();
 
 vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data);
 
-// The cell scalars of `faces`, three bytes for each cell, are the faces' colours. The actor has its own points.
+// Returns an actor for faces. The cell scalars of `faces` give their colours, three bytes for each cell. The actor has its own
+// points.
 vtkSmartPointer<vtkActor> coloured_actor_of(vtkPolyData *faces);
 
-// Returns the faces with normals at their corners. The normals make smooth edges between faces invisible, and sharp edges stay
-// visible.
+// Returns the faces with normals at their corners. With these normals, smooth edges between faces become invisible, but sharp
+// edges stay visible.
 vtkSmartPointer<vtkPolyData> smoothed(vtkPolyData *faces);
 
 // Sets the font that all texts use. `size` is in pixels.

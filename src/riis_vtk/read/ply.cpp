@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stanford's .ply files, as text or binary: the vertices, the polygons, and the single numbers of each face, which become cell
+// Reads Stanford's .ply files, as text or binary. Vertices and polygons are read, and single numbers of each face become cell
 // arrays. Other elements and lists are skipped.
 #include <algorithm>
 #include <set>
@@ -13,7 +13,7 @@
 namespace riis::vtk {
 namespace {
 
-// Only trimesh writes the types of 8 bytes.
+// Only the program trimesh writes types with 8 bytes.
 struct PlyType {
   std::string_view name, other_name;
   int n_bytes;
@@ -40,7 +40,7 @@ struct PlyElement {
     return std::any_of(properties.begin(), properties.end(),
                        [&](const PlyProperty &p) { return !p.count && p.name == property; });
   }
-  // Returns the list of a face's vertices, or NULL.
+  // Returns the list with the vertices of a face, or NULL.
   const PlyProperty *corners() const {
     const auto found = std::find_if(properties.begin(), properties.end(), [](const PlyProperty &p) {
       return p.count && !p.type->is_real && (p.name == "vertex_indices" || p.name == "vertex_index");
@@ -66,7 +66,8 @@ class PlyFile {
  private:
   // ---- The header ----
 
-  // Takes a line that ends in a line feed or in a carriage return alone. Old files have the latter, and their first line tells.
+  // Removes and returns a line. It ends in a line feed or in a single carriage return. Only old files use single carriage
+  // returns, and their first line shows this.
   std::string_view take_header_line(std::string_view &text) const {
     if (!has_returns_) return take_line(text);
     const std::string_view line = text.substr(0, text.find('\r'));
@@ -230,7 +231,7 @@ class PlyFile {
     expect_end_of_line();
   }
 
-  // In a text file, each vertex and each face has its own line.
+  // In a text file, each vertex and each face is on a separate line.
   void expect_end_of_line() const {
     if (in_.is_binary) return;
     std::string_view rest = in_.rest(), line = take_line(rest);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion of riis_vtk.h. Reads the frames of a surface from files into arrays for the core's keyframes. Also reads ParaView's
-// collections of files in time.
+// The motion of a surface, as in riis_vtk.h. Reads the frames of a surface from files, into arrays for the core's keyframes. Also
+// reads ParaView's lists of files in time.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct riis_vtk_motion {
 namespace riis::vtk {
 namespace {
 
-// A DataSet element as written in the file.
+// A DataSet element with its texts as in the file.
 struct NamedDataSet {
   std::optional<std::string> file, timestep;
 };
@@ -46,14 +46,14 @@ std::vector<NamedDataSet> data_sets_of(const std::string &path, const CaughtOutp
   return data_sets;
 }
 
-// The files of a collection and their times.
+// The files in a collection, and their times.
 struct Collection {
   std::vector<std::string> paths;  // a relative name is preceded by the collection's folder
   std::vector<double> times;       // finite and strictly ascending
 };
 
-// Reads a .pvd file, ParaView's collection of files in time. Fails for a file that is not a collection or names no files, and
-// for timesteps that are not ascending numbers.
+// Reads a .pvd file, in which ParaView lists files in time. Fails if the file is not such a list or names no files. Also fails if
+// the timesteps are not numbers in ascending order.
 Collection read_collection(const std::string &path, const CaughtOutput &caught) {
   if (ending_of(path) != "pvd") fail_file(path, "a collection of files in time must be a .pvd file");
   const std::vector<NamedDataSet> data_sets = data_sets_of(path, caught);
@@ -165,7 +165,7 @@ RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_
     std::vector<const char *> paths;
     for (const std::string &file : files) paths.push_back(file.c_str());
     append_frames(motion->frames, other->frames);
-    // The texts stay in place when the list of files moves.
+    // If the list of files moves in memory, its texts stay in place.
     motion->files = std::move(files);
     motion->paths = std::move(paths);
   });
