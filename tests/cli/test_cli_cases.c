@@ -293,7 +293,7 @@ TEST(test_refused_cases) {
                       "\"half_thickness_\": 1,");
   expect_case_refused("valve 0: \"oppening\" is unknown, did you mean \"opening\"?",
                       "{\"valve\": \"mitral\", \"oppening\": 1}", "");
-  expect_case_refused("valves: it must be an array of one valve or more", "", "");
+  expect_case_refused("valves: it must be an array of at least one valve", "", "");
   expect_case_refused("valve 1: name: each of several valves needs one",
                       "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"valve\": \"mitral\"}", "");
   expect_case_refused("name: \"a\" is the name of two valves",

@@ -139,7 +139,7 @@ double parse_unit_of(const std::string &text, const std::string &subject, const 
   const bool is_over_length =
       unit.mass != 0 && unit.mass == quantity.mass && unit.length == quantity.length - 1 && unit.time == quantity.time;
   refuse_usage(subject + ": '" + text + "' is not a unit of " + quantity.words + ", such as " + quantity.si +
-               (is_over_length ? "; it is one of R/eps: multiply by the half thickness" : ""));
+               (is_over_length ? "; it is a unit of R/eps: multiply the number by the half thickness" : ""));
 }
 
 Amount parse_amount(const std::string &text, const std::string &subject, const Quantity &quantity) {

@@ -69,7 +69,7 @@ void check_open_state(const ValveOptions &options) {
 // and the user would not notice.
 void check_open_state_is_met(const MarkOptions &options) {
   if (!options.params_open.empty() && !sets_opening(options) && options.series.cycle.empty())
-    refuse_usage("--params-open needs --opening or --cycle: without either the valve does not open to that state");
+    refuse_usage("--params-open needs --opening or --cycle: otherwise the valve does not open to this state");
 }
 
 void check_series(const Command &command, const MarkOptions &options) {
@@ -208,7 +208,7 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
     options.series.all_cells = true;  // centres have no parts
   }
   if (options.n_steps > 0 && (has_case || !options.series.times.empty()))
-    refuse_usage("--steps has no effect with --times and --case, because --steps itself moves one valve");
+    refuse_usage("--steps has no effect with --times and --case, because --steps moves one valve by itself");
   if (has_case) return options;
   apply_amounts(options);
   if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
@@ -256,7 +256,8 @@ AreaOptions finish_from_area(const Command &command, AreaOptions options) {
   if (!options.given_area && options.areas.empty()) refuse_usage("nothing to do: --area or --areas is needed");
   if (!options.areas.empty() && options.output.empty()) refuse_usage("--areas needs --output, the file of the cycle");
   if (options.solve == "opening" && sets_opening(options))
-    refuse_usage("an opening has no effect: --solve opening finds it; --solve scale or NAME finds a size");
+    refuse_usage(
+        "an opening has no effect, because --solve opening finds the opening; --solve scale or NAME finds a size");
   finish_valve(command, options);
   finish_areas(options);
   return options;
@@ -288,7 +289,7 @@ PlaceOptions finish_place(const Command &command, PlaceOptions options) {
     refuse_usage("--valve: " + options.valve + " is a file; landmarks place a kind of valve");
   use_named_valve(options);
   if (options.output != "-" && !options.output.empty() && !is_valve_file(options.output))
-    refuse_usage("--output: " + options.output + " must end in .json, so that other commands take it");
+    refuse_usage("--output: " + options.output + " must end in .json, so that other commands accept the file");
   check_set_opening(options, "has no effect: landmarks are those of the closed valve");
   return options;
 }
@@ -324,7 +325,7 @@ void apply_units(ValveOptions &options) {
 void apply_amounts(MarkOptions &options) {
   const bool has_fields = is_foam_case(options.output) || is_foam_time(options.output);
   if (options.density && !has_fields)
-    refuse_usage("--density has no effect: only K in the fields of a case of OpenFOAM is divided by it");
+    refuse_usage("--density has no effect: it divides K only in the fields of an OpenFOAM case");
   if (!options.given_resistance) return;
   const Amount &given = *options.given_resistance;
   if (given.number < 0) throw Refusal{given.exit_code, given.subject + " is " + given.text + "; it must be at least 0"};

@@ -163,7 +163,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   add(app, "surface", "Write or draw the triangles of a valve, without a mesh", declare_surface, finish_surface,
       MarkOptions());
   add(app, "states", "Measure a valve at openings from 0 to 1", declare_states, finish_states, StatesOptions());
-  add(app, "from-area", "Find the opening or the size at which a valve's orifice has an area", declare_from_area,
+  add(app, "from-area", "Find the opening or the size of a valve from the area of its orifice", declare_from_area,
       finish_from_area, AreaOptions());
   CLI::App *checks = named(app, "check", "Look for leaflets that cross, or for ways through a valve");
   checks->require_subcommand(1);

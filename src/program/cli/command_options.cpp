@@ -99,20 +99,19 @@ void declare_valve(Command &command, ValveOptions &options) {
 }
 
 void declare_opening(Command &command, ValveOptions &options) {
-  command.parsed("--opening", "X", "How far the valve is open, from 0, closed, to 1, open", options.opening,
-                 parse_opening);
+  command.parsed("--opening", "X", "Opening of the valve, from 0 (closed) to 1 (open)", options.opening, parse_opening);
 }
 
 // Declares the options of a valve's shape, without its opening.
 void declare_shape(Command &command, ValveOptions &options) {
-  command.text("--params-open", "FILE.json", "Parameters of the state that the valve opens to", options.params_open);
-  command.text("--warp", "FILE.json|.csv", "Landmarks on the valve, and in the patient, to which the valve is warped",
+  command.text("--params-open", "FILE.json", "Parameters of the open state of the valve", options.params_open);
+  command.text("--warp", "FILE.json|.csv", "Landmarks on the valve and in the patient, for a warp of the valve",
                options.warp);
-  CLI::Option *const skirt =
-      command.parsed("--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, the longest",
-                     options.skirt, parse_positive_finite);
+  CLI::Option *const skirt = command.parsed(
+      "--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, its largest length",
+      options.skirt, parse_positive_finite);
   command
-      .text("--wall", "FILE", "A surface in the mesh's frame that the skirt reaches, in a format of --surface",
+      .text("--wall", "FILE", "The wall that the skirt reaches, in the mesh's coordinates and in a format of --surface",
             options.wall)
       ->needs(skirt);
 }
@@ -216,7 +215,7 @@ void declare_placed_valve(Command &command, ValveOptions &options) {
 
 // Declares --threads. The option applies to the search for nodes and to the search for crossings.
 void declare_threads(Command &command, MarkOptions &options) {
-  command.value("--threads", "N", "Number of threads (default as many as have work)",
+  command.value("--threads", "N", "Number of threads (default as many as the work can use)",
                 [&options](const std::string &text) {
                   options.n_threads = options.mark_options.n_threads = parse_integer(text, "--threads");
                 });
@@ -237,8 +236,8 @@ void declare_marking(Command &command, MarkOptions &options) {
       command.parsed("--resistance", "R", "Write riis_K, R/eps times the delta function at each node; R in kg/(m s)",
                      options.given_resistance, amount_of(a_resistance));
   command
-      .parsed("--k-unit", "UNIT", "Unit of riis_K (default of kg, m, s; g, cm, s; or g, mm, s)", options.chosen_K_unit,
-              [](const std::string &text, const std::string &) { return text; })
+      .parsed("--k-unit", "UNIT", "Unit of riis_K (default by the mesh's unit: from kg, m, s; g, cm, s; or g, mm, s)",
+              options.chosen_K_unit, [](const std::string &text, const std::string &) { return text; })
       ->needs(resistance);
   command
       .parsed("--density", "RHO", "Density in kg/m3, by which OpenFOAM's fields of K are divided", options.density,
@@ -302,8 +301,8 @@ void declare_style(Command &command, PictureStyle &style) {
   command.parsed("--picture-size", "WIDTHxHEIGHT", "Pixels of pictures and movies (default 1600x800)", style.size,
                  parse_size);
   command.parsed("--picture-background", "COLOUR",
-                 "white (default), black, transparent, or as f4f1ea: riis help pictures", style.background,
-                 parse_background);
+                 "white (default), black, transparent, or a colour such as f4f1ea: riis help pictures",
+                 style.background, parse_background);
   command.choice("--picture-captions", "all (default), scale (only the scale bar) or none", caption_names,
                  style.captions, "WHICH");
   command.choice("--picture-panels", "both (default), valve or marks", panel_names, style.panels, "WHICH");
@@ -341,8 +340,8 @@ void declare_cycle(Command &command, std::string &cycle, std::int32_t &interpola
   CLI::Option *const file =
       command.text("--cycle", "FILE.csv", "Times and openings of the valve, in two columns", cycle);
   command
-      .choice("--interpolation", "Between the times of the cycle: linear (default) or cubic", interpolation_names(),
-              interpolation)
+      .choice("--interpolation", "Interpolation between the times of the cycle: linear (default) or cubic",
+              interpolation_names(), interpolation)
       ->needs(file);
 }
 
@@ -370,10 +369,11 @@ void declare_series(Command &command, MarkOptions &options) {
                      series.times, parse_times);
   declare_cycle(command, series.cycle, series.interpolation);
   CLI::Option *const all_of_it = declare_case(command, series);
-  command.flag("--all-cells", "Write the whole mesh each time, not only the cells near the sweep", series.all_cells);
+  command.flag("--all-cells", "Write the whole mesh at each time, not only the cells near the moving valve",
+               series.all_cells);
   command.text("--series-table", "OUT.csv", "Write time, opening, marked nodes and speed of each step", series.table);
   CLI::Option *const movie =
-      command.text("--movie", "OUT.mp4|OUT.gif", "Draw each time and make a movie of it, by ffmpeg", series.movie);
+      command.text("--movie", "OUT.mp4|OUT.gif", "Make a movie of all times, by ffmpeg", series.movie);
   command
       .parsed("--frame-rate", "N", "Frames of the movie per second (default 10)", series.frame_rate,
               parse_positive_finite)
@@ -386,7 +386,7 @@ void declare_series(Command &command, MarkOptions &options) {
 
 void declare_cells_where(Command &command, ValveOptions &options) {
   command.text("--cells-where", "NAME=VALUES",
-               "Take only cells with such a value of a cell array, or gmsh:physical=NAME: riis help mesh",
+               "Take only the cells with these values of a cell array, or gmsh:physical=NAME: riis help mesh",
                options.cells_where);
 }
 
@@ -406,18 +406,19 @@ void declare_allow_none(Command &command, MarkOptions &options) {
 
 void declare_mark(Command command, MarkOptions &options) {
   declare_mesh(command, options);
-  command.flag("--cells", "Mark the centres of the cells, not the nodes; arrays are then arrays of cells",
+  command.flag("--cells", "Mark the centres of cells, not the nodes; the output then has cell arrays",
                options.at_cells);
   declare_surface_in_place(command, options);
   declare_marking(command, options);
   command.group("Output");
   CLI::Option *const output = command.text(
       "--output", "OUT",
-      "Write the marked mesh: .vtu, .xdmf; .pvtu, .vti or .vtr if MESH is one; --cells: fields in CASE/TIME",
+      "Write the marked mesh: .vtu or .xdmf; .pvtu, .vti or .vtr if MESH has this ending; --cells: fields in CASE/TIME",
       options.output);
   command.text("--prefix", "NAME", "Names of the arrays: NAME_marked and so on (default riis)", options.prefix)
       ->needs(output);
-  command.flag("--replace", "Replace arrays of these names that the mesh already has", options.replace)->needs(output);
+  command.flag("--replace", "Replace arrays of the mesh that have the names of new arrays", options.replace)
+      ->needs(output);
   declare_allow_none(command, options);
   command.text("--surface-output", "OUT.vtp", "Write the placed triangles", options.surface_output);
   declare_pictures(command, options);
@@ -538,7 +539,8 @@ void declare_from_area(Command command, AreaOptions &options) {
       .parsed("--area-unit", "UNIT", "Unit of the areas in --areas, such as cm2 (default the mesh's unit squared)",
               options.area_unit, [](const std::string &text, const std::string &) { return text; })
       ->needs(areas);
-  command.flag("--effective", "The areas are effective areas, which the band leaves to the flow", options.is_effective);
+  command.flag("--effective", "The areas are effective areas: without the part that the band closes",
+               options.is_effective);
   command
       .text("--solve", "opening|scale|NAME", "What to find: the opening (default), the scale, or a parameter",
             options.solve)
@@ -565,7 +567,7 @@ void declare_export(Command command, ExportOptions &options) {
   declare_cells_where(command, options);
   command.option("--cells-where")->needs(command.option("MESH"));
   command
-      .parsed("--time-step", "DT", "Time step of the solver, which plays one frame a step", options.time_step,
+      .parsed("--time-step", "DT", "Time step of the solver, which plays one frame in each step", options.time_step,
               parse_positive_finite)
       ->required();
   command
@@ -666,10 +668,14 @@ void declare_patient(Command command, PatientOptions &options) {
   command.flag("--replace", "Replace the files that an earlier riis patient wrote to FOLDER", options.replace);
   declare_loudness(command, options);
   command.group("Landmarks and wall (lengths without a unit and points are in the unit of WALL)");
-  declare_unit_of(command, "--wall-unit", "Unit of WALL (default found: landmarks lie at the wall)", options.wall_unit);
-  command.text("--axes", "LPS|RAS", "Axes of WALL (default found in the same way)", options.axes)
+  declare_unit_of(command, "--wall-unit", "Unit of WALL (default the unit in which the landmarks lie at the wall)",
+                  options.wall_unit);
+  command
+      .text("--axes", "LPS|RAS", "Axes of WALL (default the axes with which the landmarks lie at the wall)",
+            options.axes)
       ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
-  declare_unit_of(command, "--unit", "Unit of the files in FOLDER (default the solver's, else that of WALL)",
+  declare_unit_of(command, "--unit",
+                  "Unit of the files in FOLDER (default that of the solver; without a solver that of WALL)",
                   options.unit);
   command.choice("--warp", "Warp the valve to the landmarks: none, exact, or smoothed by their noise (default)",
                  warp_names, options.warp_choice);
@@ -677,10 +683,11 @@ void declare_patient(Command command, PatientOptions &options) {
                  options.noise, amount_of(a_length));
   command.value("--flow", "X,Y,Z", "Direction of flow through the valve, in the axes of WALL",
                 [&options](const std::string &text) { options.flow = parse_list(text, "--flow", 3, "X,Y,Z"); });
-  command.value("--inlet", "X,Y,Z", "A point near the flat end that the blood comes from (default found by the valve)",
+  command.value("--inlet", "X,Y,Z", "A point near the flat end through which blood enters (default found by the valve)",
                 [&options](const std::string &text) { options.inlet = parse_list(text, "--inlet", 3, "X,Y,Z"); });
   command
-      .values("--outlet", "X,Y,Z", "A point near an end that the blood leaves by; may be repeated (default all others)",
+      .values("--outlet", "X,Y,Z",
+              "A point near an end through which blood leaves; may be repeated (default all other ends)",
               [&options](const std::vector<std::string> &texts) {
                 for (const std::string &text : texts)
                   options.outlets.push_back(parse_list(text, "--outlet", 3, "X,Y,Z"));

@@ -348,7 +348,7 @@ std::string summary_of(const States &states, const StatesOptions &options) {
   else
     summary.add("valve", options.valve + ": " +
                              (can_open ? counted(n, "opening") + " from 0 to 1"
-                                       : "opening 0 alone, because it has no state to open to"));
+                                       : "only opening 0, because it has no open state"));
   add_leaflets(states, summary);
   summary.add("orifice", text_of_orifice(states));
   if (!states.disc.empty())

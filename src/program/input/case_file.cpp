@@ -38,7 +38,7 @@ class CaseReader {
     const CaseValues values(path_, "", root, case_keys);
     read_common(values);
     const Json &valves = values.needed("valves");
-    if (!valves.is_array() || valves.empty()) values.refuse("valves", "it must be an array of one valve or more");
+    if (!valves.is_array() || valves.empty()) values.refuse("valves", "it must be an array of at least one valve");
     for (std::size_t i = 0; i < valves.size(); ++i) read_valve(valves[i], i, valves.size());
     apply_resistances(values);
     read_surfaces(all_);
@@ -152,7 +152,7 @@ class CaseReader {
     if (values.has("surface")) set_surface(options, files_of(values, "surface"), source.subject);
     options.leaflets = values.text("leaflets");
     if (options.surface_files.size() > 1 && !options.leaflets.empty())
-      values.refuse("leaflets", "it has no effect, because each of several files is a leaflet");
+      values.refuse("leaflets", "it has no effect, because each file is a leaflet");
     options.valve = values.text("valve");
     if (options.valve.empty() == options.surface.empty())
       values.refuse("valve", "either it or \"surface\" must be given");
@@ -173,7 +173,7 @@ class CaseReader {
   std::string name_of(const CaseValues &values, std::size_t n_valves) {
     const std::string name = values.text("name");
     if (name.empty()) {
-      if (n_valves > 1) values.refuse("name", "each of several valves needs one");
+      if (n_valves > 1) values.refuse("name", "it is missing, and each of several valves needs a name");
       return all_.options.prefix;
     }
     if (!is_prefix(name)) values.refuse("name", "\"" + name + "\" must be 1 to 64 letters, digits, _, - and .");

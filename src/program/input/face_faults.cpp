@@ -141,8 +141,8 @@ void warn_of_faces(const std::string &name, const riis_surface *surface) {
   if (faults.n_turned > 0)
     warn(name + ": " + grouped(faults.n_turned) + " of " + counted(triangles.n_triangles, "triangle") +
          (faults.n_turned == 1 ? " is" : " are") +
-         " turned over against the others: normals and side change there; ParaView's filter Surface Normals turns them "
-         "back");
+         " turned over against the neighbours: normals and sides change there; ParaView's filter Surface Normals turns "
+         "them back");
   if (faults.n_equal > 0)
     warn(name + ": " + counted(faults.n_equal, "triangle") + (faults.n_equal == 1 ? " is" : " are") +
          " in the file twice: areas count both");

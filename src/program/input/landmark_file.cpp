@@ -177,7 +177,7 @@ std::array<double, 3> point_in_row(const std::string &path, const CsvFile::Row &
 // ---- What a file states ----
 
 constexpr const char *why_axes =
-    "; mesh stands for those of the mesh or of the wall, and LPS and RAS differ by half a turn about z";
+    "; mesh stands for the axes of the mesh or of the wall, and LPS and RAS differ by half a turn about z";
 
 Unit stated_unit(const std::string &path, const std::string &text) {
   if (const auto unit = unit_of(text)) return *unit;
@@ -266,7 +266,8 @@ void read_slicer(const Json &root, LandmarkFile &file) {
     const Axes axes = stated_axes(path, system);
     const Unit unit = slicer_unit(path, list, where);
     if (i > 0 && (axes != file.axes || unit != file.unit))
-      refuse_file(path, where + " has other axes or another unit than markups 0: save them alike");
+      refuse_file(path,
+                  where + " has other axes or another unit than markups 0: save both with the same axes and unit");
     file.axes = axes;
     file.unit = unit;
     const bool is_closed_curve = list.contains("type") && list["type"] == "ClosedCurve";

@@ -216,7 +216,7 @@ std::string text_of_regions(const std::string &path, riis_vtk_mesh *mesh) {
   for (std::int64_t i = 0; i < std::min(n, most_listed); ++i)
     list += (i == 0 ? "" : i + 1 == n ? " and " : ", ") + shortest(values[i]);
   return path + " has the regions " + list + (n > most_listed ? ", ..." : "") + " of the cell array " + array +
-         ", and they touch: --cells-where " + array + "=" + shortest(values[0]) + " takes only the cells of one";
+         ", and they touch: --cells-where " + array + "=" + shortest(values[0]) + " takes only the cells of one region";
 }
 
 std::string take_notes() { return std::exchange(kept_notes, ""); }

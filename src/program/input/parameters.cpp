@@ -55,7 +55,8 @@ void add(const std::string &path, const riis_valve *valve, const std::string &na
   const auto [place, is_new] = settings.emplace(own_name(valve, name), Setting{name, numbers_of(path, name, value)});
   if (is_new) return;
   if (place->second.name == name) refuse_file(path, name + " is given twice");
-  refuse_file(path, place->second.name + " and " + name + " are given, but they are names of one size; give one");
+  refuse_file(
+      path, place->second.name + " and " + name + " are given, but both are names of one size; give only one of them");
 }
 
 Settings settings_of(const std::string &path, const riis_valve *valve, const Json &root) {

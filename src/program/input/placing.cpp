@@ -460,10 +460,10 @@ std::string place_report(const Placed &placed, Reader reader) {
             (at.n_as_annulus == 1 ? "it counts as a point" : "they count as points") +
             " of the annulus, and IT_distance is not theirs.\n";
   text += undetermined.empty()
-              ? "\nThe landmarks determine every size that they bear on.\n"
+              ? "\nThe landmarks determine every size that depends on them.\n"
               : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") +
-                    ".\nTheir values in the table are guesses, drawn to the proportions of the kind. "
-                    "Each may move the valve by more than a\nfifteenth of its radius. Add landmarks" +
+                    ".\nTheir values in the table are guesses from the usual proportions of the kind. Each guess may "
+                    "move the valve by more than a\nfifteenth of its radius. Add landmarks" +
                     (reader == Reader::program
                          ? ", or give known sizes in cm, as by --set " + undetermined.front() + "=VALUE"
                          : ", or give known sizes") +

@@ -276,7 +276,7 @@ void use_named_valve(ValveOptions &options) {
   const PlacedFile file = read_placed(path, parse_json_file(path, "a placed valve"), options.unit);
   riis_surface_options &surface = options.surface_options;
   if (options.surface_unit) refuse_usage("--surface-unit has no effect with --valve " + path + ", which has a unit");
-  if (options.has_scale) refuse_usage("--scale has no effect with --valve " + path + ": --unit says the mesh's unit");
+  if (options.has_scale) refuse_usage("--scale has no effect with --valve " + path + ": --unit gives the mesh's unit");
   const bool is_moved =
       surface.rotation_angle != 0 ||
       std::any_of(std::begin(surface.translation), std::end(surface.translation), [](double x) { return x != 0; });

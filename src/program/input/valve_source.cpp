@@ -181,7 +181,7 @@ void set_surface(ValveOptions &options, const std::vector<std::string> &files, c
   if (files.size() > 1) options.surface += " and " + std::to_string(files.size() - 1) + " more";
   for (const std::string &file : files)
     if (moves(file) != moves(files.front()))
-      refuse_usage(subject + ": one of " + files.front() + " and " + file + " moves, the other one does not");
+      refuse_usage(subject + ": one of " + files.front() + " and " + file + " moves, and the other file does not");
 }
 
 bool is_motion(const ValveOptions &options) {

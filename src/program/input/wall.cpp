@@ -63,7 +63,7 @@ std::string hint_of_change(const ValveOptions &options, const SurfaceFile &file,
     if (!reaches(make_wall(options, file, change))) continue;
     if (!change.is_turned)
       return std::string("; with its lengths times ") + change.factor +
-             " the wall would be: save it in the mesh's unit";
+             " the wall would be: save the wall in the mesh's unit";
     return "; after half a turn about z the wall would be, so one of valve and wall is in LPS and the other in RAS: " +
            axes_advice(options);
   }

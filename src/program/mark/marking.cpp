@@ -286,8 +286,9 @@ void Marking::measure(Piece &piece) {
 void Marking::find_neighbors_for_search(Piece &piece) {
   if (!needs_adjacency(options().mark_options.search)) return;
   if (piece.mesh->is_grid())
-    refuse_usage("--search: " + options().mesh +
-                 " is a grid, whose nodes are not stored, so no search walks from one to the next; leave --search out");
+    refuse_usage(
+        "--search: " + options().mesh +
+        " is a grid, whose nodes are not stored, so this search cannot walk from node to node; leave --search out");
   const Stage stage("finding the nodes' neighbours", options().quiet);
   piece.mesh->find_neighbors(options().mark_options.n_threads);
   report_.seconds.adjacency += stage.seconds();
@@ -298,7 +299,7 @@ void Marking::mark_at_all_times(Piece &piece) {
   const Stage stage("marking", options().quiet || all_.is_series());
   std::vector<std::uint8_t> is_near(all_.is_series() ? static_cast<std::size_t>(piece.nodes.n()) : 0);
   std::optional<StepProgress> progress;
-  if (all_.is_series()) progress.emplace("finding the nodes near the sweep", times_.size(), options().quiet);
+  if (all_.is_series()) progress.emplace("finding the nodes near the moving valve", times_.size(), options().quiet);
   for (std::size_t step = 0; step < times_.size(); ++step) {
     if (progress) progress->begin(step);
     for (std::size_t i = 0; i < valves_.size(); ++i) {
@@ -411,8 +412,8 @@ void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
   }
   if (!are_complete)
     warn(
-        "the marks may be incomplete: --search paper misses nodes that are not connected to its one start; --search "
-        "neighbor finds them");
+        "the marks may be incomplete: --search paper misses nodes that are not connected to its start node; --search "
+        "neighbor finds these nodes");
   warn(warnings);
 }
 

@@ -51,7 +51,8 @@ void check_first_passage(const Case &all) {
   if (!all.valves[0].options.surface.empty())
     refuse_usage("--first-passage needs a valve; a surface from a file does not open");
   if (all.valves.size() > 1)
-    refuse_usage("--first-passage takes one valve, because each of several may close the way of another");
+    refuse_usage(
+        "--first-passage takes one valve, because one of several valves may close the passage through another");
 }
 
 MeshFile part_of(const riis_vtk_mesh *file, const std::vector<std::int64_t> &node_ids) {

@@ -302,10 +302,10 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
       if (!(p == q) && (own.joined.empty() || !(own.joined.back() == joined))) own.joined.push_back(joined);
     }
     if (has_ids && end < nodes.size() && nodes[end].key[0] == first.key[0])
-      refuse_data("the node with the global id " + std::to_string(static_cast<std::int64_t>(first.key[0])) +
-                  " is at one place in " + view(files)[first.piece] + " and at another in " +
-                  view(files)[nodes[end].piece] +
-                  "; ranks of dolfinx write a function's nodes with other last digits: use VTKFile.write_mesh");
+      refuse_data(
+          "the node with the global id " + std::to_string(static_cast<std::int64_t>(first.key[0])) +
+          " is at one place in " + view(files)[first.piece] + " and at another in " + view(files)[nodes[end].piece] +
+          "; on each rank, dolfinx writes the nodes of a function with other last digits: use VTKFile.write_mesh");
     ++own.n_nodes;
     own.n_in_several += in_several;
     if (own.joined.size() > 2 * n_kept) {
@@ -344,8 +344,8 @@ void LooseNodes::check(const MeshPieces &mesh) const {
   const std::int64_t sum = ranks::sum(n);
   if (sum > 0)
     refuse_data(mesh.path() + ": " + std::to_string(sum) +
-                " points are inside one piece, and another piece has them without a cell; "
-                "write each piece with only the points of its own cells");
+                " points are inside one piece, and in another piece they have no cell; write each piece with only the "
+                "points of its own cells");
 }
 
 void release_free_memory() {

@@ -190,7 +190,7 @@ void add_flow(const ValveReport &valve, std::ostringstream &out) {
       out << "always: the mesh has a passage at opening 0";
     else
       out << (flow.first->state == RIIS_FIRST_PASSAGE_NEVER ? "never: the mesh has no passage at any opening tried"
-                                                            : "unknown: the mesh itself has no path");
+                                                            : "unknown: the mesh has no path between the points");
     out << "\n";
   }
   if (flow.leak_per_drop && flow.drop) {

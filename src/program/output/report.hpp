@@ -91,7 +91,7 @@ std::string bytes_text(double n);
 // is the text about slits.
 bool has_slits(const riis_orifice &orifice);
 inline constexpr const char *slits_text =
-    ", where slits narrower than a fifth of the half thickness do not count: they are in the open area only";
+    ", where slits narrower than a fifth of the half thickness do not count: only the open area contains them";
 
 struct CrossingReport {
   int n_openings = 0;             // number of openings checked, or 0 if only the given surface was checked
