@@ -294,7 +294,7 @@ TEST(test_refused_cases) {
   expect_case_refused("valve 0: \"oppening\" is unknown, did you mean \"opening\"?",
                       "{\"valve\": \"mitral\", \"oppening\": 1}", "");
   expect_case_refused("valves: it must be an array of at least one valve", "", "");
-  expect_case_refused("valve 1: name: each of several valves needs one",
+  expect_case_refused("valve 1: name: it is missing, and each of several valves needs a name",
                       "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"valve\": \"mitral\"}", "");
   expect_case_refused("name: \"a\" is the name of two valves",
                       "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"name\": \"a\", \"valve\": \"mitral\"}", "");

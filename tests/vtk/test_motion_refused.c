@@ -177,7 +177,7 @@ TEST(test_bad_lists) {
   REFUSED("paths is NULL", 2, NULL, equal);
   REFUSED("paths[1] is NULL", 2, hole, equal);
   REFUSED("times is NULL", 2, paths, NULL);
-  REFUSED("times[2] is 0.5; it must be above the one before, 0.5", 3, paths, equal);
+  REFUSED("times[2] is 0.5; it must be above the time before it, 0.5", 3, paths, equal);
   REFUSED("times[1] is nan; it must be finite and at most 1e30 in magnitude", 2, paths, odd);
   REFUSED("times[1] is 2e+30; it must be finite and at most 1e30 in magnitude", 2, paths, large);
 #undef REFUSED
@@ -240,7 +240,7 @@ TEST(test_bad_times_of_displacements) {
   expect_displacements(two, TIME_VALUE("1", "0"), 0, RIIS_FILE_ERROR,
                        "field array TimeValue has 1 numbers, for 2 point arrays d_*");
   expect_displacements(two, TIME_VALUE("2", "1 1"), 0, RIIS_FILE_ERROR,
-                       "value 1 of field array TimeValue is 1, which is not above the one before, 1");
+                       "value 1 of field array TimeValue is 1, which is not above the value before it, 1");
   expect_displacements(two, TIME_VALUE("2", "nan 1"), 0, RIIS_FILE_ERROR,
                        "value 0 of field array TimeValue is nan; it must be finite and at most 1e30 in magnitude");
   const sheet_extras extras = {two, NULL};
@@ -254,7 +254,7 @@ TEST(test_bad_times_of_displacements) {
   REFUSED("prefix is \"\"", path, "", 2, times);
   REFUSED("times is NULL", path, "d", 2, NULL);
   REFUSED("n_times is 0; it must be from 1 to 1000000", path, "d", 0, times);
-  REFUSED("times[1] is 0; it must be above the one before, 1", path, "d", 2, descending);
+  REFUSED("times[1] is 0; it must be above the time before it, 1", path, "d", 2, descending);
 #undef REFUSED
   expect_refused(riis_vtk_motion_read_displacements(path, "d", 2, times, NULL, NULL), RIIS_INVALID_ARGUMENT,
                  "motion is NULL");

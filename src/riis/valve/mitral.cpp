@@ -57,7 +57,8 @@ ValveKind make_kind() {
   kind.absent = {
     {"annulus", "its annulus is not round; set AP_diameter and ALPM_diameter"},
     {"stj", "it has no sinotubular junction"},
-    {"effective_height", "only cusps have it; anterior_length and posterior_scallop_length1 and 2 give the leaflets' reach"},
+    {"effective_height", "only cusps have an effective height; anterior_length and posterior_scallop_length1 and 2 say how far "
+                         "the leaflets reach"},
   };
   return kind;
 }

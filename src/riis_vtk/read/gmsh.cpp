@@ -136,7 +136,8 @@ class GmshFile {
     const std::int64_t n_copies = drop_copies();
     const auto grid = mesh_.grid(path_);
     if (n_copies > 0)
-      add_note(grid, joined(n_copies, " elements of further physical groups are the cells of the first ones"));
+      add_note(grid, joined(n_copies,
+                            " elements of further physical groups are the same cells as those of the first groups"));
     if (std::any_of(physical_.begin(), physical_.end(), [](std::int32_t tag) { return tag != 0; })) {
       add_groups(grid, physical_array, physical_);
       for (std::size_t k = 0; k < further_.size(); ++k)

@@ -185,7 +185,7 @@ class XdmfFile {
     const std::string kind = lower_case(item.attribute("ItemType")), format = lower_case(item.attribute("Format"));
     if (!kind.empty() && kind != "uniform")
       fail_file(path_, "has a DataItem of the kind ", shortened(kind), "; only Uniform is read");
-    if (!item.attribute("Reference").empty()) fail_file(path_, "has a DataItem that refers to another one");
+    if (!item.attribute("Reference").empty()) fail_file(path_, "has a DataItem that refers to another DataItem");
     if (format.empty() || format == "xml") return numbers_of_text<Number>(item, n);
     if (format == "hdf" || format == "h5") return numbers_of_hdf5<Number>(item, n);
     if (format == "binary") return numbers_of_binary<Number>(item, n);
@@ -254,7 +254,7 @@ class XdmfFile {
     in.check_count(n, n_bytes, "numbers");
     std::vector<Number> values(static_cast<std::size_t>(n));
     const bool are_real = is_real(item);
-    if (are_real && !std::is_same_v<Number, double>) fail_file(path_, "has real numbers in the place of whole ones");
+    if (are_real && !std::is_same_v<Number, double>) fail_file(path_, "has real numbers in place of whole numbers");
     for (Number &value : values)
       value = are_real ? static_cast<Number>(in.real(n_bytes)) : static_cast<Number>(in.integer(n_bytes));
     note_precision(item);

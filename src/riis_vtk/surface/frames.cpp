@@ -168,7 +168,7 @@ std::vector<double> times_in_file(const std::string &path, vtkPointSet *data, co
                 "; it must be finite and at most 1e30 in magnitude");
     if (i > 0 && !(times[i] > times[i - 1]))
       fail_file(path, "value ", i, " of field array ", time_array, " is ", times[i],
-                ", which is not above the one before, ", times[i - 1]);
+                ", which is not above the value before it, ", times[i - 1]);
   }
   return times;
 }

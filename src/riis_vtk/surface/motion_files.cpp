@@ -83,7 +83,7 @@ std::vector<double> checked_times(const char *count, std::int64_t n, const doubl
     if (!is_time(times[i]))
       refuse_argument("times[", i, "] is ", times[i], "; it must be finite and at most 1e30 in magnitude");
     if (i > 0 && !(times[i] > times[i - 1]))
-      refuse_argument("times[", i, "] is ", times[i], "; it must be above the one before, ", times[i - 1]);
+      refuse_argument("times[", i, "] is ", times[i], "; it must be above the time before it, ", times[i - 1]);
   }
   return {times, times + n};
 }

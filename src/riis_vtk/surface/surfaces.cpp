@@ -133,7 +133,7 @@ std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet
   if (!abstract && wanted.is_required) fail_file(path, "has no ", name, list_of_arrays(data->GetCellData()));
   if (!abstract) return {};
   vtkDataArray *array = vtkDataArray::SafeDownCast(abstract);
-  if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name, " must hold one number a cell");
+  if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name, " must hold one number for each cell");
   if (array->GetNumberOfTuples() != data->GetNumberOfCells()) {
     fail_file(path, name, " has ", array->GetNumberOfTuples(), " values for ", data->GetNumberOfCells(), " cells");
   }
@@ -155,7 +155,7 @@ std::vector<std::uint8_t> attached_points(const std::string &path, vtkPointSet *
   vtkAbstractArray *abstract = data->GetPointData()->GetAbstractArray(attached_array);
   if (!abstract) return {};
   vtkDataArray *array = vtkDataArray::SafeDownCast(abstract);
-  if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name, " must hold one number a point");
+  if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name, " must hold one number for each point");
   if (array->GetNumberOfTuples() != data->GetNumberOfPoints())
     fail_file(path, name, " has ", array->GetNumberOfTuples(), " values for ", data->GetNumberOfPoints(), " points");
   std::vector<std::uint8_t> attached;
