@@ -93,7 +93,7 @@ riisValve::Sensor riisValve::sensor(const dictionary &dict) const {
   return found;
 }
 
-// Gives the law its state at the start of the run. If `found` is true, the state comes from an earlier run.
+// Gives the law its state at the beginning of the run. If `found` is true, the state comes from an earlier run.
 void riisValve::restartLaw(bool found) {
   const scalar start = mesh_.time().value();
   switch (law_) {
@@ -172,13 +172,13 @@ scalar riisValve::flow(const FlowPatch &patch) const {
   return patch.sign * returnReduce(sum, sumOp<scalar>());
 }
 
-// Advances the law to the end of the step. The law uses the pressures and the flow at the beginning of the step.
+// Advances the law to the end of the step. For this, the law uses the pressures and the flow at the beginning of the step.
 scalar riisValve::openingAt(scalar time, Ostream &report) {
   scalar opening = 0;
   if (law_ == Law::time) opening = timeLaw_.at(time, check);
   if (hasSensors()) {
     const scalar difference = meanPressure(upstream_) - meanPressure(downstream_), volume = flow(flowPatch_);
-    // A restart rounds OpenFOAM's time, but not the time in the state.
+    // A restart rounds OpenFOAM's time. The time in the state is not rounded.
     const scalar dt = mesh_.time().deltaTValue();
     const scalar exact = (law_ == Law::pressure ? switchState_.time : angleState_.time) + dt;
     if (mag(exact - time) < 1e-6 * dt) time = exact;
