@@ -12,7 +12,7 @@
 
 namespace riis::program {
 
-// The time for which a stage prints nothing. It is longer in a log than on a terminal.
+// The time for which a stage prints nothing. The time is longer in a log than on a terminal.
 struct Silence {
   std::chrono::milliseconds on_terminal{1000}, in_log{30000};
 

@@ -4,8 +4,8 @@
 
 // All ranks call the exchanges in the same order. Each exchange begins with an agreement, in which all ranks learn whether one of
 // them has failed. A rank that fails outside an exchange makes one more agreement, at the end of the program. The other ranks
-// receive this failure in their next agreement. All ranks then end with the message of the lowest failed rank, so no rank waits
-// forever.
+// receive the failure of this rank in their next agreement. All ranks then end with the message of the lowest failed rank, so no
+// rank waits forever.
 #pragma once
 
 #include <cstddef>

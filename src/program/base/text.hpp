@@ -72,8 +72,8 @@ bool has_ending(const std::string &path, const std::string &ending);
 // Refuses a file that cannot be read or is empty.
 std::string text_of_file(const std::string &path);
 
-// In: the text of a CSV. Out: its rows, and the facts that are stated by lines of the form # NAME = VALUE. All other lines that
-// begin with # are comments.
+// In: the text of a CSV. Out: the rows, and the facts that lines of the form # NAME = VALUE state. Lines that begin with # and
+// have another form are comments.
 
 std::string trimmed(const std::string &text);
 // Returns the cells of a line. Commas or semicolons separate cells, except within quotation marks. Two quotation marks within a

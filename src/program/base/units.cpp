@@ -68,8 +68,8 @@ namespace {
 
 // The size of a vessel fits a valve if the vessel is at least as wide as the least width, and at most as wide as the largest. The
 // least width limits the mesh's middle side, because a valve is no wider than its vessel. The largest width limits the mesh's
-// shortest side, because a vessel is not much wider than its valve. Both limits are multiples of the valve's largest side, and
-// they are a decade apart, so two units seldom fit.
+// shortest side, because a vessel is not much wider than its valve. Both widths are multiples of the valve's largest side. They
+// are a decade apart, so two units seldom fit.
 constexpr double least_width = 0.4, largest_width = 4;
 // A mesh with edges longer than this share of the valve's largest side cannot show the valve.
 constexpr double longest_edge = 0.3;

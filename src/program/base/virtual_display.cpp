@@ -38,7 +38,7 @@ constexpr const char *name_of_server = "Xvfb";
 // The numbers of the file descriptors in Xvfb.
 enum ServerFile : int { display_file = 3, key_file = 4, n_server_files = 5 };
 
-// A file descriptor. Its number is above the numbers that Xvfb's files will have, so that none of them replaces this file.
+// A file descriptor whose number is above the numbers that Xvfb's files will have. None of Xvfb's files then replaces this file.
 class File {
  public:
   explicit File(int low) : number_(low < 0 ? -1 : fcntl(low, F_DUPFD_CLOEXEC, 10)) {

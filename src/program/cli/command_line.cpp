@@ -129,7 +129,7 @@ void check_commands(const CLI::App &app, int argc, char **argv) {
   }
 }
 
-// Returns the command that was parsed. If commands contain commands, it is the innermost one.
+// Returns the command that was parsed. If commands contain commands, returns the innermost command.
 const CLI::App &innermost(const CLI::App &app) {
   const CLI::App *at = &app;
   while (!at->get_subcommands().empty()) at = at->get_subcommands().front();

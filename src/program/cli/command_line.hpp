@@ -81,8 +81,8 @@ void declare_params(Command command, ParamsOptions &options);
 void declare_place(Command command, PlaceOptions &options);
 void declare_patient(Command command, PatientOptions &options);
 
-// Each function finish_* checks the options of a command and computes the values that follow from them. It refuses options that
-// contradict each other or have no effect.
+// Each function finish_* checks the options of a command and computes the values that follow from them. An option that
+// contradicts another option or has no effect is refused.
 MarkOptions finish_mark(const Command &command, MarkOptions options);
 MarkOptions finish_surface(const Command &command, MarkOptions options);
 MarkOptions finish_crossings(const Command &command, MarkOptions options);

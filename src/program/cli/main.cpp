@@ -17,8 +17,8 @@
 
 namespace {
 
-// Names of files and parameters may contain line breaks. They are replaced by other characters, so that the message stays on one
-// line.
+// Names of files and parameters may contain line breaks. Other characters replace the line breaks, so that the message stays on
+// one line.
 int give_up(int exit_code, std::string text) {
   std::replace_if(text.begin(), text.end(), riis::program::is_control, '?');
   std::cerr << "riis: " << text << std::endl;

@@ -32,8 +32,8 @@ ExitCode run_patient(const PatientOptions &options);
 // riis export. Writes the opening and closing of a valve as files for svMultiPhysics. Prints the block of the solver's input that
 // names these files.
 void export_uris(const ExportOptions &options);
-// The files of an export, after they are written. The block names the files in `named_folder`. This is the path of the folder as
-// the solver sees it.
+// The files of an export, after they are written. `named_folder` is the path of the folder as the solver sees it. The block names
+// the files by this path.
 struct UrisExport {
   std::string block;
   std::string failure;  // why the drop was not found; "" if it was found, or without a mesh

@@ -153,8 +153,9 @@ Surface surface_of(const JoinedTriangles &triangles, double half_thickness) {
   return create_for<Surface>("the triangles of all states together", riis_surface_create_from_arrays, &arrays, &how);
 }
 
-// Adds the triangles of one valve at all times to one surface. The distance to this surface is the least distance during the
-// whole motion, so each valve is marked only once. If the band has an offset, the rims at all times make another surface.
+// Adds the triangles of one valve at all times to one surface. The distance to this joined surface is the least distance during
+// the whole motion, so each valve is marked only once. If the band has an offset, another joined surface has the rims at all
+// times.
 void add_zones(MovingValve &valve, const Edges &edges, const Case &all, std::vector<Zone> &zones) {
   const std::vector<double> &times = all.options.series.times;
   JoinedTriangles swept, rims;

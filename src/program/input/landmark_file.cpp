@@ -222,7 +222,8 @@ void read_json(const Json &root, LandmarkFile &file) {
       to.add(name, point_of(file.path, quoted(name), value));
       continue;
     }
-    // The points of a list get numbered names if several landmarks may have the name. Otherwise the list may have only one point.
+    // The points of a list get numbered names if several landmarks may have the name. If only one landmark may have the name, the
+    // list must have one point.
     const std::optional<Place> place = place_of_name(name);
     for (std::size_t i = 0; i < value.size(); ++i) {
       const std::string own = place && place->may_repeat ? name + "_" + std::to_string(i + 1) : name;
@@ -302,8 +303,8 @@ Axes fcsv_axes(const std::string &path, const std::string &value) {
   refuse_file(path, "CoordinateSystem is " + quoted(value) + "; it must be LPS, RAS, 0 for RAS or 1 for LPS");
 }
 
-// Reads an .fcsv file, which earlier versions of 3D Slicer wrote. Its lengths are in mm. The file gives its axes as a name or as
-// a number.
+// Reads an .fcsv file, which earlier versions of 3D Slicer wrote. Its lengths are in mm. A file .fcsv gives its axes as a name or
+// as a number.
 void read_fcsv(const std::string &text, LandmarkFile &file) {
   const std::string &path = file.path;
   std::vector<std::string> columns = {"label", "x", "y", "z"};

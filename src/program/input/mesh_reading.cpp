@@ -27,14 +27,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns whether a damaged file of this format can crash its reader. This is possible for HDF5, and for files that VTK's reader
-// of Exodus reads.
+// Returns whether a damaged file of this format can crash its reader. HDF5 files can crash their reader, and so can files that
+// VTK's reader of Exodus reads.
 bool may_crash(const std::string &path) {
   static const std::set<std::string> endings = {".xdmf", ".xmf", ".e", ".exo", ".ex2", ".exii"};
   return endings.count(ending_of(path)) != 0;
 }
 
-// A folder for the mesh that a child process has read. If a signal ends this process, the folder is removed.
+// A folder for the mesh that a child process has read. If a signal ends the process, the folder is removed.
 class PassingFolder {
  public:
   PassingFolder() { remove_if_ended(folder_.path(), mesh()); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a JSON file of boundary curves and patches. Out: a valve. It has an open state if the file has one.
+// In: a JSON file of boundary curves and patches. Out: a valve, which has an open state if the file has one.
 #pragma once
 
 #include <riis/riis.h>
@@ -12,15 +12,16 @@
 
 namespace riis::program {
 
-// Returns whether --valve names a file, not a kind. Such a file ends in .json.
+// Returns whether --valve names a file, not a kind. Files of valves end in .json.
 bool is_valve_file(const std::string &valve);
 
 // {"curves": {"edge": [[0, 0, 0], [1, 0, 0]], ...},
 //  "patches": [{"v0": "edge", "v1": "-rim", "u0": ..., "u1": ..., "leaflet": 0}, ...],
 //  "open": {"curves": {"edge": ...}}}
 // A curve with 2, 3 or 4 points is a Bezier curve of degree 1, 2 or 3, and the points are its control points. A curve with 1
-// point is a side of a patch that collapses to this point. A minus before its name reverses the curve. The keys "leaflet" and
-// "open" may be missing; the default leaflet is 0. Refusals name the curve, or the number of the patch, counted from 0.
+// point is a side of a patch that collapses to this point. A minus before the name of a curve reverses the curve. The keys
+// "leaflet" and "open" may be missing; the default leaflet is 0. Refusals name the curve, or the number of the patch, counted
+// from 0.
 struct ValveFile {
   explicit ValveFile(const std::string &path);
 
@@ -29,7 +30,7 @@ struct ValveFile {
 };
 
 // A placed valve: a JSON file of riis place, with the kind, the parameters and the placement of a patient's valve. Every command
-// takes this file by --valve FILE.json, and Python reads it by read_placed.
+// takes a placed valve by --valve FILE.json, and Python reads it by read_placed.
 struct PlacedFile {
   std::string kind;
   Unit unit = Unit::centimetre, own_unit = Unit::centimetre;      // of the placement, and of the file

@@ -326,10 +326,10 @@ const std::set<std::string> meshes_of_gmsh = {".unv", ".bdf", ".nas"};
 // gmsh 4 silently leaves out the prisms of a .mesh file.
 const std::set<std::string> meshes_of_meshio = {".inp", ".su2",  ".med", ".mesh", ".meshb", ".avs", ".dat", ".f3grid",
                                                 ".h5m", ".mdpa", ".vol", ".node", ".ele",   ".xml", ".post"};
-// ParaView opens files with these endings. They contain blocks, or grids that are not unstructured.
+// ParaView opens files with these endings. The files contain blocks, or grids that are not unstructured.
 const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".pvti", ".pvtr",
                                                   ".pvts", ".plt",  ".tec",   ".vtmb",   ".vtpc", ".vtpd"};
-// CAD files. gmsh fills them with cells, or covers them with triangles.
+// Endings of CAD files. gmsh fills a CAD model with cells, or covers it with triangles.
 const std::set<std::string> cad_files = {".step", ".stp", ".iges", ".igs", ".brep"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2", ".med", ".wrl"};
 const std::set<std::string> surfaces_of_meshio = {".off"};

@@ -17,7 +17,7 @@ namespace riis::program {
 // wall.
 void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string &subject);
 
-// The arrays of a surface from a file. They include the skirt that --skirt and --wall describe.
+// The arrays of a surface from a file, including the skirt that --skirt and --wall describe.
 class SkirtOfFile {
  public:
   // Without --skirt, the arrays have neither a skirt nor an attachment. With --wall, the vertices of the arrays must be those of

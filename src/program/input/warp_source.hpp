@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the warp of a valve, {"sources": [[x, y, z], ...], "targets": ..., ...}. It stands in a case, in a placed valve, or in a
-// separate file, which may also be a CSV. Out: the warp at a time.
+// In: the warp of a valve, {"sources": [[x, y, z], ...], "targets": ..., ...}. The warp stands in a case, in a placed valve, or
+// in a separate file, which may also be a CSV. Out: the warp at a time.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace riis::program {
 // Landmarks on the valve, with their targets at one or several times.
 class LandmarkPairs {
  public:
-  // With a placement, the landmarks are in the mesh's coordinates. Without one (NULL), they are in the valve's coordinates.
-  // `factor` converts the file's lengths to the mesh's unit.
+  // With a placement, the landmarks are in the mesh's coordinates. Without a placement (NULL), the landmarks are in the valve's
+  // coordinates. `factor` converts the file's lengths to the mesh's unit.
   LandmarkPairs(const CaseValues &values, double noise, const riis_surface_options *placement, double factor);
 
   bool moves() const { return times_.size() > 1; }

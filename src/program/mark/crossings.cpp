@@ -57,7 +57,7 @@ void sweep_openings(const ValveOptions &options, riis_valve *valve, CrossingRepo
   }
 }
 
-// --quiet does not silence this warning, because such a valve cannot exist, and its normals contradict each other.
+// --quiet does not silence this warning. A valve whose leaflets cross cannot exist, and its normals contradict each other.
 void warn_of_crossings(const ValveOptions &options, const riis_surface_info &surface, const CrossingReport &report,
                        const std::string &part, const std::string &advice) {
   const riis_crossing_list &found = report.found;
@@ -67,8 +67,8 @@ void warn_of_crossings(const ValveOptions &options, const riis_surface_info &sur
                     second = name_of_leaflet(options, surface, found.deepest_leaflet_id[1], "");
   const std::string who =
       is_one_leaflet ? "leaflet " + first + " crosses itself" : "leaflets " + first + " and " + second + " cross";
-  // place_text rounds a position by the length of an edge. Here the mean length of the triangles' intersections stands for the
-  // edge length, because the two are about equal.
+  // place_text rounds a position by the length of an edge. Here it gets the mean length of the triangles' intersections, which is
+  // about an edge's length.
   warn((part.empty() ? "" : part + ": ") + who + at + ": " + counted(found.n_pairs, "pair") +
        " of triangles go through each other, along a length of " + shown(found.total_length) + "; the deepest is " +
        shown(found.deepest_depth) + " deep, at " +

@@ -13,8 +13,9 @@
 
 namespace riis::program {
 
-// Checks 101 openings if the valve can open and the user chose no opening. Otherwise checks only the given surface. Warns on
-// stderr of a crossing. For a surface from a file, `valve` is null. If there are several valves, the warning begins with `part`.
+// Checks 101 openings if the valve can open and the user chose no opening. If the valve cannot open, or the user chose an
+// opening, checks only the given surface. Warns on stderr of a crossing. For a surface from a file, `valve` is null. If there are
+// several valves, the warning begins with `part`.
 CrossingReport look_for_crossings(const ValveOptions &options, const riis_valve *valve, const riis_surface *surface,
                                   const std::string &part);
 

@@ -65,7 +65,7 @@ double closing_half_thickness(const riis_valve *valve, double half_thickness, co
       wanted = rounded_up(std::max(*needed, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // A warning without advice is still valid. There is no advice if the half thickness allows no surface, or if the thicker band
+    // A warning without advice is still valid. Advice is missing if the half thickness allows no surface, or if the thicker band
     // contains an end of the passage.
   }
   return 0;

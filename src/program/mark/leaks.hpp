@@ -113,7 +113,7 @@ class PassageCheck {
 // the open regions that the band separates.
 class BandMeasures {
  public:
-  // Adds a piece. The neighbours of its nodes must be known. Returns the open region of each node.
+  // Adds a piece, whose nodes' neighbours must be known. Returns the open region of each node.
   std::vector<std::int64_t> add(const Piece &piece, const riis_marks *marks, const riis_mark_options &options);
   // Writes the measures of all ranks into the report.
   void judge(const MatchedNodes &matched, double half_thickness, FlowReport &report) const;

@@ -51,8 +51,8 @@ void combine(riis_mark_stats &all, const riis_mark_stats &stats) {
   all.n_threads = std::max(all.n_threads, stats.n_threads);
 }
 
-// Returns whether the closed area can be measured. For this, the band must have no offset, and the valve must be closed or come
-// from a file.
+// Returns whether the closed area can be measured. The band must have no offset, and the valve must be closed or come from a
+// file.
 bool is_closed(const MovingValve &valve) {
   return valve.opening().value_or(0) == 0 && valve.options().surface_options.offset == 0;
 }
@@ -70,7 +70,7 @@ void report_leak(const MovingValve &valve, FlowReport &flow) {
   double leak = 0;
   check(riis_surface_get_leak(valve.surface(), &how, 1, &leak), "--resistance");
   if (flow.closed_area) leak = info_of(valve.surface()).half_thickness / *R * *flow.closed_area;
-  // The leak is given per unit of pressure. This unit is Pa if the unit of the mesh is known.
+  // The leak is given per unit of pressure, which is Pa if the unit of the mesh is known.
   const std::optional<Unit> &unit = valve.options().unit;
   flow.leak_per_drop = unit ? leak * factor_from_si(a_pressure, *unit) : leak;
   const std::optional<Amount> &drop = valve.options().given_drop;

@@ -134,7 +134,7 @@ PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const
 
 namespace {
 
-// Returns the moments of a grid's nodes. They are computed from sums along the grid's axes.
+// Returns the moments of a grid's nodes, computed from sums along the grid's axes.
 Moments moments_of(const riis_grid &axes) {
   const std::array<std::int64_t, 3> sizes = {axes.ni, axes.nj, axes.nk};
   const std::array<const void *, 3> x = {axes.x, axes.y, axes.z};

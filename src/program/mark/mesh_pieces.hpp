@@ -50,8 +50,8 @@ class MeshPieces {
   const std::string &cells_where() const { return options_.cells_where; }
   // Warns of domains that touch if the user chose no domain. The warning covers the pieces that this rank has read.
   void warn_of_regions() const;
-  // Calls `work` with each of this rank's pieces in ascending order. With `is_wanted`, calls it only for the pieces whose numbers
-  // this function accepts. A failure ends the run on all ranks. Adds the time of reading to `seconds`, if this is not NULL.
+  // Calls `work` with each of this rank's pieces in ascending order. With `is_wanted`, calls `work` only for the pieces whose
+  // numbers `is_wanted` accepts. A failure ends the run on all ranks. Adds the time of reading to `seconds`, if this is not NULL.
   void for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds = nullptr,
                     const std::function<bool(std::int64_t)> &is_wanted = nullptr) const;
 
@@ -59,7 +59,7 @@ class MeshPieces {
   MeshPieces(const MarkOptions &options, std::vector<std::string> files)
       : options_(options), files_(std::move(files)) {}
   virtual MeshFile read(std::int64_t piece) const;
-  // This function is called after the first work with a piece.
+  // The pieces call this function after the first work with a piece.
   virtual void finished(std::int64_t) const {}
 
  private:
@@ -74,8 +74,8 @@ class MeshPieces {
 using NodeKey = std::array<std::uint64_t, 2>;
 
 // The nodes of one piece, and their keys. In a whole mesh, all nodes are inside, and the key of a node is its number. If a piece
-// has global ids, a key is the id and a hash of the coordinates. If it has no ids, a key is a hash of the coordinates with 128
-// bits. The probability that two of a billion nodes have equal hashes is below 1e-20.
+// has global ids, a key is the id and a hash of the coordinates. If a piece has no global ids, a key is a hash of the coordinates
+// with 128 bits. The probability that two of a billion nodes have equal hashes is below 1e-20.
 class PieceNodes {
  public:
   // `how` names the mesh to which the file belongs.
@@ -115,7 +115,7 @@ class PieceNodes {
   riis_vtk_sharing counts_{};
 };
 
-// A piece in memory. In this struct, later members borrow from earlier members.
+// A piece in memory. Later members of the struct borrow from earlier members.
 struct Piece {
   Piece(std::int64_t its_number, std::string its_path, MeshFile its_file, const MarkOptions &how, bool is_whole);
 

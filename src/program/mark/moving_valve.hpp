@@ -28,7 +28,7 @@ class MovingValve {
   // Marks the nodes and computes `fields`, a sum of constants RIIS_FIELD_*. Velocities are available if the last move had an
   // earlier time.
   void mark(FileNodes &nodes, int32_t fields);
-  // Forgets the marks of the last call. With these marks, a search in another mesh would begin at wrong nodes.
+  // Forgets the marks of the last call. With the old marks, a search in another mesh would begin at wrong nodes.
   void forget_marks() { result_ = new_result(); }
 
   const MarkOptions &options() const { return source_.options; }
@@ -62,7 +62,7 @@ std::vector<MovingValve> moving_valves(Case &all);
 // The triangles of several surfaces, or of one surface at several times.
 class JoinedTriangles {
  public:
-  // Adds the triangles of a surface. The ids of their leaflets begin at `first_leaflet`.
+  // Adds the triangles of a surface. The ids of the surface's leaflets begin at `first_leaflet`.
   void add(const riis_triangles &triangles, std::int32_t first_leaflet);
   // Returns arrays that borrow all triangles.
   riis_surface_arrays arrays() const;

@@ -103,9 +103,9 @@ riis_passage passage_in(const Piece &piece, const MarkOptions &options, const ri
 //
 // Each piece is reduced to the ways between its shared nodes. A node's distance is the least half thickness that marks the node.
 // If the band has no offset, this is the distance of the node from the surface. At first, all nodes beyond a limit are open, and
-// their connected regions are labelled. Then the nearer nodes are opened one by one, from far to near. If a node joins two sets,
-// and each set has a shared node or an end, the node becomes a link. The distance of this link is the distance of the node.
-// Regions of different pieces are joined if they have a common node. Then the links are opened from far to near until the two
+// their connected regions are labelled. After that, the nearer nodes are opened one by one, from far to near. If a node joins two
+// sets, and each set has a shared node or an end, the node becomes a link. The distance of the link is the distance of this node.
+// Regions of different pieces are joined if they have a common node. After that, links are opened from far to near until the two
 // ends are joined. If the two ends are joined before any link is opened, the limit was too small.
 
 namespace {
@@ -296,7 +296,7 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
   return PassageReport{{-1, 0, {0, 0, 0}, 0, RIIS_PASSAGE_NONE, 0}};
 }
 
-// Finds the widest passage in a mesh in pieces. riis_find_passage does this in a whole mesh.
+// Finds the widest passage in a mesh in pieces, as riis_find_passage does in a whole mesh.
 PassageReport find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
                            const PieceEnd (&ends)[2]) {
   const riis_surface_info info = info_of(surface);
@@ -387,7 +387,7 @@ void PassageCheck::judge(const riis_surface *surface, const riis_valve *valve, c
   }
   PassageReport passage = find(surface);
   const riis_passage &found = passage.found;
-  // The unknown edges cannot close an open path. They may make a path that the known edges do not have.
+  // Unknown edges cannot close an open path, but they may make a path that the known edges do not have.
   passage.is_unknown = found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
   if (found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty()) {
     passage.closing_half_thickness = closing_half_thickness(valve, found.distance, [&](double wanted) {

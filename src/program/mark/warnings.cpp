@@ -82,7 +82,7 @@ std::string marked_text(const Situation &s) {
   return has_hardly_any(s) ? "only " + text : text + ", which looks wrong";
 }
 
-// Returns a warning with the positions of the mesh and the surface. This warning is used if the sizes do not explain the marks.
+// Returns a warning with the positions of the mesh and the surface, for marks that the sizes do not explain.
 Warning warning_of_places(const Situation &s) {
   return {Cause::place,
           "the mesh is in " + text_of(s.mesh, s.median_edge) + ", the surface in " + text_of(s.surface, s.median_edge) +
@@ -199,7 +199,7 @@ std::optional<Warning> warning_of_half_thickness(const Situation &s) {
   Warning warning{Cause::half_thickness, "the half thickness is " + shown(s.half_thickness), ""};
   warning.text += is_large ? ", the largest side of the surface " + shown(s.surface.largest_side())
                            : ", the median edge of the mesh " + shown(s.median_edge);
-  // The unit is unknown if the user named no unit. In this case, the half thickness is the default for centimetres.
+  // If the user named no unit, the unit is unknown, and the half thickness is the default for centimetres.
   const bool is_unknown =
       !is_parametric(s.options) && !s.options.unit && !s.options.has_scale && !s.options.has_half_thickness;
   const auto unit = is_unknown ? unit_of_valve(s.surface.largest_side()) : std::nullopt;
@@ -326,8 +326,8 @@ Surface closed_surface(const ValveOptions &options, riis_valve *valve) {
   return surface_at(valve, 0, how);
 }
 
-// Returns the orifice of a surface. Its effective area is the area that remains after the edge of the orifice moves inwards along
-// the leaflets.
+// Returns the orifice of a surface. The effective area of an orifice is the area that remains after the edge of the orifice moves
+// inwards along the leaflets.
 riis_orifice orifice_of(const riis_surface *surface, double moved, double rim_reach) {
   auto resistance = defaults<riis_resistance>();
   resistance.half_thickness = moved / rim_reach;
@@ -344,7 +344,7 @@ void warn_of_bridged_gap(const ValveOptions &options, const riis_valve *valve, c
   if (!with_gap || !without_gap) return;
   const double bridged = 1 - options.surface_options.offset;  // in half thicknesses, on either side of the gap
   const double reach = bridged * info_of(with_gap).half_thickness;
-  // A rim's band reaches inwards by a share of the half thickness. This share is the same for all half thicknesses.
+  // A rim's band reaches inwards by a share of the half thickness that is the same for all half thicknesses.
   const auto resistance = defaults<riis_resistance>();
   const double rim_reach = get<riis_orifice>(riis_surface_get_orifice, with_gap, &resistance).rim_reach;
   const riis_orifice whole = orifice_of(with_gap, reach, rim_reach), usual = orifice_of(without_gap, reach, rim_reach);

@@ -28,7 +28,7 @@ struct Situation : Sizes {
 };
 
 // The possible causes of wrong marks, in the order in which the user should correct them. A wrong unit also makes the half
-// thickness wrong, and each of these two faults can cause leaks. Each of these causes may put a part of the leaflets outside the
+// thickness wrong, and each of these two faults can cause leaks. Each of the causes may put a part of the leaflets outside the
 // mesh.
 enum class Cause { units, half_thickness, place, leaks, outside };
 

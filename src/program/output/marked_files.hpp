@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of a run: the marked mesh, the surfaces, and the lists of these files. There can be one time or many, and a whole
-// mesh or pieces.
+// The files of a run: the marked mesh, the surfaces, and the lists of these files. A run has one time or many, and a whole mesh
+// or pieces.
 #pragma once
 
 #include <condition_variable>
@@ -30,10 +30,10 @@ class SeriesFiles {
   bool is_wanted() const { return !pvd_.empty(); }
   // Refuses a folder without permission to write, and a path that is a file.
   void check_folder() const;
-  // Finds files of an earlier run that would look like further steps of this run's series. Such files belong to steps that this
-  // run does not write, and an earlier list by riis names them. Refuses files of further steps that the earlier list does not
-  // name, and files that a list of another series names. `parts` are the parts that path_of accepts. `has_pieces` says whether
-  // each step also has files of pieces, whose parts are p0000, p0001 and so on.
+  // Finds files of further steps: steps that an earlier run wrote and this run does not write. Such files would look like a part
+  // of this run's series. An earlier list by riis must name these files. Refuses files of further steps that the earlier list
+  // does not name, and files that a list of another series names. `parts` are the parts that path_of accepts. `has_pieces` says
+  // whether each step also has files of pieces, whose parts are p0000, p0001 and so on.
   void find_earlier(const std::vector<std::string> &parts, bool has_pieces);
   // Makes the folder if the user wants one and it does not exist. Removes the files of an earlier run.
   void make_folder() const;

@@ -351,8 +351,8 @@ void remove_held() {
   for (const std::string &path : held_locks) unlink(path.c_str());
 }
 
-// Removes the lock files, and raises the signal again. The signal is blocked until this handler returns. After that, the signal
-// ends the process.
+// Removes the lock files, and raises the signal again. The signal is blocked until this handler returns. After the return of the
+// handler, the signal ends the process.
 void remove_and_end(int signal) {
   remove_held();
   unlink(scratch_file);

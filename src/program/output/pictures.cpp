@@ -172,8 +172,8 @@ bool RunPictures::are_wanted(const MarkOptions &options) {
   return !options.pictures.empty() || !options.series.movie.empty();
 }
 
-// riis_vtk draws arrays by their default names. The arrays of the output may have other names. They are in another mesh, or
-// already written.
+// riis_vtk draws arrays by their default names. The output's arrays may have other names, but they are in another mesh, or
+// already written to a file.
 void RunPictures::set_marks_of(std::vector<MovingValve> &valves) {
   if (!mesh_) return;
   if (all_.is_series())

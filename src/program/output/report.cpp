@@ -57,8 +57,8 @@ void add_surface(const ValveReport &valve, std::ostringstream &out) {
   out << line("surface", valve.name) << surface_title(valve) << ": " << counted(valve.surface.n_triangles, "triangle");
   if (valve.n_leaflets > 0) out << ", " << counted(valve.n_leaflets, "leaflet");
   out << ", area " << valve.surface.area;
-  // Triangles without area are mentioned only for a surface from a file, which should have no such triangles. A valve has them at
-  // every side of a patch that collapses to a point.
+  // Triangles without area are mentioned only for a surface from a file, which should have no such triangles. A valve has
+  // triangles without area at every side of a patch that collapses to a point.
   if (!valve.opening && valve.surface.n_zero_area > 0)
     out << ", " << grouped(valve.surface.n_zero_area) << " without area left out";
   out << "\n";
@@ -344,7 +344,7 @@ void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {
                {"outside", valve.outside ? json_of_outside(*valve.outside) : nlohmann::ordered_json()}});
 }
 
-// Returns the JSON keys of a valve. If there is only one valve, it also gets the keys of the run.
+// Returns the JSON keys of a valve. A valve that is the only one also gets the keys of the run.
 nlohmann::ordered_json json_of_valve(const Report &report, const ValveReport &valve, bool is_only) {
   nlohmann::ordered_json json;
   if (is_only) json["version"] = riis_version_string();

@@ -87,8 +87,8 @@ struct OutsideReport {
 // Returns a text such as "12.3 MB".
 std::string bytes_text(double n);
 
-// has_slits returns whether an orifice has an area but hardly a perimeter, because slits have no perimeter. The constant below it
-// is the text about slits.
+// has_slits returns whether an orifice has an area but hardly a perimeter, because slits have no perimeter. slits_text is the
+// text about slits.
 bool has_slits(const riis_orifice &orifice);
 inline constexpr const char *slits_text =
     ", where slits narrower than a fifth of the half thickness do not count: only the open area contains them";
@@ -107,7 +107,7 @@ struct TimeReport {
   double largest_speed;
 };
 
-// One valve of a run. In a series, its numbers belong to the valve's least opening.
+// One valve of a run. In a series, the numbers belong to the valve's least opening.
 struct ValveReport {
   std::string name;               // the valve's name among several, or "" for the only one
   std::string surface_name;       // the valve's kind, or a file
@@ -154,7 +154,7 @@ std::string line_of_passage(const Report &report);
 std::string json_of(const Report &report);
 std::string table_of(const Report &report);
 // Returns the table of a series. Each complete step has one line. The columns are time, opening, n_marked, largest_speed and
-// seconds. If there are several valves, each has columns that begin with its name, such as NAME_opening.
+// seconds. If there are several valves, each valve has columns that begin with its name, such as NAME_opening.
 std::string csv_of(const Report &report);
 
 }  // namespace riis::program

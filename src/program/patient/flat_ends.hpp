@@ -40,7 +40,7 @@ struct EndPoints {
 };
 
 // Reads a wall from the file of a surface, or of a volume mesh. The boundary of the volume mesh is the wall. Finds the flat parts
-// of the wall that are ends. There can be any number of ends, in any direction. Closes flat holes at the ends. Turns triangles
+// of the wall that are ends. A wall may have any number of ends, in any direction. Closes flat holes at the ends. Turns triangles
 // outwards. Refuses a surface with other holes, with several pieces, or with edges that belong to more than two triangles.
 // Refuses a wall whose ends are unclear. The message lists the flat parts and the options that choose among them.
 PatientWall read_patient_wall(const std::string &path, const EndPoints &points = {});

@@ -32,7 +32,7 @@ struct PressureCurve {
   }
 };
 
-// The pressure of the ventricle in a beat that begins at the end of diastole. This pressure drives an aortic valve.
+// The pressure of the ventricle in a beat that begins at the end of diastole. It drives an aortic valve.
 inline const PressureCurve &pressure_of_left_ventricle() {
   static const PressureCurve curve{
       {{0, 8}, {0.04, 8}, {0.09, 78}, {0.14, 108}, {0.2, 120}, {0.27, 112}, {0.32, 95}, {0.38, 8}, {0.8, 8}}};

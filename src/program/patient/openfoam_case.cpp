@@ -131,7 +131,7 @@ void write_openfoam_case(const SolverCase &the) {
   const Pressures pressures = pressures_of(the, ends);
   const std::string placed = (fs::path(the.folder) / "placed.json").string();
   const std::string valve = foam_valve_of(placed, parse_json_file(placed, "a placed valve"), the.skirt);
-  // In a rigid ventricle, much blood flows back through a mitral valve. This valve therefore begins to close before the flow
+  // In a rigid ventricle, much blood flows back through a mitral valve. A mitral valve therefore begins to close before the flow
   // reverses.
   const std::map<std::string, std::string> values = {
       {"NAME", the.name},

@@ -38,11 +38,12 @@ using Words = std::vector<std::string>;
 constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6, usual_noise = 0.3;
 // If a half thickness is outside this range, its unit is wrong, or it would close the open valve.
 constexpr double least_half_thickness_mm = 0.1, most_half_thickness_mm = 4, most_skirt_mm = 30;
-// Landmarks that a person sets are on average closer to the wall than the first of these distances. Landmarks are doubtful if
-// their average distance is larger than the second.
+// Landmarks that a person sets are on average closer to the wall than the first distance. Landmarks are doubtful if their average
+// distance is larger than the second distance.
 constexpr double usual_distance_mm = 1, doubtful_distance_mm = 2;
 constexpr double usual_band_edge = 0.95, usual_largest_edge = 3;
-// svMultiPhysics spreads K over whole elements. In a coarser mesh its closed valve would therefore leak much (docs/export.md).
+// svMultiPhysics spreads K over whole elements. In a coarser mesh, svMultiPhysics' closed valve would therefore leak much
+// (docs/export.md).
 constexpr double uris_band_edge = 0.55;
 constexpr double usual_resistance = 1e4;  // kg/(m s)
 // If an edge leaks, a second mesh is made, whose edges are shorter by this factor.

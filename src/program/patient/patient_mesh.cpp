@@ -272,7 +272,7 @@ class PatientMesher {
     std::string text = "Field[1] = Structured;\nField[1].FileName = \"" + field +
                        "\";\nField[1].TextFormat = 1;\nField[1].SetOutsideValue = 1;\nField[1].OutsideValue = " +
                        shortest(options_.largest_edge) + ";\n";
-    // Edges at a small end are shorter than elsewhere. They become longer with the distance from this end.
+    // Edges at a small end are shorter than elsewhere, and become longer with the distance from this end.
     int n_fields = 1;
     for (const FlatEnd &end : wall_.ends) {
       const double radius = std::sqrt(end.area / pi), edge = end_edge_share * radius;
@@ -315,8 +315,8 @@ class PatientMesher {
   }
 
   // Runs gmsh on a .geo file. If gmsh wrote no mesh, refuses with gmsh's last error. In the message, `cure` follows gmsh's error.
-  // If there is a function change_input, gmsh first gets only a part of the time. If it does not end, the function is called, and
-  // gmsh runs again for the rest of the time.
+  // With a function change_input, gmsh first gets only a part of the time. If gmsh does not end, the function is called, and gmsh
+  // runs again for the rest of the time.
   GmshMesh run_gmsh(double seconds, const std::string &dimension, const std::string &geo, const std::string &mesh,
                     const std::string &cure, const std::function<void()> &change_input = {}) {
     const std::string log = in_gmsh(fs::path(geo).stem().string() + ".log");

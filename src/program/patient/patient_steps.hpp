@@ -13,12 +13,12 @@
 
 namespace riis::program {
 
-// The folder of one run. It becomes the working folder of the process. A folder that is not finished contains the file
+// The folder of one run, which becomes the working folder of the process. A folder that is not finished contains the file
 // UNFINISHED.txt. A run uses an existing folder only if it is empty, unfinished, or the folder of an earlier run.
 class PatientFolder {
  public:
-  // Makes the folder, or uses an empty or unfinished folder. With `replace` it also uses the folder of an earlier run. `inputs`
-  // are the absolute paths of the files that the run reads.
+  // Makes the folder, or uses an empty or unfinished folder. With `replace`, the folder of an earlier run is also allowed.
+  // `inputs` are the absolute paths of the files that the run reads.
   PatientFolder(const std::string &path, bool replace, const std::vector<std::string> &inputs);
   // Records that the folder has all its files.
   void finish();
@@ -39,7 +39,7 @@ struct StepEnd {
   double seconds = 0;
 
   bool is_fine() const { return status == exit_fine; }
-  // Returns the last message. If the command failed, this message gives the reason.
+  // Returns the last message, which gives the reason if the command failed.
   std::string reason() const { return messages.empty() ? "" : messages.back(); }
 };
 

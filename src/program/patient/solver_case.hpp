@@ -13,7 +13,7 @@
 
 namespace riis::program {
 
-// A named part of the mesh's boundary. Its lengths are in the mesh's unit.
+// A named part of the mesh's boundary, with lengths in the mesh's unit.
 struct Boundary {
   std::string name;                 // "inlet", "outlet", "outlet_2", ... or "wall"
   std::int32_t group = 0;           // number of its physical group in mesh.msh

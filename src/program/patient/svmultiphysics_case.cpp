@@ -34,7 +34,7 @@ std::string element(const std::string &name, const std::string &value) {
   return "<" + name + "> " + value + " </" + name + ">";
 }
 
-// Returns a pressure curve in the form that the solver reads. The solver approximates this polygon by a Fourier series.
+// Returns a pressure curve in the form that the solver reads: a polygon, which the solver approximates by a Fourier series.
 std::string temporal_values(const PressureCurve &curve) {
   std::string text = std::to_string(curve.keys.size()) + ' ' + std::to_string(n_modes) + '\n';
   for (const PressureCurve::Key &key : curve.keys)

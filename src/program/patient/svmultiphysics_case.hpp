@@ -7,8 +7,8 @@
 namespace riis::program {
 
 // Writes the solver's folder: the mesh with its faces, the valve's motion, pressures, solver.xml and Allrun. Reads mesh.vtu,
-// faces/NAME.vtp, placed.json and wall.stl from the case's folder. All their lengths are in centimetres. Prints the command of
-// the export, and how long the run of a beat takes. Refuses a folder that is not empty.
+// faces/NAME.vtp, placed.json and wall.stl from the case's folder, with lengths in centimetres. Prints the command of the export,
+// and how long the run of a beat takes. Refuses a folder that is not empty.
 void write_svmultiphysics_case(const SolverCase &solver);
 
 }  // namespace riis::program

@@ -367,8 +367,7 @@ class WallRepair {
     return true;
   }
 
-  // Replaces a side by the other diagonal of the quad that its two triangles form. Returns whether this makes the triangles
-  // higher.
+  // Replaces a side by the other diagonal of the quad that its two triangles form. Returns whether the triangles become higher.
   bool flip_side(std::int64_t i, std::size_t k) {
     const Corners corner = view(corners())[i];
     const std::int64_t a = corner[k], b = corner[(k + 1) % 3], c = corner[(k + 2) % 3];
@@ -413,7 +412,7 @@ class WallRepair {
     return loops;
   }
 
-  // Closes holes whose rims are flat. Later steps decide whether these holes are ends. Refuses holes that are not flat.
+  // Closes holes whose rims are flat. Later steps decide whether the holes are ends. Refuses holes that are not flat.
   void close_holes() {
     std::vector<RimLoop> loops = open_loops();
     std::stable_sort(loops.begin(), loops.end(),

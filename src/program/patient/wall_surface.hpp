@@ -30,7 +30,7 @@ struct ClosedSurface {
 // (flat_ends.hpp).
 ClosedSurface read_closed_surface(const std::string &path);
 
-// Returns a point in the form X,Y,Z, as the user writes it after an option. Its digits go down to a thousandth of the size.
+// Returns a point in the form X,Y,Z, as the user writes it after an option, with digits down to a thousandth of the size.
 std::string point_text(const Vector3 &point, double size);
 
 }  // namespace riis::program

@@ -180,7 +180,8 @@ std::vector<ReferencePoint> hexahedron_gauss(int n_along) {
   return points;
 }
 
-// Returns points of integration in a cube, or in a tetrahedron or a wedge. For these two shapes, sides of the cube are collapsed.
+// Returns points of integration in a cube, or in a tetrahedron or a wedge. For a tetrahedron or a wedge, sides of the cube are
+// collapsed.
 std::vector<ReferencePoint> fine_points(Shape shape) {
   std::vector<ReferencePoint> points = hexahedron_gauss(4);
   if (shape == Shape::hexahedron) return points;

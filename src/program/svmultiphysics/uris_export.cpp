@@ -107,8 +107,8 @@ std::vector<double> frames_of(const OpeningLaw &law, const TimeSpan &span, doubl
 
 LawWithSpans law_of_seconds(const ExportOptions &options) {
   auto times = defaults<riis_opening_times>();
-  // The opening motion ends at time 0, and the closing motion starts at time 0. With this choice, the times at which the two
-  // motions start and end are exact.
+  // The opening motion ends at time 0, and the closing motion starts at time 0. The start and end times of both motions are then
+  // exact.
   times.opening_start = -*options.opening_duration;
   times.opening_duration = *options.opening_duration;
   times.closing_start = 0;
@@ -162,7 +162,7 @@ void check_writable(const std::string &option, const std::string &path, const st
   refuse_folder(option, path, "the folder " + folder + " cannot be written to: " + system_text(errno));
 }
 
-// Refuses a folder that WholeFolder would also refuse. This check changes nothing on the disc.
+// Refuses a folder that WholeFolder would also refuse, but changes nothing on the disc.
 void check_whole_folder(const std::string &given, const std::string &option) {
   const std::string path = without_last_slashes(given);
   std::error_code error;
@@ -179,8 +179,8 @@ void check_whole_folder(const std::string &given, const std::string &option) {
   check_writable(option, path, path);
 }
 
-// A folder that receives its files only after all of them are written. Until then the files are in a hidden folder inside it. If
-// take_place() is not called, the destructor removes all files.
+// A folder that receives its files only after all of them are written. Until then the files are in a hidden folder inside the
+// folder.
 class WholeFolder {
  public:
   // Makes a new folder, or uses an empty folder. A Refusal names the option.

@@ -140,7 +140,7 @@ class Forecaster {
     say("  before: " + text_of(before));
   }
 
-  // The expected drop over (R / eps) u. It is valid if the equations were solved.
+  // The expected drop over (R / eps) u. The drop is valid if the equations were solved.
   struct Expected : ClosedDrop {
     double drop = 0, area = 0;
   };
@@ -279,7 +279,7 @@ class Forecaster {
     return shown(length / options_.to_solver) + (options_.unit ? std::string(" ") + name_of(*options_.unit) : "");
   }
 
-  // Warns of resistance far from the valve. It occurs if interpolated distances are negative.
+  // Warns of resistance far from the valve, which occurs if interpolated distances are negative.
   void warn_of_negative_shapes(const SolverDistances &distances) {
     const SolverElement &element = *mesh_.element;
     if (element.n_nodes == element.n_corners) return;

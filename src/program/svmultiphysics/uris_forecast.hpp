@@ -36,7 +36,7 @@ struct ClosedDrop {
   double flow = 0;            // the flow for a drop of R / eps, which has the unit of an area
 };
 
-// This exception says that Python could not compute the flow. `reason` has the reason, such as "python3 lacks scipy".
+// Thrown if Python could not compute the flow. `reason` has the reason, such as "python3 lacks scipy".
 struct NoFlow {
   std::string reason;
 };
@@ -49,7 +49,7 @@ ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances,
                        const std::vector<double> &near, double reach, double half_thickness, const SolverFluid &fluid,
                        bool quiet);
 
-// The text of uris_flow.py. CMake writes this script into the program, so that the program needs no path to it.
+// The text of uris_flow.py. CMake writes the script into the program, so the program needs no path to the script.
 extern const char uris_flow_script[];
 
 }  // namespace riis::program

@@ -305,8 +305,7 @@ bool FinerTriangles::halve_longer(double length) {
       add(corners[k], middles[k], corners[other]);
       add(middles[k], corners[next], corners[other]);
     } else if (n_cut == 2) {
-      // Here only the edge from a to b is not halved. The remaining quad has two diagonals. The shorter diagonal ends in the
-      // middle of the longer of the two halved edges.
+      // Two edges are halved, and the edge from a to b is not.
       const std::size_t k = whole, next = (k + 1) % 3, other = (k + 2) % 3;
       const std::int64_t a = corners[k], b = corners[next], c = corners[other], bc = middles[next], ca = middles[other];
       add(ca, bc, c);

@@ -27,7 +27,7 @@ inline Point vertex_of(const std::vector<double> &xyz, std::int64_t vertex) {
 }
 inline Point difference(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline double product(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-// Returns a vector along the normal of a triangle. Its length is twice the triangle's area.
+// Returns the normal of a triangle with a length of twice the triangle's area.
 inline Point twice_area(const Point &a, const Point &b, const Point &c) {
   const Point u = difference(b, a), v = difference(c, a);
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
@@ -79,11 +79,11 @@ class FinerTriangles {
 };
 
 // svMultiPhysics searches a mesh only in the box of the valve's nodes, widened by a tenth. The box of a flat valve is too thin.
-// It leaves out nodes that should be marked, and parts of the bands in which the solver measures pressures.
+// The flat box leaves out nodes that should be marked, and parts of the bands in which the solver measures pressures.
 // In: the triangles. Out: three additional triangles, which make this box larger.
 
-// Returns a power of two. Coordinates are rounded to its multiples. `largest` is the largest coordinate. The sum of three rounded
-// coordinates is then exact, even in a box that is about ten times as large.
+// Returns a power of two, to whose multiples coordinates are rounded. `largest` is the largest coordinate. The sum of three
+// rounded coordinates is then exact, even in a box that is about ten times as large.
 double uris_grid(double largest);
 
 // Three triangles, one along each axis. The middle of each added triangle coincides with the middle of a triangle of the valve,
@@ -132,7 +132,7 @@ class UrisLeaflets {
   // Returns all vertices at an opening, xyz(3, n). The coordinates are multiples of a power of two, so that the solver's sums of
   // coordinates have no rounding error.
   std::vector<double> vertices_at(double opening);
-  // Returns the direction of forward flow. It is the mean normal of the leaflets in the first frame. The housing does not count.
+  // Returns the direction of forward flow: the mean normal of the leaflets in the first frame. The housing does not count.
   const std::array<double, 3> &forward() const { return forward_; }
   double half_thickness() const { return half_thickness_; }
   double longest_edge() const { return longest_edge_; }

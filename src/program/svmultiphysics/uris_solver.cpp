@@ -162,7 +162,8 @@ SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path, do
   check(riis_vtk_mesh_copy_cells(file, n_cells, offsets.data(), types.data(), 0, nullptr), path);
   resize(nodes, offsets.back());
   check(riis_vtk_mesh_copy_cells(file, n_cells, nullptr, nullptr, offsets.back(), nodes.data()), path);
-  // The types of VTK for points, lines and faces. Such cells bound the volume, and the solver reads them from other files.
+  // The types of VTK for points, lines and faces. Points, lines and faces bound the volume, and the solver reads them from other
+  // files.
   constexpr std::uint8_t without_volume[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23, 28, 30, 34, 35, 36};
   for (std::int64_t i = 0; i < n_cells; ++i) {
     const std::uint8_t type = view(types)[i];

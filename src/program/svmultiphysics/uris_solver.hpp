@@ -38,7 +38,7 @@ struct SolverElement {
   std::vector<std::array<double, 3>> node_places;  // in the coordinates of the reference element
   std::vector<ReferencePoint> gauss;
   std::vector<ShapeFunctions> at_gauss;
-  // Points for integrals that are more exact than the solver's. There are 4 points in each direction.
+  // Points for integrals that are more exact than the solver's, with 4 points in each direction.
   std::vector<ReferencePoint> fine;
   std::vector<ShapeFunctions> at_fine;
 };
@@ -48,7 +48,7 @@ const SolverElement *solver_element_of(std::uint8_t vtk_type);
 // Returns the names of all elements, for messages.
 const char *solver_element_names();
 
-// A mesh as the solver stores it. All its volume elements have one type.
+// A mesh as the solver stores it. All volume elements of the mesh have one type.
 struct SolverMesh {
   const SolverElement *element = nullptr;
   std::int64_t n_nodes = 0;
@@ -85,10 +85,10 @@ struct SolverDistances {
 SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &leaflets, const std::vector<double> &xyz,
                                  bool is_closing, double half_thickness, double margin = 0);
 
-// Returns the solver's distance at a point of element e. It is interpolated between the absolute distances at the element's
-// nodes. Quadratic shape functions have negative values at some points. At the border of the box, some nodes have the solver's
-// large number, and some interpolated distances become negative. By the solver's condition, points with negative distances are in
-// the band.
+// Returns the solver's distance at a point of element e, interpolated between the absolute distances at the element's nodes.
+// Quadratic shape functions have negative values at some points. At the border of the box, some nodes have the solver's large
+// number, and some interpolated distances become negative. By the solver's condition, points with negative distances are in the
+// band.
 double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
                              const std::vector<double> &distances);
 // Returns the solver's delta at a point of element e: K / R.
@@ -106,7 +106,7 @@ struct SolverBand {
 SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances, double from, double to,
                        const std::array<double, 3> &forward);
 
-// The largest speeds in a frame. They follow from the vertices of this frame and of the frame before it.
+// The largest speeds in a frame, from the vertices of this frame and of the frame before it.
 struct SolverSpeeds {
   double of_leaflets = 0;  // of the leaflets' vertices
   // The largest velocity that the solver gives to a node within the half thickness. The solver extrapolates the velocity in the
@@ -117,11 +117,11 @@ SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets,
                            const std::vector<double> &xyz, const std::vector<double> &before, double time_step,
                            double half_thickness);
 
-// Returns the half thickness times the integral of delta. This is the area of the leaflets as the flow meets it.
+// Returns the area of the leaflets as the flow meets it: the half thickness times the integral of delta.
 double solver_area(const SolverMesh &mesh, const SolverDistances &distances, double half_thickness);
-// Returns this area by the library's exact distances, at many points in each element. `near` has a distance for each node. An
-// element does not count if all its nodes are farther away than the half thickness plus the element's size. Distances may be too
-// large by up to `error`.
+// Returns the area of the leaflets by the library's exact distances, at many points in each element. `near` has a distance for
+// each node. An element does not count if all its nodes are farther away than the half thickness plus the element's size.
+// Distances may be too large by up to `error`.
 double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std::vector<double> &near,
                   double half_thickness, std::int32_t n_threads, bool at_solver_points, double error = 0);
 

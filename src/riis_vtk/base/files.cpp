@@ -32,7 +32,7 @@ std::string resolved(const std::string &path) {
 }
 
 // Creates an empty file with a new name in the folder of `place`, and returns its path. `replaced` describes the file at `place`,
-// or is NULL if there is none. While it is still empty, the new file gets the permissions of the replaced file.
+// or is NULL if there is none. While the new file is still empty, it gets the permissions of the replaced file.
 std::string create_beside(const std::string &place, const struct stat *replaced) {
   static int n_created = 0;
   const std::filesystem::path folder = std::filesystem::path(place).parent_path();

@@ -87,7 +87,7 @@ std::string ending_of(const std::string &path);
 // would not give this reason.
 std::int64_t check_readable(const std::string &path);
 
-// The bytes of a file. They can be read while this object lives.
+// The bytes of a file, which can be read while this object lives.
 class MappedFile {
  public:
   // Maps the file into memory. `size` must be the result of check_readable.
@@ -129,9 +129,8 @@ class ReplacingFile {
   std::string temporary_;
 };
 
-// Writes a data set to a VTK XML file. The file is either complete or does not exist. The data is raw and appended. This is as
-// fast as the disk, and keeps every bit of each double. The sizes of blocks have 64 bits, because VTK's default would limit
-// blocks to 4 GiB.
+// Writes a data set to a VTK XML file. The data is raw and appended, which is as fast as the disk and keeps every bit of each
+// double. The sizes of blocks have 64 bits, because VTK's default would limit blocks to 4 GiB.
 template <class Writer>
 void write_xml(const std::string &path, const std::string &ending, vtkDataObject *data, const CaughtOutput &caught) {
   if (ending_of(path) != ending) fail_file(path, "the file's ending must be .", ending);

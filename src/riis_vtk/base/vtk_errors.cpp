@@ -20,7 +20,7 @@ constexpr std::size_t longest_path = 250;
 
 // Returns the part of VTK's message that helps a user. The message is "ERROR: In FILE, line N\nvtkClass (0xADDRESS):
 // message\n\n".
-// Only the last part of this message helps a user.
+// Only the last part of VTK's message helps a user.
 std::string message_of(const std::string &vtk_text) {
   const std::size_t object = vtk_text.find("): ");
   const std::string message = object == std::string::npos ? vtk_text : vtk_text.substr(object + 3);
@@ -44,8 +44,8 @@ std::string printable(std::string text) {
   return text;
 }
 
-// This exception is thrown if memory runs out while a file is read or written. It contains the text of the message, because there
-// may be no memory for a string.
+// This exception is thrown if memory runs out while a file is read or written. The exception contains the text of the message,
+// because there may be no memory for a string.
 struct OutOfMemory {
   char text[longest_path + 32];
 };
@@ -102,7 +102,7 @@ CaughtOutput::CaughtOutput()
       caller_displays_(vtkObject::GetGlobalWarningDisplay()),
       caller_log_level_(vtkLogger::GetCurrentVerbosityCutoff()) {
   vtkOutputWindow::SetInstance(window_);
-  // Switches the display of warnings on. Without it, VTK would drop errors before they reach a window.
+  // Switches the display of warnings on. Without this, VTK would drop errors before they reach a window.
   vtkObject::SetGlobalWarningDisplay(1);
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }

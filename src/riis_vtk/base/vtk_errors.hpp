@@ -71,8 +71,8 @@ auto naming(const std::string &path, const Work &work) {
 }
 // Throws an exception if `status` is an error of the core. The exception has the core's message.
 void check_core(riis_status status);
-// Fails if the size of a struct is not a multiple of 8, or not between first_size and size_here. These limits are the sizes of
-// the struct in its first release and in this release.
+// Fails if the size of a struct is not a multiple of 8, or not between first_size and size_here. The limits are the sizes of the
+// struct in its first release and in this release.
 void check_struct_size(std::int64_t size, std::int64_t first_size, std::int64_t size_here, const char *name);
 
 template <class T>
@@ -89,9 +89,9 @@ void destroy(Object **object) {
   *object = nullptr;
 }
 
-// An object of this type replaces VTK's output window of the whole process as long as it exists. It also silences VTK's log on
-// stderr, which would repeat every error. VTK tells only the highest level of all its logs, so the destructor sets the log on
-// stderr to this level.
+// As long as an object of this type exists, it replaces VTK's output window of the whole process. The object also silences VTK's
+// log on stderr, which would repeat every error. VTK tells only the highest level of all its logs, so the destructor sets the log
+// on stderr to this level.
 class CaughtOutput {
  public:
   CaughtOutput();
@@ -99,9 +99,9 @@ class CaughtOutput {
   CaughtOutput(const CaughtOutput &) = delete;
   CaughtOutput &operator=(const CaughtOutput &) = delete;
 
-  // If VTK reported an error, fails with RIIS_FILE_ERROR for the path. The message is the first error since this object was made.
-  // It is one line, without VTK's source positions. The first error is the cause of the later errors, which come from higher
-  // layers of VTK.
+  // If VTK reported an error, fails with RIIS_FILE_ERROR for the path. The message is the first error since this object was made,
+  // as one line without VTK's source positions. The first error is the cause of the later errors, which come from higher layers
+  // of VTK.
   void check(const std::string &path) const;
 
  private:

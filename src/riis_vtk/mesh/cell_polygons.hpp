@@ -69,7 +69,7 @@ class CellPolygons {
     return generic_;
   }
 
-  // Appends the corners of a polygon. The corners are the first points of the polygon. Their number is the number of its edges.
+  // Appends the corners of a polygon. The corners are the first points of the polygon. The polygon has as many corners as edges.
   void add_corners(vtkCell *polygon) {
     for (int i = 0; i < polygon->GetNumberOfEdges(); ++i) corners_.push_back(polygon->GetPointIds()->GetId(i));
   }

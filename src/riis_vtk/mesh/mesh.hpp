@@ -49,11 +49,11 @@ struct riis_vtk_mesh {
   std::unique_ptr<const riis::vtk::GridAxes> axes = {};
   std::string notes = {};      // the notes that riis_vtk_mesh_get_notes gives
   std::string foam_case = {};  // the folder of the case that the mesh was read from, or ""
-  // If there are centres, they are the nodes of the mesh, and the data of nodes is data of cells.
+  // If the mesh has centres of cells, these are its nodes, and the data of nodes is data of cells.
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
   std::vector<riis::vtk::RegionName> region_names = {};  // of gmsh's physical groups of volumes
   riis::vtk::Regions regions = {};                       // as riis_vtk_mesh_find_regions found them
-  // If only some cells were kept, the ids that the nodes and cells had in the whole mesh. Without such a choice, these lists are
+  // If only some cells were kept, the ids that the nodes and cells had in the whole mesh. If all cells were kept, these lists are
   // empty.
   std::vector<std::int64_t> whole_node_ids = {}, whole_cell_ids = {};
 

@@ -72,8 +72,8 @@ void check_adjacency(riis_status status, const std::string &structure) {
   fail(status, text.rfind(structure, 0) == 0 ? text.substr(structure.size()) : text);
 }
 
-// Makes an adjacency of nodes from edges, by the core's call for cells and the faces between cells. To this call, the nodes are
-// the cells, and the edges are the faces.
+// Makes an adjacency of nodes from edges, by the core's call for cells and the faces between cells. The core then takes the nodes
+// for cells, and the edges for faces.
 riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::int64_t> &edges,
                                    std::int32_t n_threads) {
   riis_mesh_faces faces;

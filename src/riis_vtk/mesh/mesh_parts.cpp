@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of volume meshes of riis_vtk.h. A part is a mesh. It consists of the cells that are around certain nodes of another mesh.
+// Parts of volume meshes of riis_vtk.h. A part of a mesh is a mesh of the cells around certain nodes of the whole mesh.
 #include <algorithm>
 #include <memory>
 
@@ -36,7 +36,7 @@ Chosen chosen_nodes(vtkUnstructuredGrid *grid, std::int64_t n_ids, const std::in
   return chosen;
 }
 
-// Returns the cells that have at least one chosen node. The remaining nodes of these cells are added to the chosen nodes.
+// Returns the cells that have at least one chosen node. All other nodes of these cells are added to the chosen nodes.
 std::vector<vtkIdType> cells_around(vtkUnstructuredGrid *grid, Chosen &chosen) {
   const Chosen wanted = chosen;
   std::vector<vtkIdType> cells;
@@ -79,8 +79,8 @@ void copy_data(vtkDataSetAttributes *from, const std::vector<vtkIdType> &ids, co
   to->AddArray(array);
 }
 
-// Adds a cell whose corners get new numbers. The stream of a polyhedron's faces begins with the number of faces. Then each face
-// has its size and its nodes.
+// Adds a cell whose corners get new numbers. The stream of a polyhedron's faces begins with the number of faces. The number is
+// followed by the size and the nodes of each face.
 void add_cell(vtkUnstructuredGrid *grid, vtkIdType cell, const std::vector<vtkIdType> &new_id, vtkIdList *nodes,
               vtkUnstructuredGrid *part) {
   const int type = grid->GetCellType(cell);
@@ -98,7 +98,7 @@ void add_cell(vtkUnstructuredGrid *grid, vtkIdType cell, const std::vector<vtkId
   part->InsertNextCell(type, nodes);
 }
 
-// Makes a grid from the given cells and the chosen nodes. All nodes of these cells must be chosen.
+// Makes a grid from the given cells and the chosen nodes. All nodes of the given cells must be chosen.
 vtkSmartPointer<vtkUnstructuredGrid> part_of(const riis_vtk_mesh &mesh, const std::vector<vtkIdType> &cells,
                                              const Chosen &chosen) {
   vtkUnstructuredGrid *const grid = mesh.grid();

@@ -236,8 +236,8 @@ class CellEdges {
     return is_lattice(type) ? lattice_of(type, cell, n) : shape_of(type).edges;
   }
 
-  // Lists the edges of a polyhedron. The stream of a polyhedron's faces begins with the number of faces. Then each face has its
-  // size and its nodes.
+  // Lists the edges of a polyhedron. The stream of a polyhedron's faces begins with the number of faces. The number is followed
+  // by the size and the nodes of each face.
   void list_polyhedron(vtkIdType cell) {
     edges_.clear();
     grid_->GetFaceStream(cell, faces_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the X display. This code is in a separate file, because X11's headers define macros with names that VTK's headers use.
+// Opens the X display. The code is in a separate file, because X11's headers define macros with names that VTK's headers use.
 #include <chrono>
 #include <cstdlib>
 #include <thread>
@@ -27,9 +27,9 @@ Display *open_display() {
   }
 }
 
-// Returns whether VTK's OpenGL can draw on the display. This depends on the OpenGL library in use. Some libraries, such as the
-// one in the program's archive, draw by X alone and do not need the server's extension GLX. At this point VTK has already loaded
-// the library.
+// Returns whether VTK's OpenGL can draw on the display. The OpenGL library in use decides about this. Some libraries, such as the
+// one in the program's archive, draw by X alone and do not need the server's extension GLX. At this point, VTK has already loaded
+// the OpenGL library.
 bool has_opengl(Display *display) {
   int opcode = 0, event = 0, error = 0;
   using Query = int(Display *, int *, int *);

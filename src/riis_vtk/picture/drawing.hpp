@@ -15,8 +15,8 @@ class vtkUnsignedCharArray;
 
 namespace riis::vtk {
 
-// Holds a connection to the X display while VTK draws. On Linux, VTK 9.1 draws only through X and GLX. If one of them is missing,
-// VTK aborts the process. After its last client has left, an X server resets itself, and refuses connections during this time.
+// Holds a connection to the X display while VTK draws. On Linux, VTK 9.1 draws only through X and GLX. VTK aborts the process if
+// X or GLX is missing. After its last client has left, an X server resets itself, and refuses connections during this time.
 // Therefore this connection stays open.
 class HeldDisplay {
  public:
@@ -30,8 +30,8 @@ class HeldDisplay {
   [[maybe_unused]] _XDisplay *display_ = nullptr;  // not used on macOS
 };
 
-// Blue, orange, bluish green, reddish purple, vermilion and sky blue. These colours are distinct for all kinds of colour vision
-// (Okabe, Ito 2008).
+// Blue, orange, bluish green, reddish purple, vermilion and sky blue. People with any kind of colour vision can tell these
+// colours apart (Okabe, Ito 2008).
 inline constexpr unsigned char distinct_colours[][3] = {{0, 114, 178},   {230, 159, 0}, {0, 158, 115},
                                                         {204, 121, 167}, {213, 94, 0},  {86, 180, 233}};
 
@@ -40,12 +40,12 @@ vtkSmartPointer<vtkRenderer> two_sided_renderer();
 
 vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data);
 
-// Returns an actor for faces. The cell scalars of `faces` give their colours, three bytes for each cell. The actor has its own
-// points.
+// Returns an actor for faces. The cell scalars of `faces` give their colours, three bytes for each cell. The actor has points of
+// its own.
 vtkSmartPointer<vtkActor> coloured_actor_of(vtkPolyData *faces);
 
-// Returns the faces with normals at their corners. With these normals, smooth edges between faces become invisible, but sharp
-// edges stay visible.
+// Returns the faces with normals at their corners. With normals at the corners, smooth edges between faces become invisible, but
+// sharp edges stay visible.
 vtkSmartPointer<vtkPolyData> smoothed(vtkPolyData *faces);
 
 // Sets the font that all texts use. `size` is in pixels.

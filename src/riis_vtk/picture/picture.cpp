@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of riis_vtk.h. Draws a surface and a marked mesh, as seen by one camera, into .png files. The picture options of a
-// caller may have the size of any release. They are converted to the struct of this release, and then checked. If a check fails,
-// the message names the field and its value.
+// caller may have the size of any release. The caller's options are converted to the struct of this release, and then checked. If
+// a check fails, the message names the field and its value.
 #include <riis/riis_vtk.h>
 
 #include <cmath>

@@ -197,7 +197,7 @@ void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
   counts_ = {grid->GetNumberOfPoints(), std::count(marked.begin(), marked.end(), 1),
              std::count(parts.begin(), parts.end(), whole_marked),
              std::count(parts.begin(), parts.end(), partly_marked)};
-  // Faces between wholly marked cells and partly marked cells are left out. Nobody can see these faces, because partly marked
+  // Faces between wholly marked cells and partly marked cells are left out. Nobody can see such faces, because partly marked
   // cells surround the wholly marked cells.
   std::vector<std::uint8_t> chosen(parts.size());
   std::transform(parts.begin(), parts.end(), chosen.begin(), [](std::uint8_t part) { return part == partly_marked; });
@@ -205,8 +205,8 @@ void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
   colour_faces(partly.faces, leaflets_of(grid, partly.cell_id), pale);
   partly_length_ = mean_edge_length(partly.faces);
   partly_ = coloured_actor(partly.faces);
-  // Faces that look towards the eye are not drawn, because they would hide the wholly marked cells. The other faces are visible
-  // around these cells, and in gaps between them.
+  // Faces that look towards the eye are not drawn, because they would hide the wholly marked cells. All other faces are visible
+  // around the wholly marked cells, and in gaps between these cells.
   partly_->GetProperty()->SetFrontfaceCulling(partly.of_volumes);
   partly_->GetProperty()->SetAmbient(0.6);
   partly_->GetProperty()->SetDiffuse(0.45);

@@ -85,8 +85,8 @@ void add_text(vtkRenderer *renderer, const std::string &text, double x, double y
   renderer->AddViewProp(actor);
 }
 
-// Adds a text. If the text is too long, its letters become smaller. If it is too long even with the smallest letters, its end is
-// cut off.
+// Adds a text. If the text is too long, its letters become smaller. If the text is too long even with the smallest letters, its
+// end is cut off.
 void add_fitting_text(vtkRenderer *renderer, std::string text, double x, double y, double width, int letter,
                       const Colour &colour) {
   while (letter > least_letter && width_of(text, letter) > width) --letter;
@@ -124,7 +124,7 @@ void add_lines(vtkRenderer *renderer, const std::vector<Line> &lines, double wid
   renderer->AddViewProp(actor);
 }
 
-// Adds the scale bar. Its length is a round number, which stands beside the bar with its unit.
+// Adds the scale bar, whose length is a round number. The number and its unit stand beside the bar.
 void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double y, const Sight &sight,
                    const std::string &unit, bool has_plural, const Colour &ink) {
   const double pixels_per_length = layout.panel_height() / (2 * sight.shown[1].half());
@@ -232,7 +232,7 @@ vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::v
   return renderer;
 }
 
-// Returns the lines of a title. There are at most two lines. The title may have a line break.
+// Returns the lines of a title, at most two.
 std::vector<std::string> lines_of_title(const char *title) {
   const std::string text = title ? title : "Surface";
   const std::size_t end = text.find('\n');
@@ -280,8 +280,8 @@ std::vector<PanelTexts> texts_of_columns(const std::vector<PanelTexts> &panels, 
 }
 
 // Computes a picture with transparency from two pictures: one on black and one on white. A pixel that has one colour in both
-// pictures is opaque. A pixel that is black in one and white in the other is clear. This also works for blended objects, whatever
-// their order is.
+// pictures is opaque. A pixel that is black in one and white in the other is clear. The computation also works for blended
+// objects, whatever their order is.
 vtkSmartPointer<vtkImageData> transparent_from(vtkImageData *on_black, vtkImageData *on_white) {
   int size[3];
   on_black->GetDimensions(size);
@@ -392,7 +392,7 @@ void Scene::show(const riis_surface *surface, const char *title, const Leaks &le
   if (!marks_) return;
   PanelTexts marked = {lines_of_marks(marks_->counts(), leaks), key_of_marks(marks_->counts(), leaks, style_.ink)};
   if (!has_surface()) {
-    // If there is only one panel, it has the title, and also the key of the leaflets.
+    // The only panel of a picture has the title, and also the key of the leaflets.
     std::string line;
     for (const std::string &part : marked.caption) line += (line.empty() ? "" : ", ") + part;
     marked.caption = {lines_of_title(title)[0], line};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the faces of a wall. Out: a translucent shell with lighting. It is open at the wall's flat ends, and its rims are lines.
+// In: the faces of a wall. Out: a translucent shell with lighting, which is open at the wall's flat ends. Lines show its rims.
 #pragma once
 
 #include <vtkSmartPointer.h>

@@ -51,8 +51,8 @@ void grow(Extents &extents, const View &view, const double point[3]) {
   }
 }
 
-// A side of the panel at which the mesh is cut. It is given by an axis, a position on the axis, and the direction towards the
-// part that remains.
+// A side of the panel at which the mesh is cut. The side is given by an axis, a position on the axis, and the direction towards
+// the part that remains.
 struct Side {
   std::size_t axis;
   double at;

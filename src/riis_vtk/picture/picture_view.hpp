@@ -52,7 +52,7 @@ struct View {
   Extents extents_of(const Bounds &bounds) const;
 };
 
-// The part of space that a panel shows. It is measured along the axes of the panel's view.
+// The part of space that a panel shows, measured along the axes of the panel's view.
 struct Sight {
   Extents shown;                  // x and y extend to the panel's edges; z is the depth of surface and mesh
   std::array<Extent, 2> uncut;    // x and y at which the mesh is cut if it extends further

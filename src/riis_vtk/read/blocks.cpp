@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that consist of several blocks, which are joined here. Such meshes are Exodus files, which VTK reads, and the .vtu files
-// that a .vtm file lists.
+// Meshes that consist of several blocks, which are joined here. The blocks come from an Exodus file, which VTK reads, or from the
+// .vtu files that a .vtm file lists.
 #include <algorithm>
 #include <array>
 #include <filesystem>

@@ -47,7 +47,7 @@ void check_data_set(const std::string &path, vtkPointSet *data) {
   check_array_lengths(path, data->GetCellData(), "cell", data->GetNumberOfCells());
 }
 
-// Checks the offsets. Call this function before any cell is read.
+// Checks the offsets. This function must be called before any cell is read.
 void check_offsets(const std::string &path, vtkCellArray *cells) {
   if (cells && cells->GetNumberOfCells() > 0 && !cells->IsValid()) fail_file(path, "has broken cell offsets");
 }
@@ -106,8 +106,8 @@ void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
   }
 }
 
-// Checks the faces of a polyhedron. At the location of the cell, VTK's array of faces has the number of faces. Then each face has
-// its size and its points.
+// Checks the faces of a polyhedron. At the location of the cell, VTK's array of faces has the number of faces. The number is
+// followed by the size and the points of each face.
 void check_polyhedron(const std::string &path, vtkIdType cell_id, vtkIdType location, vtkIdTypeArray *faces,
                       vtkIdType n_points) {
   const vtkIdType n_values = faces->GetNumberOfValues();

@@ -51,8 +51,8 @@ struct Lattice {
 void check_lattice(const std::string &path, const Lattice &lattice);
 
 // Returns the content of a legacy .vtk file. Fails for other kinds of data, and for an incomplete file. VTK's legacy reader
-// believes every count. It reads a truncated file as a smaller mesh, and ends the process on some files. Therefore this function
-// checks the sections before VTK reads them.
+// believes every count. VTK's legacy reader takes a truncated file for a smaller mesh, and ends the process on some files.
+// Therefore the sections are checked here before VTK reads them.
 enum class LegacyKind { unstructured_grid, polydata, structured_points, rectilinear_grid, structured_grid };
 enum class LegacyKinds { grid, grid_or_polydata };
 struct LegacyContent {
@@ -64,12 +64,13 @@ LegacyContent check_legacy(const std::string &path, LegacyKinds allowed);
 bool is_structured_legacy(const std::string &path);
 
 // Fails if a file is truncated, or is not a VTK XML file of the wanted type. VTK's parser would stop at appended data and not
-// look for the end of the file. It also crashes on a field array of unknown type. The sizes are checked by XmlSizes.
+// look for the end of the file. VTK's parser also crashes on a field array of unknown type. The sizes are checked by XmlSizes.
 // `wanted_type` is the type attribute of the file, such as "PolyData".
 void check_xml(const std::string &path, const std::string &wanted_type);
 
 // In: a VTK XML file, and VTK's tree of the file's elements. Out: an error if the file states more data than it contains. VTK
-// believes every stated number of points, cells, values, bytes and blocks. Before it reads, it allocates memory for so many.
+// believes every stated number of points, cells, values, bytes and blocks. VTK allocates memory for all this data before it
+// reads.
 class XmlSizes {
  public:
   explicit XmlSizes(const std::string &path);

@@ -278,9 +278,9 @@ class Scan {
     skip_metadata(width);
   }
 
-  // Skips a block METADATA. Its keyword has already been read. The block ends with a blank line. However, the line with the name
-  // of a component may also be blank. VTK compares only the beginning of this keyword. It therefore reads INFORMATION8 1 as 8
-  // keys.
+  // Skips a block METADATA, whose keyword has already been read. The block ends with a blank line. However, the line with the
+  // name of a component may also be blank. VTK compares only the beginning of this keyword. For example, VTK reads INFORMATION8 1
+  // as 8 keys.
   void skip_metadata(std::int64_t n_components) {
     line();
     while (!rest_.empty()) {
@@ -500,8 +500,8 @@ class Scan {
     }
   }
 
-  // Checks the n numbers of a polyhedron's faces. They are the number of faces and, for each face, the number of its points and
-  // the points.
+  // Checks the n numbers of a polyhedron's faces. The numbers are the number of faces and, for each face, the number of its
+  // points and the points.
   void check_polyhedron(std::int64_t cell, std::int64_t n, Numbers &corners) const {
     const auto broken = [&] { refuse("cell ", cell, " has broken polyhedron faces"); };
     if (n < 1) broken();
@@ -583,8 +583,8 @@ class Scan {
   std::int64_t n_cells_ = -1;                    // -1 if not known yet
   std::int64_t n_types_ = -1;
   std::int64_t n_points_ = 0;
-  // Views of the arrays of cells. Each begins at its array. Files up to version 4 have no offsets. Each of their cells is its
-  // number of corners, followed by its corners.
+  // Views of the arrays of cells. Each begins at its array. Files up to version 4 have no offsets. Each cell in such a file is
+  // its number of corners, followed by its corners.
   std::string_view types_, offsets_, corners_;
   std::string type_of_offsets_ = "int", type_of_corners_ = "int";
   std::int64_t n_corners_ = 0;

@@ -25,7 +25,7 @@ class ObjFile {
   vtkSmartPointer<vtkUnstructuredGrid> read() {
     if (const std::string_view mark = "\xef\xbb\xbf"; bytes_.substr(0, mark.size()) == mark) in_.skip(mark.size());
     while (!in_.rest().empty()) {
-      // The statement is copied before its lines are skipped. Errors then name its first line.
+      // The statement is copied before its lines are skipped. Error messages then name the first line of the statement.
       std::string_view rest = in_.rest();
       read_statement(statement(rest));
       in_.skip(in_.rest().size() - rest.size());

@@ -406,7 +406,7 @@ Corners nodes_as(const Shape &shape, const Faces &faces, const std::vector<CellF
   return wanted == found && are_distinct ? nodes : Corners();
 }
 
-// Adds a cell as a linear cell of VTK. If this is impossible, adds it as a polyhedron with its faces.
+// Adds a cell as a linear cell of VTK, or as a polyhedron with its faces if VTK has no such cell.
 void add_cell(const Faces &faces, const std::vector<CellFace> &cell, PlainGrid &mesh) {
   for (const Shape &shape : shapes) {
     const Corners nodes = nodes_as(shape, faces, cell);
@@ -456,8 +456,8 @@ bool read_folder(const Folders &folders, PlainGrid &mesh) {
 
 // ---- Decomposed cases ----
 
-// Returns the ids in the whole mesh of the nodes or the cells of all parts. Fails if these ids are not all numbers from 0 to some
-// number.
+// Returns the ids in the whole mesh of the nodes or the cells of all parts. Fails if the ids of all parts are not all numbers
+// from 0 to some number.
 std::vector<Ids> read_addresses(const std::vector<fs::path> &folders, const char *name, const Ids &sizes) {
   std::vector<Ids> all;
   std::int64_t n_claimed = 0, most = -1;
@@ -557,7 +557,7 @@ fs::path latest_with(const fs::path &root, double time, const char *file) {
   return found.empty() ? root / "constant" / "polyMesh" : found.rbegin()->second;
 }
 
-// Returns whether the case has a folder such as processors4. In this folder, each file has the parts of all processes.
+// Returns whether the case has a folder such as processors4. Each file of such a folder has the parts of all processes.
 bool has_collated_parts(const fs::path &root) {
   std::error_code error;
   const fs::directory_iterator entries(root, error);

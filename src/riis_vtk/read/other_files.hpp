@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads meshes and surfaces in formats of other programs.
-// In: a path. Out: a grid with points in double precision. Its cells have VTK's types and VTK's order of nodes. read_grid checks
-// the cells again. A stated count is believed only if the file has as many bytes as the counted items need.
+// In: a path. Out: a grid with points in double precision. The cells of the grid have VTK's types and VTK's order of nodes.
+// read_grid checks the cells again. A stated count is believed only if the file has as many bytes as the counted items need.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ namespace riis::vtk {
 
 // A grid has this field array if the numbers in its file have single precision. riis_vtk_mesh_get_notes reads it.
 inline constexpr const char *note_array = "riis_note";
-// The cell array with the first physical group of each cell, as gmsh gives it. Arrays with this name and an ending _2, _3 and so
+// The cell array with the first physical group of each cell, as gmsh gives it. Arrays with this name and an added _2, _3 and so
 // on have further groups, or 0.
 inline constexpr const char *physical_array = "gmsh:physical";
 // A field array in which the numbers and the names of the physical groups of volumes alternate.
@@ -145,7 +145,7 @@ extern const bool has_hdf5;
 template <class Number>
 std::vector<Number> read_hdf5(const std::string &path, const std::string &name, std::int64_t n, bool &is_single);
 
-// Writes an HDF5 file. The file gets its name when it is complete, as a ReplacingFile does.
+// Writes an HDF5 file, which gets its name when it is complete, as a ReplacingFile does.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(const std::string &path);

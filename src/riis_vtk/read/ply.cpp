@@ -66,8 +66,7 @@ class PlyFile {
  private:
   // ---- The header ----
 
-  // Removes and returns a line. It ends in a line feed or in a single carriage return. Only old files use single carriage
-  // returns, and their first line shows this.
+  // Removes and returns a line, which ends in a line feed or in a single carriage return.
   std::string_view take_header_line(std::string_view &text) const {
     if (!has_returns_) return take_line(text);
     const std::string_view line = text.substr(0, text.find('\r'));

@@ -20,7 +20,7 @@ namespace riis::vtk {
 // The axes of a rectilinear grid. Each axis has at least two coordinates, which are finite and ascend. Nodes and cells are in
 // VTK's order, in which the first index changes fastest.
 struct GridAxes {
-  // The description of an image. Its axes are origin + i * spacing, and i begins at `first`.
+  // The description of an image, whose axes are origin + i * spacing. i begins at `first`.
   struct Image {
     std::array<double, 3> origin, spacing;
     std::array<int, 3> first;
@@ -33,8 +33,7 @@ struct GridAxes {
   std::int64_t n_cells() const { return (size(0) - 1) * (size(1) - 1) * (size(2) - 1); }
 };
 
-// Adds cells to the grid of a structured grid's points. Along its axes, the structured grid has n nodes. The cells are hexahedra.
-// If axes have only one node, the cells are quads, lines or a vertex.
+// Adds cells to a grid of points. The points are those of a structured grid with n nodes along each axis.
 void add_structured_cells(vtkUnstructuredGrid *grid, const std::array<std::int64_t, 3> &n);
 
 // Gives a data set the arrays of another data set: on points, on cells and on the whole.

@@ -56,8 +56,8 @@ inline vtkIdType id_at(vtkDataArray *array, vtkIdType i) {
   return value >= 0 ? static_cast<vtkIdType>(std::min(value, most)) : -1;
 }
 
-// VTK's XML readers only record some failures. This class makes such failures visible. If the file has less data than VTK would
-// read for an array, the array is refused before VTK reads it.
+// Makes visible those failures that VTK's XML readers only record. If the file has less data than VTK would read for an array,
+// the array is refused before VTK reads it.
 template <class Reader>
 class WatchedReader : public Reader {
  public:
@@ -161,7 +161,7 @@ template <class Watched>
   fail_file(path, "is damaged: not all of its arrays can be read");
 }
 
-// Reads a file with a VTK XML reader that is watched. Then compares the data set with the sizes that the file states.
+// Reads a file with a VTK XML reader that is watched. The data set is then compared with the sizes that the file states.
 template <class Watched, class DataSet>
 vtkSmartPointer<DataSet> read_xml(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Watched> reader;

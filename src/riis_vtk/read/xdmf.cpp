@@ -156,8 +156,7 @@ class XdmfFile {
     return type.empty() || lower_case(type) == "float";
   }
 
-  // Returns the number of rows and the number of columns. If there is only one dimension, it is the number of rows, and there is
-  // one column.
+  // Returns the number of rows and the number of columns. A single dimension is the number of rows, and there is one column.
   std::array<std::int64_t, 2> size_of(const XmlElement &item) const {
     const std::string text = item.attribute("Dimensions");
     std::string_view rest = text;
@@ -397,7 +396,7 @@ const Topology *topology_of(vtkUnstructuredGrid *grid, vtkIdType cell) {
   return found == std::end(topologies) ? nullptr : found;
 }
 
-// Writes the text of the .xdmf file. The numbers go into this text, or into an HDF5 file.
+// Writes the text of the .xdmf file. Numbers go into this text, or into an HDF5 file.
 class XdmfWriter {
  public:
   XdmfWriter(const std::string &path, vtkUnstructuredGrid *grid) : path_(path), grid_(grid) {

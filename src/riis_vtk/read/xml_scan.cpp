@@ -215,7 +215,7 @@ std::vector<std::uint64_t> XmlSizes::words(const ArrayData &data, int size, bool
 
 // Returns the stated number of bytes in a block of binary data. An uncompressed block begins with this number. A compressed block
 // begins with the number of parts, the size of a part, the size of a smaller last part, and the compressed sizes of the parts. In
-// base64, these numbers are encoded separately from the data.
+// base64, all these numbers are encoded separately from the data.
 std::uint64_t XmlSizes::n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *element, const ArrayData &data) const {
   vtkXMLDataElement *root = parser->GetRootElement();
   const char *header_type = root->GetAttribute("header_type"), *byte_order = root->GetAttribute("byte_order");
@@ -287,8 +287,8 @@ void XmlSizes::check_array(vtkXMLDataParser *parser, vtkXMLDataElement *element,
   check_bits(parser, element, n * n_components, bits_of(element->GetAttribute("type")));
 }
 
-// Returns the value of an attribute. If the attribute is missing or is not a number, returns 0. In these cases VTK also reads 0,
-// or refuses the file.
+// Returns the value of an attribute. If the attribute is missing or is not a number, returns 0. For a missing or wrong attribute,
+// VTK also reads 0, or refuses the file.
 std::int64_t XmlSizes::count(vtkXMLDataElement *element, const char *attribute) const {
   vtkIdType n = 0;
   if (!element->GetScalarAttribute(attribute, n)) return 0;

@@ -17,8 +17,8 @@
 namespace riis::vtk {
 namespace {
 
-// The cells of the first file, which are compared with the cells of the other files. Faces cannot be compared. They depend on the
-// positions of the vertices, which differ between the files.
+// The cells of the first file, which are compared with the cells of the other files. Faces cannot be compared, because they
+// depend on the positions of the vertices, which differ between the files.
 class FirstCells {
  public:
   explicit FirstCells(vtkPointSet *data) : n_points_(data->GetNumberOfPoints()) {

@@ -55,7 +55,7 @@ void cut_polygon(const std::string &path, vtkPointSet *data, vtkIdType cell_id, 
   }
 }
 
-// Returns a vector along the normal of a triangle. Its length is twice the triangle's area.
+// Returns the normal of a triangle with a length of twice the triangle's area.
 std::array<double, 3> area_of(vtkPointSet *data, const vtkIdList *ids, vtkIdType a, vtkIdType b, vtkIdType c) {
   auto *list = const_cast<vtkIdList *>(ids);
   double p[3], q[3], r[3], area[3];

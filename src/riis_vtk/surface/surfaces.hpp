@@ -17,7 +17,7 @@ namespace riis::vtk {
 // Reads the file of a surface. All formats of docs/formats.md are allowed. Checks all cells, as faces_of requires.
 vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const CaughtOutput &caught);
 
-// Returns a data set with exactly the surface's triangles. Its points have double precision, and its arrays are those of
+// Returns a data set with exactly the surface's triangles. The points have double precision, and the arrays are those of
 // riis_vtk.h.
 vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface);
 
@@ -45,13 +45,13 @@ struct LeafletArray {
   bool is_required;
 };
 
-// Converts a data set to faces. Its cells may be triangles, quads, polygons and triangle strips. The cells must have been checked
-// before. The path is used only in messages.
+// Converts a data set of triangles, quads, polygons and triangle strips to faces. The cells must have been checked before. The
+// path is used only in messages.
 Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted);
 
-// Appends the faces and the vertices of another surface. Each of the joined surfaces becomes a leaflet. If only one of the two
-// surfaces has quads, its quads are cut into triangles. If only one of the two surfaces has an attachment, the attachment is
-// lost.
+// Appends the faces and the vertices of another surface. Each surface that is joined in this way becomes a leaflet. If only one
+// of the two surfaces has quads, its quads are cut into triangles. If only one of the two surfaces has an attachment, the
+// attachment is lost.
 void append_faces(Faces &faces, const Faces &other);
 
 // Gives each vertex a number from 0 to the number of vertices minus 1, and returns these numbers. Two vertices have one number if
@@ -80,8 +80,8 @@ struct Frames {
 };
 
 // Reads a surface file for each time. Fails if the cells of a file differ from those of the first file, or if a coordinate is not
-// finite. In .stl files, corners that are at one position in the first file become one vertex. In every other file, these corners
-// must also have one position.
+// finite. In .stl files, corners that are at one position in the first file become one vertex. In every other file, the corners
+// of such a vertex must also be at one position.
 Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
                        const CaughtOutput &caught);
 
@@ -92,8 +92,8 @@ Frames frames_of_displacements(const std::string &path, const std::string &prefi
                                const LeafletArray &leaflets, const CaughtOutput &caught);
 
 // Reads the frames that svMultiPhysics uses: a .dat file with the positions of all nodes, frame by frame. The faces are in a .vtu
-// or .vtp file in the same folder. For NAME_motion_open.dat, this file is NAME_motion_open, NAME_motion or NAME. Each of these
-// names may also end in _mesh or _face. The times are the multiples of the time step, beginning with 0.
+// or .vtp file in the same folder. For NAME_motion_open.dat, the file with the faces is NAME_motion_open, NAME_motion or NAME.
+// Each of these names may also end in _mesh or _face. The times are the multiples of the time step, beginning with 0.
 Frames frames_of_text(const std::string &path, double time_step, const LeafletArray &leaflets,
                       const CaughtOutput &caught);
 
