@@ -22,8 +22,8 @@ using Motion = Handle<riis_vtk_motion, riis_vtk_motion_destroy>;
 using Film = Handle<riis_vtk_film, riis_vtk_film_destroy>;
 using SurfaceFile = Handle<riis_vtk_surface, riis_vtk_surface_destroy>;
 
-// Calls a function of the library whose last argument receives a new object, and returns the object. `subject` begins the
-// messages of refusals, as in check.
+// Calls a function of the library whose last argument receives a new object, and returns the object. In refusals, `subject` is
+// the beginning of the message, as in check.
 template <class Object, class Call, class... Arguments>
 Object create_for(const std::string &subject, const Call &call, const Arguments &...arguments) {
   Object object;
@@ -50,7 +50,7 @@ inline riis_mark_list list_of(const riis_marks *marks, int32_t which) {
 }
 inline riis_mark_stats stats_of(const riis_marks *marks) { return get<riis_mark_stats>(riis_marks_get_stats, marks); }
 
-// Returns the parameters of a valve, and the values of one of them.
+// all_parameters returns the parameters of a valve, and values_of returns the values of a parameter.
 inline std::vector<riis_parameter> all_parameters(const riis_valve *valve) {
   std::int64_t n = 0;
   check(riis_valve_get_n_parameters(valve, &n));
@@ -63,7 +63,7 @@ inline std::vector<double> values_of(const riis_valve *valve, const riis_paramet
   check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
   return values;
 }
-// Returns whether all parameters except those in `others` have their default values.
+// Returns whether all parameters of a valve have their default values. The parameters in `others` do not count.
 inline bool has_default_values(const riis_valve *valve, const std::set<std::string> &others) {
   const std::vector<riis_parameter> all = all_parameters(valve);
   return std::all_of(all.begin(), all.end(), [&](const riis_parameter &parameter) {
@@ -72,7 +72,7 @@ inline bool has_default_values(const riis_valve *valve, const std::set<std::stri
   });
 }
 
-// Returns points that borrow their coordinates from an array (3, n).
+// Returns points whose coordinates stay in the given array (3, n).
 inline riis_points points_of(const std::vector<double> &xyz) {
   auto points = defaults<riis_points>();
   points.n_points = view(xyz).size() / 3;

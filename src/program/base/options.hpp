@@ -73,7 +73,7 @@ struct PictureSize {
   static constexpr std::int32_t least = 64, most = 8192;  // the range that riis_vtk accepts
 };
 
-// The looks of the pictures and of the movie of a run.
+// How the pictures and the movie of a run look.
 struct PictureStyle {
   std::optional<PictureSize> size;                  // not set if the user gave none
   std::array<double, 4> background = {1, 1, 1, 1};  // red, green, blue and opacity
@@ -81,7 +81,7 @@ struct PictureStyle {
   std::int32_t panels = RIIS_VTK_PANELS_BOTH;
 };
 
-// The options of a series in time, and of a case of several valves.
+// The options for a series in time, and for a case with several valves.
 struct SeriesOptions {
   std::string case_file;      // "" if the command line describes the only valve
   std::vector<double> times;  // ascending; empty if there is no series
@@ -112,8 +112,8 @@ struct MarkOptions : ValveOptions {
   bool at_cells = false;   // whether the centres of cells are marked
   riis_mark_options mark_options = defaults<riis_mark_options>();
   double far_distance = RIIS_FAR_DISTANCE;
-  // The resistance R for an array of K, and for OpenFOAM the density that divides K. The drop is the pressure drop for the ideal
-  // leak.
+  // The resistance R, from which the array of K follows, and the density by which OpenFOAM's K is divided. The drop is the
+  // pressure drop for the ideal leak.
   std::optional<Amount> given_resistance, given_drop, density;
   std::optional<std::string> chosen_K_unit;
   std::optional<double> resistance;           // R in the units of the mesh
@@ -171,8 +171,8 @@ struct TimeSpan {
   double start, stop;
 };
 
-// How riis export gives the ring of a bileaflet valve to the solver: as a face beside the leaflets, or not at all. The scaffold,
-// a part of the solver's own valves, is left out, because its K is added to that of the leaflets (docs/export.md).
+// How riis export passes the ring of a bileaflet valve to the solver: as a face beside the leaflets, or not at all. The ring is
+// not passed as the solver's scaffold, because the solver adds a scaffold's K to that of the leaflets (docs/export.md).
 enum UrisRing : std::int32_t { ring_face, no_ring };
 
 // The options of riis export.
@@ -208,7 +208,8 @@ struct PlaceOptions : ValveOptions {
   std::string output, foam_output, c_output, fortran_output;  // "" if not wanted, "-" for stdout
 };
 
-// The options of riis patient. `wall` is the file of the wall. Points are in the wall's unit, and so are lengths without a unit.
+// The options of riis patient. `wall` is the file of the wall. Points are in the wall's unit. Lengths without a unit are also in
+// the wall's unit.
 struct PatientOptions : ValveOptions {
   std::string landmarks, folder;             // a file, and the folder for the results
   bool has_valve = false;                    // whether the user named the kind

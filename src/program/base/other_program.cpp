@@ -35,7 +35,7 @@ class Files {
   void read_nothing() { posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0); }
   void pass(int from, int to) { posix_spawn_file_actions_adddup2(&actions_, from, to); }
 
-  // Starts the program that the words name. Returns 0, or the error if the program could not be started.
+  // Starts the program whose name is the first word. Returns 0, or the error if the program could not be started.
   int start(const std::vector<std::string> &words, pid_t &process) const {
     std::vector<char *> arguments;
     for (const std::string &word : words) arguments.push_back(const_cast<char *>(word.c_str()));
@@ -95,7 +95,7 @@ ProgramEnd run_program(const std::vector<std::string> &words, std::FILE *input,
   std::rewind(messages.get());
   read_lines(messages.get(), [&end](const std::string &line) { end.messages.push_back(line); });
   if (!end.messages.empty()) end.last_message = end.messages.back();
-  // POSIX lets posix_spawnp succeed even if the program cannot be run. The new process then ends with this status.
+  // POSIX lets posix_spawnp succeed even if the program cannot be run. The new process then ends with the status not_run.
   constexpr int not_run = 127;
   if (end.status == not_run && end.messages.empty()) end.error = ENOENT;
   return end;

@@ -13,7 +13,7 @@ namespace riis::program {
 struct CloseFile {
   void operator()(std::FILE *file) const { std::fclose(file); }
 };
-// A file without a name. The system removes the file when it is closed.
+// A file without a name. When the file is closed, the system removes it.
 using TemporaryFile = std::unique_ptr<std::FILE, CloseFile>;
 // Returns NULL, and sets errno, if the file cannot be made.
 TemporaryFile temporary_file();
@@ -24,8 +24,8 @@ struct ProgramEnd {
   std::string last_message{};           // the last line on its stderr
   std::vector<std::string> messages{};  // all these lines
 };
-// Runs the program that the words name, and waits until it ends. A name without a slash is looked for in PATH. The program reads
-// `input` from the file's position, or nothing if `input` is NULL. `read` gets each line of the output.
+// Runs the program whose name is the first word, and waits until the program ends. A name without a slash is looked for in PATH.
+// The program reads from the position of the file `input`, or nothing if `input` is NULL. `read` gets each line of the output.
 ProgramEnd run_program(
     const std::vector<std::string> &words, std::FILE *input = nullptr,
     const std::function<void(const std::string &)> &read = [](const std::string &) {});

@@ -19,7 +19,7 @@ struct Product {
   double si = 1;
   int mass = 0, length = 0, time = 0;
 
-  // Multiplies this product by a power of another product.
+  // Multiplies this product of units by a power of another product.
   void multiply(const Product &by, int power) {
     for (int i = 0; i < std::abs(power); ++i) power > 0 ? si *= by.si : si /= by.si;
     mass += power * by.mass;
@@ -135,7 +135,7 @@ void append(const std::string &symbol, int exponent, std::string &text, int &n) 
 double parse_unit_of(const std::string &text, const std::string &subject, const Quantity &quantity) {
   const Product unit = UnitReader(text, subject).read();
   if (unit.mass == quantity.mass && unit.length == quantity.length && unit.time == quantity.time) return unit.si;
-  // Some codes give R / eps as R. The unit of R / eps has one more length in the denominator.
+  // Some codes call R / eps the resistance. The unit of R / eps has one more length in the denominator.
   const bool is_over_length =
       unit.mass != 0 && unit.mass == quantity.mass && unit.length == quantity.length - 1 && unit.time == quantity.time;
   refuse_usage(subject + ": '" + text + "' is not a unit of " + quantity.words + ", such as " + quantity.si +

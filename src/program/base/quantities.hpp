@@ -2,7 +2,7 @@
 // Quantities of the flow, such as R, and their units (docs/program.md, "Units of R").
 // In: a number as the user wrote it, perhaps with a unit. Out: the number in the units of a mesh, and the names of units.
 //
-// A mesh in metres has kilograms as its unit of mass, and a mesh in centimetres or millimetres has grams. If the mesh's unit of
+// In metres, the unit of mass of a mesh is the kilogram. In centimetres or millimetres, it is the gram. If the mesh's unit of
 // length is known, a number without a unit is in SI units. If the unit of the mesh is not known, the number is in the mesh's
 // units, and a number with a unit is refused.
 #pragma once
@@ -46,7 +46,7 @@ Amount parse_amount(const std::string &text, const std::string &subject, const Q
 // Returns the SI value of a unit such as "kg/(m3 s)". Refuses a text that is not a unit of the quantity.
 double parse_unit_of(const std::string &text, const std::string &subject, const Quantity &quantity);
 
-// Returns the factor from SI units to the units of a mesh. For example, the factor of R in centimetres is 10.
+// Returns the factor from SI units to the units of a mesh. For example, the factor is 10 for R in a mesh in centimetres.
 double factor_from_si(const Quantity &quantity, Unit unit);
 
 // Returns the number in the units of the mesh. Refuses a number with a unit if the unit of the mesh is not known.

@@ -32,7 +32,7 @@ int n_ranks();
 // Only the first rank prints, and it writes the files that all ranks share.
 inline bool is_first() { return rank() == 0; }
 
-// While an object of this type lives, the first rank works alone, and its exchanges and agreements have no partner. The other
+// While an object of this type lives, the first rank works alone. Its exchanges and agreements then have no partner. The other
 // ranks wait in the agreement at the end of the program.
 class Alone {
  public:
@@ -45,7 +45,7 @@ class Alone {
   [[maybe_unused]] int n_ranks_;  // used with MPI
 };
 
-// A failure that all ranks know.
+// A failure that all ranks know of.
 struct AgreedRefusal {
   Refusal refusal;
 };
@@ -55,7 +55,7 @@ void agree(const Refusal *failure = nullptr);
 
 // Returns the bytes that all ranks passed, in the order of the ranks.
 std::vector<std::byte> gather_bytes(const void *own, std::size_t n_bytes, std::size_t element_size);
-// Sends the i-th part of `sent` to rank i. Returns the data that all ranks sent to this rank.
+// Sends the i-th part of `sent` to rank i. Returns the parts that all ranks sent to this rank.
 std::vector<std::byte> exchange_bytes(const void *sent, const std::vector<std::size_t> &n_for_rank,
                                       std::size_t element_size);
 
@@ -75,8 +75,7 @@ inline std::int64_t sum(std::int64_t own) {
   return std::accumulate(all.begin(), all.end(), std::int64_t{0});
 }
 
-// Sends each element to the rank that rank_of(element) names. Returns the elements that other ranks sent to this rank, and its
-// own.
+// Sends each element to the rank that rank_of(element) names. Returns the elements that were sent to this rank.
 template <class T, class RankOf>
 std::vector<T> exchange(std::vector<T> own, const RankOf &rank_of) {
   static_assert(std::is_trivially_copyable_v<T>);

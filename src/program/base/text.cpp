@@ -167,7 +167,7 @@ std::string text_of_file(const std::string &path) {
   std::ifstream file(path);
   std::ostringstream text;
   if (file) text << file.rdbuf();
-  // Opening a folder as a file succeeds. The failure comes only when the folder is read, so the program tests for folders here.
+  // Opening a folder as a file succeeds. The failure comes only when the folder is read, so folders are recognised here.
   if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + system_text(errno));
   std::string content = text.str();
   if (content.empty()) refuse_file(path, "is empty");
@@ -183,7 +183,7 @@ std::string text_of_file(const std::string &path) {
 
 namespace {
 
-// The library accepts no time beyond this limit.
+// The library accepts no time above this limit.
 constexpr double largest_time = 1e30;
 
 [[noreturn]] void refuse_count(const std::string &subject, double n) {
@@ -290,7 +290,7 @@ std::vector<CsvLine> csv_lines(const std::string &text) {
     if (line[0] != '#') {
       lines.push_back({where, line, {}});
     } else if (const std::size_t equals = line.find('='); equals != std::string::npos) {
-      // A spreadsheet pads a line with empty cells.
+      // A spreadsheet adds empty cells to a line.
       const std::string value = line.substr(equals + 1, line.find_last_not_of(",; ") - equals);
       lines.push_back({where, "", {{trimmed(line.substr(1, equals - 1)), trimmed(value)}}});
     }

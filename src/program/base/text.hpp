@@ -21,7 +21,7 @@ double parse_number(const std::string &text, const std::string &subject);
 std::int32_t parse_integer(const std::string &text, const std::string &subject);
 // Reads numbers separated by commas.
 std::vector<double> parse_list(const std::string &text, const std::string &subject);
-// Reads exactly n numbers separated by commas. `form` shows the expected form, such as "X,Y,Z".
+// Reads exactly n numbers separated by commas. In a refusal, `form` shows the expected form, such as "X,Y,Z".
 std::vector<double> parse_list(const std::string &text, const std::string &subject, std::size_t n,
                                const std::string &form);
 
@@ -29,9 +29,9 @@ std::vector<double> parse_list(const std::string &text, const std::string &subje
 std::string printed(const char *format, double number);
 // Returns the shortest text that reads back as the same number, in any locale.
 std::string shortest(double number);
-// Returns the power of ten of a number's first digit, such as 2 for 123. The number must be finite and not 0.
+// Returns the power of ten of a number's first digit. For example, the power is 2 for 123. The number must be finite and not 0.
 int decimal_exponent(double number);
-// Returns the double nearest to this power of ten, or 0 if a double cannot hold it.
+// Returns 10 to the given power as the nearest double, or 0 if a double cannot hold it.
 double power_of_ten(int exponent);
 
 // Returns the texts of the numbers, separated by the given text.
@@ -45,8 +45,8 @@ std::vector<std::string> split(const std::string &text, const char *marks);
 // joined_by puts a text between the parts. one_of returns a list for a sentence, such as "m, cm or mm".
 std::string joined_by(const std::vector<std::string> &parts, const char *between);
 std::string one_of(const std::vector<std::string> &names);
-// Returns ", did you mean NAME?" with the name nearest to a word, or "" if no name is near. `before` and `after` enclose the
-// name.
+// Returns ", did you mean NAME?" with the name nearest to a word, or "" if no name is near. In this text, `before` and `after`
+// enclose the name.
 std::string did_you_mean(const std::string &word, const std::vector<std::string> &names, const char *before = "",
                          const char *after = "");
 
@@ -59,7 +59,7 @@ inline bool is_control(unsigned char c) { return c < ' ' || c == 127; }
 // Returns the system's message for errno.
 std::string system_text(int error);
 
-// In: a path. Out: the path's ending, or the text of the file. Refusals name the file.
+// In: a path. Out: the ending of the path, or the text of the file. Refusals name the file.
 
 // Returns the ending of a path in small letters, from its last point on.
 std::string ending_of(const std::string &path);
@@ -87,7 +87,7 @@ struct CsvLine {
   std::string row;                                          // "" if the line states a fact
   std::optional<std::pair<std::string, std::string>> fact;  // a name and its value
 };
-// Returns the rows and the facts, without empty lines and other comments.
+// Returns the rows and the facts. Empty lines and other comments are left out.
 std::vector<CsvLine> csv_lines(const std::string &text);
 
 struct CsvFile {
@@ -98,7 +98,7 @@ struct CsvFile {
   std::map<std::string, std::string> stated;
   std::vector<Row> rows;
 };
-// Refuses facts with other names, facts stated twice, and rows that do not have the form, such as "X,Y,Z".
+// Refuses facts with unknown names, facts stated twice, and rows that do not have the given form, such as "X,Y,Z".
 CsvFile csv_of_text(const std::string &path, const std::string &text, const std::vector<std::string> &names,
                     const std::string &form, std::size_t n_cells);
 

@@ -66,30 +66,30 @@ std::optional<Unit> unit_of_valve(double largest_side) {
 
 namespace {
 
-// The size of a vessel fits a valve if the vessel is at least as wide as the least width, and at most as wide as the largest. The
-// least width limits the mesh's middle side, because a valve is no wider than its vessel. The largest width limits the mesh's
-// shortest side, because a vessel is not much wider than its valve. Both widths are multiples of the valve's largest side. They
-// are a decade apart, so two units seldom fit.
+// A unit fits if it makes the vessel neither narrower than the least width nor wider than the largest width. The least width
+// limits the mesh's middle side, because a valve is no wider than its vessel. The largest width limits the mesh's shortest side,
+// because a vessel is not much wider than its valve. Both widths are multiples of the valve's largest side. The two widths are a
+// decade apart, so two units seldom fit.
 constexpr double least_width = 0.4, largest_width = 4;
 // A mesh with edges longer than this share of the valve's largest side cannot show the valve.
 constexpr double longest_edge = 0.3;
-// If a mesh was made for the default half thickness, its edges are seldom longer than this number of half thicknesses.
+// In a mesh for the default half thickness, edges are seldom longer than this number of half thicknesses.
 constexpr double usual_edge = 3;
 // Edges near the valve are seldom shorter than this number of half thicknesses.
 constexpr double shortest_edge = 0.3;
-// A mesh with edges above these limits was made for another valve. The limits are a number of half thicknesses, and a share of
-// the valve's largest side.
+// Longer edges mean that the mesh was made for another valve. The limits are a number of half thicknesses, and a share of the
+// valve's largest side.
 constexpr double most_edge = 10, most_edge_of_valve = 0.4;
-// The least half thickness, as a share of the mesh's edge length. A thinner band falls between two layers of nodes and contains
-// few nodes.
+// The least half thickness, as a share of the mesh's edge length. If a band is thinner, it falls between two layers of nodes and
+// contains few nodes.
 constexpr double smallest_half_thickness = 0.3;
-// A unit is impossible if it makes the vessel narrower or wider than its limit by more than these ratios. The larger ratio allows
-// a valve in a wide basin.
+// A unit is impossible if it makes the vessel too narrow or too wide by more than these ratios. The larger ratio allows a valve
+// in a wide basin.
 constexpr double most_too_narrow = 1.5, most_too_wide = 10;
-// A unit is possible if it is at most this many times as odd as the likeliest unit. The oddity of a unit is a product of ratios
-// of at least 1.
+// A unit is possible if its oddity is at most this many times the oddity of the likeliest unit. The oddity of a unit is a product
+// of ratios of at least 1.
 constexpr double most_odd = 2.7;
-// In a wide basin, the present unit is right if every other unit is at least this many times as odd.
+// In a wide basin, the present unit is right if the oddity of every other unit is at least this many times as large.
 constexpr double surely_odder = 1.35;
 
 double excess(double ratio) { return std::max(ratio, 1.0); }
@@ -102,8 +102,8 @@ double wideness_at(double factor, const Sizes &s) {
   return excess(factor * s.mesh_sides[2] / (largest_width * s.surface.largest_side()));
 }
 
-// Returns how odd the sizes would be if the mesh's lengths were multiplied by the factor. A default half thickness has the
-// valve's unit, so it limits the mesh's edges from above and below.
+// Returns the oddity of the sizes after the mesh's lengths are multiplied by the factor. A default half thickness has the valve's
+// unit, so it limits the mesh's edges from above and below.
 double oddity_at(double factor, const Sizes &s, double edge) {
   double oddity = narrowness_at(factor, s) * wideness_at(factor, s) *
                   excess(factor * edge / (longest_edge * s.surface.largest_side()));

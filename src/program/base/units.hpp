@@ -20,20 +20,20 @@ const char *words_of(Unit unit);
 // Returns the unit with this name, or none for "".
 std::optional<Unit> unit_of(const std::string &name);
 
-// Returns the factor from one unit to the other. For example, this factor is 0.01 from centimetres to metres.
+// Returns the factor from one unit to the other. For example, the factor from centimetres to metres is 0.01.
 double factor_between(Unit from, Unit to);
 // Returns the paper's half thickness, which is 0.1 cm, in the given unit.
 double paper_half_thickness(Unit unit);
 
-// Returns the unit that is `factor` times as small as the unit `from`, or none.
+// Returns the unit in which lengths are `factor` times their numbers in the unit `from`, or none.
 std::optional<Unit> unit_reached(Unit from, double factor);
-// Returns the units of a surface and a mesh between which the factor converts. Returns none for 1 and for a factor that no two
-// units have.
+// Returns the units of a surface and a mesh between which the factor converts. Returns none for the factor 1, and for a factor
+// that belongs to no two units.
 struct UnitPair {
   Unit surface, mesh;
 };
 std::optional<UnitPair> units_of_factor(double factor);
-// Returns the unit in which this number is the size of a heart valve. Heart valves are about 1 to 10 centimetres large.
+// Returns the unit in which the given number is the size of a heart valve. Heart valves are about 1 to 10 centimetres large.
 std::optional<Unit> unit_of_valve(double largest_side);
 
 // A box whose sides are parallel to the axes.
@@ -68,8 +68,8 @@ inline Box empty_box() {
   return {{far, far, far}, {-far, -far, -far}};
 }
 
-// Sums over points, for their moments. The sums tell how far the points reach along their principal axes. A narrow vessel that
-// lies obliquely thus does not count as wide.
+// Sums over points, for their moments. The sums tell how far the points reach along their principal axes. A narrow vessel thus
+// does not count as wide if it lies obliquely.
 struct Moments {
   double n = 0, sum[3]{}, squares[6]{};  // squares has xx, yy, zz, xy, xz, yz
 
@@ -77,12 +77,12 @@ struct Moments {
   void add(const Moments &other);
 };
 
-// Returns the three sides of a mesh, the longest first. A side is at most as long as the box's side, and as the diameter of a
-// disc whose points would have the same moment. Without points, the sides are those of the box.
+// Returns the three sides of a mesh, the longest first. A side is at most as long as the side of the box, and as the diameter of
+// a disc whose points would have the same moment. Without points, the sides of the box are returned.
 std::array<double, 3> sides_of(const Box &box, const Moments &moments);
 
-// The sizes of a mesh and of a valve in it. The functions below tell whether the sizes fit together, and which unit and which
-// half thickness would fit. The program's warnings and the lights of Python's view follow the same rules.
+// The sizes of a mesh and of a valve in the mesh. The functions below tell whether these sizes fit together, and which unit and
+// which half thickness would fit. The program's warnings and the lights of Python's view follow the same rules.
 struct Sizes {
   std::array<double, 3> mesh_sides;  // the longest first
   Box surface;
@@ -106,7 +106,8 @@ bool is_too_small(double half_thickness, const Sizes &sizes);
 // the mesh's edge length, or 0 if the edge length does not fit either.
 double better_half_thickness(const Sizes &sizes);
 
-// The judgement of a mesh's unit. A factor stands for a unit: times this factor, the mesh's lengths are in the surface's unit.
+// The judgement of a mesh's unit. A factor stands for a unit. Multiplied by the factor, the mesh's lengths are in the surface's
+// unit.
 struct UnitJudgement {
   bool is_right;  // nothing speaks against the present unit, so there is no advice
   std::vector<double>

@@ -38,7 +38,8 @@ constexpr const char *name_of_server = "Xvfb";
 // The numbers of the file descriptors in Xvfb.
 enum ServerFile : int { display_file = 3, key_file = 4, n_server_files = 5 };
 
-// A file descriptor whose number is above the numbers that Xvfb's files will have. None of Xvfb's files then replaces this file.
+// A file descriptor whose number is above the numbers that Xvfb's files will have. Xvfb's files therefore do not replace this
+// file.
 class File {
  public:
   explicit File(int low) : number_(low < 0 ? -1 : fcntl(low, F_DUPFD_CLOEXEC, 10)) {
@@ -119,7 +120,7 @@ int file_with_key() {
 }
 
 // Reads the number of the display. Xvfb writes the number and a line break when it is ready. Returns "" if Xvfb has ended, or if
-// the time is over.
+// no time is left.
 std::string read_number(int file, Clock::time_point end) {
   std::string text;
   for (;;) {
@@ -229,8 +230,8 @@ VirtualDisplay::VirtualDisplay() : display_before_(variable("DISPLAY")), key_bef
   File key(file_with_key()), messages(memfd_create("riis-xvfb", MFD_CLOEXEC));
   if (!key.is_open() || !messages.is_open()) refuse(" cannot be started: " + system_text(errno));
   const Clock::time_point end = Clock::now() + longest_start;
-  // An abstract socket leaves no file behind, so Xvfb needs no writable folder in /tmp. A release of Xvfb without abstract
-  // sockets gets a file.
+  // An abstract socket leaves no file behind, so Xvfb needs no writable folder in /tmp. If a release of Xvfb has no abstract
+  // sockets, Xvfb uses a socket in a file.
   Server server = start({"-nolisten", "unix"}, key, messages, end);
   if (server.display.empty() && server.error == 0 && Clock::now() < end) server = start({}, key, messages, end);
   if (server.error != 0) refuse(" cannot be started: " + system_text(server.error));

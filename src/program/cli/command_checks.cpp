@@ -104,8 +104,8 @@ void finish_valve(const Command &command, ValveOptions &options) {
   finish_units(options);
 }
 
-// Completes the options of a surface in a mesh. If the command lacks an option, the option has no effect. `sweeps_openings` says
-// whether the command opens the valve by itself.
+// Completes the options of a surface in a mesh. Options that the command does not have are left at their defaults.
+// `sweeps_openings` says whether the command opens the valve by itself.
 void finish_surface_in_place(const Command &command, MarkOptions &options, bool sweeps_openings = false) {
   check_valve(command, options);
   check_series(command, options);
@@ -119,7 +119,8 @@ void check_distance(const Command &command, const MarkOptions &options) {
     refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
 }
 
-// Refuses looks that no picture has. Also refuses looks that a movie, or a picture without a mesh, cannot have.
+// Refuses options for looks that no picture has. Also refuses options for looks that a movie, or a picture without a mesh, cannot
+// have.
 void check_style(const Command &command, const MarkOptions &options) {
   const std::string &movie = options.series.movie;
   const PictureStyle &style = options.style;
@@ -147,7 +148,7 @@ void check_folder_name(const std::string &folder) {
     refuse_usage("FOLDER: '" + folder + "' has a blank, and svMultiPhysics cannot read such a path");
 }
 
-// The sizes of a kind of valve are in centimetres, so the scale of the valve tells the unit of the mesh.
+// The sizes of a kind of valve are in centimetres, so a valve's scale determines the unit of the mesh.
 void check_solver_scale(const ExportOptions &options) {
   if (options.unit || !options.has_scale || is_valve_file(options.valve)) return;
   const auto unit = unit_reached(Unit::centimetre, options.surface_options.scale);

@@ -81,7 +81,7 @@ std::vector<std::string> names_of_options(const CLI::App &app) {
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
 // Returns the words that CLI11 did not understand, in the order of typing. (CLI11 does not keep the order of the words.) If some
-// of these words are unknown options, returns only the options. The remaining words may be values of these options.
+// of these words are unknown options, returns only the options. The remaining words may be values of the unknown options.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();
   const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);
@@ -116,7 +116,7 @@ const CLI::App &command_named(const CLI::App &app, const std::string &word) {
   refuse_usage("'" + word.substr(0, 64) + "' is not a command" + did_you_mean(word, names) + hint);
 }
 
-// Refuses a command line unless its first words are a complete command, or ask for help or the version.
+// Refuses a command line if its first words are neither a complete command nor a request for help or the version.
 void check_commands(const CLI::App &app, int argc, char **argv) {
   const CLI::App *at = &app;
   for (int i = 1; !commands_of(*at).empty(); ++i) {
@@ -150,7 +150,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
     made->footer(help_of(name));
     return made;
   };
-  // For each command with options: its name in CLI11, and a call that turns the options into a request.
+  // For each command with options, CLI11's object, and a call that turns the options into a request.
   std::vector<std::pair<const CLI::App *, std::function<Request()>>> commands;
   const auto add = [&](CLI::App &in, const char *name, const char *what, auto declare, auto finish, auto options) {
     const Command command(named(in, name, what));

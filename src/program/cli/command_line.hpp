@@ -18,7 +18,7 @@ class Option;
 
 namespace riis::program {
 
-// The command that the user requested, with its options. The commands riis surface and riis check also use MarkOptions.
+// The command that the user requested, with its options. riis surface and riis check also store their options in MarkOptions.
 using Request = std::variant<MarkOptions, SizeFieldOptions, StatesOptions, AreaOptions, ExportOptions, ParamsOptions,
                              PlaceOptions, PatientOptions>;
 
@@ -39,8 +39,8 @@ class Command {
   void group(const char *title) { group_ = title; }
 
   using Take = std::function<void(const std::string &)>;
-  // Each of the next functions declares an option by its names, a word for its value, and a help text. A positional argument has
-  // a name such as "OUT".
+  // Each of the next functions declares an option. The arguments are its names, a word for its value, and a help text. A
+  // positional argument has a name such as "OUT".
   CLI::Option *value(const std::string &names, const char *type, const char *help, const Take &take);
   CLI::Option *text(const std::string &names, const char *type, const char *help, std::string &to);
   using TakeAll = std::function<void(const std::vector<std::string> &)>;

@@ -15,13 +15,14 @@ namespace {
 // The largest number of openings that riis states and riis size-field accept.
 constexpr std::int32_t most_states = 100001;
 
-// A name's position in the list is the value of its LandmarkWarp.
+// A name's position in the list is the value of its constant of LandmarkWarp.
 const std::vector<std::string> warp_names = {"none", "exact", "smoothed"};
 
-// A name's position in the list is the value of its UrisRing.
+// A name's position in the list is the value of its constant of UrisRing.
 const std::vector<std::string> ring_names = {"face", "none"};
 
-// Refuses numbers that are not above 0. RIIS_AUTO is a negative number, so a negative number of the user would be taken for it.
+// Refuses numbers that are not above 0. RIIS_AUTO is a negative number, so a negative number from the user would count as
+// RIIS_AUTO.
 double parse_positive(const std::string &text, const std::string &subject) {
   const double number = parse_number(text, subject);
   if (!(number > 0)) refuse_usage(subject + ": " + text + " is not above 0");
@@ -350,7 +351,7 @@ CLI::Option *declare_case(Command &command, SeriesOptions &series) {
                       series.case_file);
 }
 
-// Excludes the options of the command for which the case file has its own values.
+// Excludes the options whose values are in the case file.
 void exclude_by_case(const Command &command, CLI::Option *all_of_it) {
   for (const char *name :
        {"--surface", "--leaflets",      "--valve",         "--opening",        "--params",         "--params-open",

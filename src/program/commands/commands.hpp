@@ -13,12 +13,12 @@ namespace riis::program {
 // is measured at the times of its frames.
 void run_states(const StatesOptions &options);
 
-// Returns the options of a surface that is measured in the valve's own coordinates. Of the placement, only the scale is kept.
+// Returns the options of a surface that is measured in the valve's own coordinates. Only the scale of the placement is kept.
 // Without --tolerance, the triangles are finer than those of riis mark.
 riis_surface_options own_frame(const ValveOptions &options);
 
 // riis from-area, the inverse of riis states. In: an area, or areas in time. Out: for one area, a summary with the opening or the
-// size that gives this area. For areas in time, a cycle of openings.
+// size that gives this area. For areas in time, the result is a cycle of openings.
 void run_from_area(const AreaOptions &options);
 
 // riis place. In: landmarks of a patient. Prints the sizes and the placement of the valve: as a report, as a file for every
@@ -41,7 +41,7 @@ struct UrisExport {
 UrisExport write_uris(const ExportOptions &options, const std::string &named_folder);
 
 // riis size-field. In: valves and their motion. Out: a grid of edge lengths that gmsh reads. The edges are short near the valves.
-// Each edge length follows from the distance of the grid's point to the valves at all times.
+// Each edge length follows from the distance between the grid's point and the valves at all times.
 ExitCode run_size_field(const SizeFieldOptions &options);
 
 // In: the user's request. Out: the files, and the report on stdout. Returns exit_none_marked if no node was marked, unless the

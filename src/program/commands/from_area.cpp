@@ -68,8 +68,7 @@ class Search {
 
   const riis_valve *valve() const { return valve_; }
 
-  // Warns if a valve's size was found, but the band closes the gap of the valve when it is closed. Without a half thickness, the
-  // band is not known.
+  // Warns if the band closes the gap of a closed valve whose size was found. Without a half thickness, the band is not known.
   void judge_gap(const Solution &found) const {
     const bool is_size = options_.solve != "opening" && options_.solve != "scale";
     if (!is_size || !options_.has_half_thickness || opening_of(valve_) != 0) return;
@@ -101,7 +100,8 @@ class Search {
                              made->values.data(), made->reached.data(), &made->range, sizeof made->range);
   }
 
-  // Refuses the first area of the file that the valve cannot reach. Without such an area, refuses with the library's reason.
+  // Refuses the first area of the file that the valve cannot reach. If the valve can reach all areas, refuses with the library's
+  // reason.
   void refuse_row(const Areas &wanted, const std::string &reason) const {
     Solution all;
     if (call({}, &all) != RIIS_OK) throw Refusal{exit_wrong_usage, with_option_named(reason)};
@@ -118,7 +118,7 @@ class Search {
   riis_area_search search_ = defaults<riis_area_search>();
 };
 
-// Tells at which openings or sizes the area stops growing or falling, because several openings or sizes then have one area.
+// Tells where the area stops growing or falling. Several openings or sizes then have one area.
 void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
   if (range.n_turns == 0) return;
   std::vector<std::string> places;
@@ -130,7 +130,7 @@ void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
        "; of several solutions " + taken + " was found, and --from and --to lead to the others");
 }
 
-// The area of an adapted triangulation jumps by less than this share of the area, except for small areas.
+// With adapted triangles, the area jumps by less than this share of its value, except for small areas.
 constexpr double fair_error = 1e-4;
 
 void warn_of_jumps(const Areas &wanted, const Solution &found) {
@@ -160,7 +160,7 @@ std::string text_of_size(const AreaOptions &options, const riis_valve *valve, co
          summary_line("range", text_of_range(options, found.range)) + summary_line("cost", text_of_cost(found.range));
 }
 
-// Between two keys, the rate of a cubic is a parabola. The opening is therefore fastest at a key or at the parabola's vertex.
+// The rate of a cubic is a parabola between two keys. The opening is therefore fastest at a key or at the parabola's vertex.
 std::string text_of_rate(const OpeningLaw &law, std::vector<double> times, double period) {
   if (period > 0) times.push_back(times.front() + period);
   double fastest = 0, at = times.front();

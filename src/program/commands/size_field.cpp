@@ -29,11 +29,11 @@ namespace {
 // The largest number of points of the grid.
 constexpr std::int64_t most_field_points = 20'000'000;
 
-// Returns a law of motion in which the opening equals the time.
+// Returns a law of motion whose opening equals the time.
 OpeningLaw all_openings() { return OpeningLaw(OpeningTable{{0, 1}, {0, 1}}, ""); }
 
-// Returns the valves and their times. A valve of the command line without times moves through all openings if the user gave no
-// opening.
+// Returns the valves and their times. If neither times nor an opening are given, a valve of the command line moves through all
+// openings.
 Case case_of(const SizeFieldOptions &options) {
   const bool has_case = !options.series.case_file.empty();
   Case all = has_case ? read_case(options) : case_of_command_line(options);
@@ -154,7 +154,7 @@ Surface surface_of(const JoinedTriangles &triangles, double half_thickness) {
 }
 
 // Adds the triangles of one valve at all times to one surface. The distance to this joined surface is the least distance during
-// the whole motion, so each valve is marked only once. If the band has an offset, another joined surface has the rims at all
+// the whole motion, so each valve is marked only once. If the band has an offset, a second joined surface has the rims at all
 // times.
 void add_zones(MovingValve &valve, const Edges &edges, const Case &all, std::vector<Zone> &zones) {
   const std::vector<double> &times = all.options.series.times;
@@ -164,7 +164,7 @@ void add_zones(MovingValve &valve, const Edges &edges, const Case &all, std::vec
   for (std::size_t step = 0; step < times.size(); ++step) {
     progress.begin(step);
     valve.move_to(times[step]);
-    // An opening that occurs again is skipped, because its triangles are there already.
+    // An opening that occurs again is skipped, because its triangles have been added before.
     if (!valve.source().keyframes && !openings.insert(valve.opening().value_or(0)).second) continue;
     const riis_triangles triangles = triangles_of(valve.surface());
     swept.add(triangles, 0);
@@ -202,7 +202,7 @@ std::vector<double> lengths_at(const Grid &grid, const std::vector<Zone> &zones,
   const Stage stage("measuring the distances of the grid", options.quiet);
   const std::vector<double> xyz = grid.points();
   const auto mesh = create<Mesh>(riis_mesh_create, grid.n_points(), xyz.data(), xyz.data() + 1, xyz.data() + 2, 3);
-  // Most points of the grid are near the valves. The search in clusters is therefore the fastest.
+  // Most points of the grid are near the valves. Therefore the search in clusters is the fastest here.
   check(riis_mesh_prepare(mesh, options.mark_options.n_threads));
   const Marks marks = new_result();
   std::vector<double> lengths(static_cast<std::size_t>(grid.n_points()), zones[0].edges.largest);

@@ -178,15 +178,15 @@ States measure_states(const StatesOptions &options) {
 
 // ---- State table ----
 
-// The length of a free edge may change by this share of its closed length without a remark.
+// A free edge may become longer or shorter by this share before the summary mentions it.
 constexpr double fair_change = 0.1;
 // Lengths and areas count as equal if they differ by at most this share, because rounding alone can cause such a difference.
 constexpr double same = 1e-9;
 
 using StateValue = std::function<double(const State &)>;
 
-// Finds the state with the least value, and the state with the greatest value. If several states have equal values, finds the
-// first of them.
+// Finds the state with the least value, and the state with the greatest value. If several states have the extreme value, finds
+// the first of these states.
 struct Extremes {
   const State *least, *most;
 };
@@ -289,8 +289,8 @@ std::string text_of_changes(const States &states) {
   return text.empty() ? "all " + range : "not " + range + ": " + text;
 }
 
-// Returns names of columns: blanks and dashes in the names of leaflets become _. If a name has further characters, as "x > 0"
-// has, the names of all leaflets become numbers.
+// Returns names of columns: blanks and dashes in the names of leaflets become _. If a name has other special characters, as "x >
+// 0" has, all leaflets get numbers as names.
 std::vector<std::string> columns_of(const States &states) {
   std::vector<std::string> columns = states.names;
   bool are_words = true;
@@ -368,9 +368,9 @@ std::string summary_of(const States &states, const StatesOptions &options) {
 }  // namespace
 
 riis_surface_options own_frame(const ValveOptions &options) {
-  // Triangles have a slightly different orifice than the smooth surface of the valve. At the program's usual tolerance, the
-  // orifice of the prosthesis differs by up to 0.3 %. At the tolerance chosen here, the orifices of the prosthesis and of the
-  // aortic valve differ by at most about 0.1 %.
+  // The orifice of the triangles differs slightly from the orifice of the smooth valve. At the program's usual tolerance, the two
+  // orifices of the prosthesis differ by up to 0.3 %. At the tolerance chosen here, the two orifices differ by at most about 0.1
+  // % for the prosthesis and for the aortic valve.
   constexpr double fine_tolerance = 0.01;
   riis_surface_options own = options.surface_options;
   if (!options.has_tolerance) own.tolerance = fine_tolerance;

@@ -32,27 +32,27 @@ struct Case {
   std::string surface_of(std::size_t valve) const;
 };
 
-// Returns the valve or the surface of the command line as a case. The case takes the opening and the time from the options, or in
-// a series the times and the cycle. A surface is read here only for a series, because no output of a series may replace one of
-// the surface's frames.
+// Returns the valve or the surface of the command line as a case. The case takes the opening and the time from the options. In a
+// series it takes the times and the cycle. A surface is read here only for a series. No output of a series may replace a frame of
+// the surface.
 Case case_of_command_line(const MarkOptions &options);
 // Reads the valves' surfaces from files. A surface that was read before is not read again.
 void read_surfaces(Case &all);
 
-// Reads the case file of --case. This JSON file describes the valves of a mesh, their placements and their motions. Paths in the
-// file are relative to the file's folder. Refusals name the file, the valve and the key. The mesh, the times, the distance limit,
-// the resistance and the points of --between on the command line replace those of the case file.
+// Reads the case file of --case. The case file is a JSON file with the valves of a mesh, their placements and their motions.
+// Paths in the file are relative to the file's folder. Refusals name the file, the valve and the key. Some options of the command
+// line replace values of the case file: the mesh, the times, the distance limit, the resistance and the points of --between.
 Case read_case(const MarkOptions &options);
 
-// The law of the opening of a valve in a case.
+// The law for the opening of a valve in a case.
 struct CaseOpening {
   OpeningLaw law;
   std::string file;  // the file that was read, or "" if there was none
 };
 
-// Reads a number or an object. An object is {"file"} or {"times", "openings"}, each with "period" and "interpolation". Or it is
-// {"opening_start", "opening_duration", "closing_start", "closing_duration", "closed", "open", "period"}. in_folder turns a path
-// of the case file into a path relative to the working folder.
+// Reads a number or an object. An object is {"file"} or {"times", "openings"}, each with "period" and "interpolation". An object
+// may also be {"opening_start", "opening_duration", "closing_start", "closing_duration", "closed", "open", "period"}. in_folder
+// turns a path of the case file into a path relative to the working folder.
 CaseOpening case_opening(const CaseValues &valve, const std::function<std::string(const std::string &)> &in_folder);
 
 }  // namespace riis::program

@@ -241,7 +241,7 @@ class CaseReader {
     set_skirt(source.options, source.valve, source.subject);
   }
 
-  // Reads the warp, and warps the valve as at the first time.
+  // Reads the warp, and gives the valve its warp at the first time.
   void set_warp(const CaseValues &values, riis_valve *valve, ValveSource &source) {
     const std::vector<double> &times = all_.options.series.times;
     source.warp = read_warp(source.options);
@@ -256,7 +256,7 @@ class CaseReader {
     source.warp.apply(times.empty() ? 0 : times.front(), valve);
   }
 
-  // Sets parameters from an object, or from the file whose path is given.
+  // Sets parameters from an object. If a path is given, sets them from the file.
   void set_parameters_of(const CaseValues &values, const char *key, riis_valve *valve) {
     if (!values.has(key)) return;
     if (values.needed(key).is_string())
@@ -265,7 +265,7 @@ class CaseReader {
       set_from_json(valve, values.needed(key), values.subject() + ": " + key);
   }
 
-  // Sets the law of opening. Also opens the valve as far as the law opens it, which fails if the valve cannot open.
+  // Sets the law of opening. Also opens the valve as far as the law requires. This fails if the valve cannot open.
   void set_law(const CaseValues &values, riis_valve *valve, ValveSource &source) {
     const std::vector<double> &times = all_.options.series.times;
     source.law = OpeningLaw(opening_of(valve));
@@ -371,7 +371,7 @@ void read_valve(const MarkOptions &options, ValveSource &source) {
   }
   const SeriesOptions &series = options.series;
   source.law = OpeningLaw(read_cycle(series.cycle, options.period, series.interpolation), series.cycle);
-  // With this opening, make_valve refuses a file of patches that cannot open as far as the law opens it.
+  // make_valve gets the largest opening, and refuses a file of patches that cannot open so far.
   source.options.opening = largest_opening(source.law, options.series.times);
   source.valve = make_valve(source.options, OpeningCheck::yes, &source.warp);
 }

@@ -27,8 +27,9 @@ struct Side {
   std::int32_t leaflet;
 };
 
-// Sets of faces that are joined along sides, with the orientation of each face in its set. The number i stands for face i as it
-// is, and the number n + i stands for face i turned over. Two numbers are in one set if their faces have the same orientation.
+// Faces that are joined along sides, as disjoint sets. The sets also tell how the faces are oriented against each other. The
+// number i stands for face i as it is, and the number n + i stands for face i turned over. Two numbers are in one set if the
+// faces are joined and have the same orientation.
 class Pieces {
  public:
   explicit Pieces(std::int64_t n) : n_(n), sets_(2 * n) {}
@@ -41,8 +42,8 @@ class Pieces {
     const std::int64_t as_it_is = sets_.root(face), turned = sets_.root(n_ + face);
     return {std::min(as_it_is, turned), turned < as_it_is};
   }
-  // Joins two faces, whose orientations agree or differ. `turned` tells that the orientations differ. If the two faces are in one
-  // piece already, nothing changes.
+  // Joins two faces, whose orientations agree or differ. `turned` tells whether the orientations differ. If the two faces are in
+  // one piece already, nothing changes.
   void join(std::int64_t one, std::int64_t other, bool turned) {
     if (find(one).piece == find(other).piece) return;
     sets_.unite(one, turned ? n_ + other : other);
@@ -93,7 +94,7 @@ class FaceCheck {
     return view(places_)[triangles_.vertex_id[3 * face + k % 3]];
   }
 
-  // Returns all faces with different corners. Of several faces with the same corners, returns only the first.
+  // Returns the faces that have different corners. Of several faces with the same corners, returns only the first.
   std::vector<std::int64_t> different_faces() const {
     using Key = std::array<std::int64_t, 3>;
     std::vector<std::pair<Key, std::int64_t>> sorted;
@@ -109,8 +110,8 @@ class FaceCheck {
     return faces;
   }
 
-  // Joins the faces of one leaflet that share a side. For each face, returns whether one of its sides is open. A side that more
-  // than two faces share joins no faces.
+  // Joins the faces of one leaflet that share a side. For each face, returns whether one of its sides is open. If more than two
+  // faces share a side, the side joins none of them.
   std::vector<char> join_along_sides(const std::vector<std::int64_t> &faces, Pieces &pieces) const {
     std::vector<Side> sides;
     for (const std::int64_t face : faces)

@@ -16,7 +16,7 @@ namespace riis::program {
 namespace {
 
 // The words for leaflets: of a valve with three cusps, of a tricuspid valve, and of a valve with any number of cusps. A longer
-// word such as non_coronary comes before its beginning, non.
+// word, such as non_coronary, stands before a word with which it begins, such as non.
 struct LeafletWord {
   const char *word;
   std::int32_t leaflet_id;
@@ -25,8 +25,7 @@ constexpr LeafletWord leaflet_words[] = {{"right", 0},    {"left", 1},   {"non_c
                                          {"anterior", 0}, {"septal", 1}, {"posterior", 2},    {"cusp_0", 0},
                                          {"cusp_1", 1},   {"cusp_2", 2}, {"cusp_3", 3}};
 
-// The words for the roles of landmarks. Some words may name several landmarks, because a valve has several landmarks with that
-// role.
+// The words for the roles of landmarks. Some words may name several landmarks, because a valve has several landmarks of one role.
 struct RoleWord {
   const char *word;
   std::int32_t role;
@@ -63,8 +62,8 @@ bool is_number(const std::string &text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// Takes a leaflet's name from the start of the text. Returns the id of the leaflet, or -1 if the text does not begin with such a
-// name.
+// Removes a leaflet's name from the beginning of the text. Returns the id of the leaflet, or -1 if the text does not begin with a
+// leaflet's name.
 std::int32_t take_leaflet(std::string &text) {
   for (const auto &[name, leaflet_id] : leaflet_words) {
     const std::string word = name;
@@ -75,8 +74,8 @@ std::int32_t take_leaflet(std::string &text) {
   return -1;
 }
 
-// Reads the name of a landmark, which begins with the word of a role. A number may follow, a leaflet after a nadir, or two
-// leaflets after a commissure. After the word attachment, a leaflet and a number may follow.
+// Reads the name of a landmark, which begins with the word of a role. After the word, there may be a number, the leaflet of a
+// nadir, or the two leaflets of a commissure. After the word attachment, a leaflet and a number may follow.
 std::optional<Place> place_of_name(const std::string &name) {
   const std::string text = plain(name);
   for (const RoleWord &known : role_words) {
@@ -222,8 +221,8 @@ void read_json(const Json &root, LandmarkFile &file) {
       to.add(name, point_of(file.path, quoted(name), value));
       continue;
     }
-    // The points of a list get numbered names if several landmarks may have the name. If only one landmark may have the name, the
-    // list must have one point.
+    // If several landmarks may have a name, the points of a list get the name with a number. If only one landmark may have the
+    // name, the list must have one point.
     const std::optional<Place> place = place_of_name(name);
     for (std::size_t i = 0; i < value.size(); ++i) {
       const std::string own = place && place->may_repeat ? name + "_" + std::to_string(i + 1) : name;

@@ -48,9 +48,9 @@ class PassingFolder {
   const TemporaryFolder folder_;
 };
 
-// Limits the memory of this process, because damaged files may claim any size. Reading an undamaged file needs a few times the
-// file's size in memory, and a thousand times the size if the file is compressed. Builds with the address sanitizer have no
-// limit, because the sanitizer reserves terabytes.
+// Limits the memory of this process, because damaged files may claim any size. Reading needs a few times the size of an undamaged
+// file in memory. For a compressed file, it may need a thousand times the size. Builds with the address sanitizer have no limit,
+// because the sanitizer reserves terabytes.
 void limit_memory([[maybe_unused]] const std::string &path) {
 #ifndef __SANITIZE_ADDRESS__
   std::error_code error;
@@ -78,7 +78,7 @@ struct Answer {
 
 // Reads the mesh, writes it to a .vtu file, and sends the result through the pipe.
 [[noreturn]] void read_as_child(const std::string &path, const std::string &passed, int answer, pid_t parent) {
-  // Readers print their own errors, which are discarded here. The child process sends its message through the pipe.
+  // Readers print their own errors, which go nowhere here. The child process sends its message through the pipe.
   const int nowhere = open("/dev/null", O_WRONLY);
   // The child process ends with its parent, and does not remove the parent's files.
   for (const int ending : UnbrokenWrite::signals)

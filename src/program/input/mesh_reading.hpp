@@ -9,10 +9,10 @@
 
 namespace riis::program {
 
-// Reads a mesh. Keeps the reader's note for the summary, for example that the file has single precision. `cells_where` chooses
-// cells of the mesh. "" chooses all cells.
+// Reads a mesh. Keeps a note of the reader for the summary. For example, a note says that the file has single precision.
+// `cells_where` chooses cells of the mesh. "" chooses all cells.
 MeshFile read_mesh_file(const std::string &path, const std::string &cells_where);
-// Returns a sentence about domains that touch. Returns "" if no cell array tells domains apart.
+// Returns a sentence about the domains of the mesh if they touch. Returns "" if no cell array tells domains apart.
 std::string text_of_regions(const std::string &path, riis_vtk_mesh *mesh);
 // Returns the existing files from which an .xdmf file takes its numbers. Returns none for files of other formats.
 std::vector<std::string> data_files_of(const std::string &path);

@@ -81,7 +81,7 @@ const std::vector<std::string> &interpolation_names() {
 
 namespace {
 
-// The library limits tables in the same way.
+// The library has the same limits for a table.
 constexpr std::size_t most_keys = 1000000;
 constexpr double largest_key_time = 1e30;
 

@@ -131,7 +131,7 @@ Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
           text_of(parameter.minimum) + " to " + text_of(parameter.maximum), description_of(parameter)};
 }
 
-// The rows of a numbered part of the valve, such as bump_0, or the row of a parameter without such a part.
+// The rows of a numbered part of the valve, such as bump_0. A parameter without a numbered part has a row alone.
 struct Part {
   std::string name;  // "" without a number
   std::vector<Row> rows;
@@ -144,7 +144,7 @@ std::string numbered_part(const std::string &name) {
   return has_number ? name.substr(0, dot) : "";
 }
 
-// Returns the rows of the table. The rows of one part are neighbours.
+// Returns the rows of the table. The rows of a part follow each other.
 std::vector<Part> parts_of(const riis_valve *valve) {
   std::vector<Part> parts = {{"", {{"name", "value", "unit", "range", "description"}}}};
   for (const riis_parameter &parameter : all_parameters(valve)) {
@@ -157,7 +157,7 @@ std::vector<Part> parts_of(const riis_valve *valve) {
   return parts;
 }
 
-// Returns whether two parts have names and rows that differ only in their numbers.
+// Returns whether two parts of the valve differ only in their numbers.
 bool are_alike(const Part &a, const Part &b) {
   const auto without_number = [](const Part &part) {
     std::string text = part.name.substr(0, part.name.find_last_not_of("0123456789") + 1);
@@ -168,7 +168,7 @@ bool are_alike(const Part &a, const Part &b) {
   return !a.name.empty() && !b.name.empty() && without_number(a) == without_number(b);
 }
 
-// Returns whether a part is a bump that has no place. A bump without a place does nothing.
+// Returns whether a part of the valve is a bump without a place. A bump without a place does nothing.
 bool is_idle_bump(const riis_valve *valve, const std::string &part) {
   const auto has_no = [&](const char *place) {
     double number = 0;

@@ -47,7 +47,7 @@ std::string held_names(std::vector<std::string> given, const LandmarkFile &landm
   return joined_by(held, " ");
 }
 
-// Returns the library's message with the names of the landmarks in the file, and the file's words for fields.
+// Returns the library's message, in which the names of landmarks and fields are those of the file.
 std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
   static const std::regex numbered("landmark ([0-9]+)( \\([^)]*\\))?");
   std::string named;
@@ -93,7 +93,7 @@ std::vector<double> distances_from(riis_valve *valve, riis_surface_options where
   return distances_to(create<Surface>(riis_surface_create, valve, &where), xyz);
 }
 
-// Finds the pairs of landmarks for the warp. Refuses two landmarks if no warp can meet both.
+// Finds the pairs of landmarks for the warp. Refuses two landmarks if no warp can take both to their places.
 void pair_landmarks(Placed &placed, bool is_exact) {
   const LandmarkFile &landmarks = placed.landmarks;
   const auto apart = [](const std::vector<double> &xyz, std::size_t i, std::size_t k) {
@@ -145,8 +145,8 @@ Warp unfolded_warp(const Placed &placed, riis_valve *valve, double noise, Reader
   return warp;
 }
 
-// Returns advice for a warp that meets the landmarks but folds. For the advice, a warp is tried that is smoothed by the
-// landmarks' noise.
+// Returns advice for a warp that meets the landmarks but folds. For this advice, a warp is tried that the landmarks' noise
+// smooths.
 std::string cure_of_folds(const Placed &placed, const riis_valve *valve, Reader reader) {
   const std::string smoothed = option_text(reader, "warp", "smoothed"),
                     look = "look for a landmark that is not at its place";
@@ -328,7 +328,7 @@ std::string filled(const std::string &text, std::size_t width) {
   return text + std::string(std::max(width, text.size() + 1) - text.size(), ' ');
 }
 
-// Returns a distance from the valve as text. A distance below the error of such distances becomes 0.
+// Returns a distance from the valve as text. A distance that is smaller than the error of measured distances becomes 0.
 std::string distance_text(double distance, double centimetre) {
   return distance > distance_error * centimetre ? digits(distance, 3) : "0";
 }

@@ -63,8 +63,8 @@ struct PlaceRequest {
 };
 // Changes the landmarks' unit and axes as the user requests.
 void adapt(LandmarkFile &landmarks, const PlaceRequest &request);
-// Returns the kind of valve that the user named. Without one, returns the kind of the landmarks' file, or "". Refuses the two
-// kinds if they differ.
+// Returns the kind of valve that the user named. If the user named no kind, returns the kind of the landmarks' file, or "".
+// Refuses the two kinds if they differ.
 std::string kind_of(const LandmarkFile &landmarks, const std::string &given, Reader reader);
 
 // A size of the valve.
@@ -101,16 +101,16 @@ Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, cons
 
 // Warps the valve to the landmarks, and returns the warp. The noise smooths the warp. With a noise of 0 the warp meets the
 // landmarks. Refuses a warp if the valve folds at one of five openings. The message says whether smoothing the warp helps. Other
-// commands check each opening that they use.
+// commands check the openings that they use.
 Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader reader);
 
 // Refuses landmarks that are far from the given nodes of a mesh, (3, n_nodes). `of`, such as " of mesh.vtu", names the mesh in
-// the message. If the landmarks would fit the nodes with other axes or in another unit, the message says so.
+// the message. If other axes or another unit would bring the landmarks to the nodes, the message says so.
 void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const double *nodes, const std::string &of,
                     Reader reader);
 
 std::string place_report(const Placed &placed, Reader reader);
-// Returns the file of a placed valve. The second function writes the valve's present parameters into such a file.
+// Returns the file of a placed valve. The second function writes a file of a placed valve with the valve's present parameters.
 std::string placed_file_of(const Placed &placed, const riis_valve *valve);
 std::string with_parameters_of(const std::string &placed_file, const riis_valve *valve);
 

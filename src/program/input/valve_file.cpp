@@ -231,8 +231,7 @@ ValveFile::ValveFile(const std::string &path) {
 
 namespace {
 
-// Returns whether the file is a JSON file that names a kind of valve. Files that cannot be read are refused later, by their own
-// reader.
+// Returns whether the file is a JSON file that names a kind of valve. If a file cannot be read, its own reader refuses it later.
 bool names_kind(const std::string &path) {
   std::ifstream file(path);
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

@@ -154,7 +154,7 @@ Surface surface_at(riis_valve *valve, double opening, const riis_surface_options
   return surface;
 }
 
-// Tries the valve only at opening 1. If a valve is valid at opening 0 and refused at opening 1, it has only one state. Other
+// Tries the valve only at opening 1. If a valve is accepted at opening 0 and refused at opening 1, it has only one state. Other
 // faults are reported when the surface is made.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
   check(riis_valve_set_scalar(valve, "opening", 1));
@@ -222,7 +222,7 @@ Surface make_surface(const ValveSource &source, FileVelocity velocity) {
 
 namespace {
 
-// The name of a leaflet in files, and its name for people.
+// The name of a leaflet in files, and the name that users see.
 struct LeafletName {
   std::string in_files, shown;
 };
@@ -333,7 +333,7 @@ const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".
 const std::set<std::string> cad_files = {".step", ".stp", ".iges", ".igs", ".brep"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2", ".med", ".wrl"};
 const std::set<std::string> surfaces_of_meshio = {".off"};
-// meshio writes all faces of these files to a .vtu file. To a .stl file, meshio writes only triangles.
+// From a file with such an ending, meshio writes all faces to a .vtu file. To a .stl file, meshio writes only triangles.
 const std::set<std::string> faces_of_meshio = {".xdmf", ".xmf", ".inp", ".e", ".exo", ".avs", ".mdpa", ".vol"};
 const std::set<std::string> surfaces_of_paraview = {".vtkhdf", ".pvtp", ".vtm"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
@@ -350,7 +350,7 @@ std::string by_gmsh(const std::string &path, const char *format) {
          with_ending(path, format);
 }
 
-// gmsh writes elements of order 3 and more to a .vtk with their nodes in another order than VTK's.
+// gmsh writes elements of order 3 and more to a .vtk file with their nodes in the wrong order.
 std::string at_order_2(const std::string &path) {
   if (path.find_first_of("'\"\\") != std::string::npos) return "";
   const std::string lowered = fs::path(path).replace_extension().string() + "_order2.msh";
@@ -409,7 +409,7 @@ std::string hint_for_msh(const std::string &path, const std::string &refusal) {
 
 std::string conversion_hint(const std::string &path, Content wanted, const std::string &refusal) {
   const std::string ending = ending_of(path);
-  // In a refusal, other characters replace control characters. A path with control characters therefore gets no hint, because the
+  // In a refusal, question marks replace control characters. If a path has control characters, there is no hint, because the
   // printed command would not work.
   if (std::any_of(path.begin(), path.end(), is_control) || has_text(refusal, "Git LFS")) return "";
   if (wanted == Content::mesh) {

@@ -57,7 +57,7 @@ double opening_of(const riis_valve *valve);
 std::vector<double> openings_from_0_to_1(std::int32_t n);
 Valve copy_of(const riis_valve *valve);
 // Returns the surface at an opening that the program chose, or null if the valve cannot have this opening. After the call, the
-// valve has this opening.
+// valve has the opening that was tried.
 Surface surface_at(riis_valve *valve, double opening, const riis_surface_options &how);
 // Returns the library's reason why the valve cannot open, or "" if it can. The valve must allow a surface at opening 0 with these
 // options. After the call, the valve has opening 1.
@@ -79,8 +79,8 @@ enum class FileVelocity { none, zero };
 // Makes the surface. A moving surface is taken at options.time, and it has velocities.
 Surface make_surface(const ValveSource &source, FileVelocity velocity);
 
-// Returns the name of a leaflet, or the given word with the leaflet's number. If each leaflet has a file, the leaflet's name is
-// the name of the file.
+// Returns the name of a leaflet. A leaflet without a name has the given word and its number. If each leaflet has a file, the
+// leaflet's name is the name of the file.
 std::string name_of_leaflet(const ValveOptions &options, const riis_surface_info &surface, std::int32_t leaflet,
                             const char *word = "leaflet ");
 // Returns the name of a kind's leaflet. The name consists of letters, digits and _.

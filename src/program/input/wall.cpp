@@ -22,14 +22,14 @@ namespace {
 
 // The number of openings at which the wall must be near enough.
 constexpr std::int32_t n_openings = 11;
-// The gap and the skirt are measured at different points, so the gap may be longer than the skirt by this share.
+// The gap is measured at other points than the skirt, so the gap may be longer than the skirt by this share.
 constexpr double most_beyond = 0.01;
 // An open line of the wall counts as a hole if its length is below this share of the attachment's length. The end of a vessel is
 // a longer line.
 constexpr double longest_hole = 0.3;
 
-// A change of a wall against its file: a factor of its lengths, and whether it is turned half around z, as between the axes LPS
-// and RAS.
+// A wall that differs from its file: its lengths are multiplied by a factor, or it is turned by half a turn about z, as between
+// the axes LPS and RAS.
 struct Change {
   const char *factor;
   bool is_turned;
@@ -55,7 +55,7 @@ std::string axes_advice(const ValveOptions &options) {
 }
 
 // Returns a hint if the skirt would reach the wall in another unit or with other axes. Otherwise returns "". The function
-// `reaches` tries a changed wall.
+// `reaches` tells whether the skirt reaches a changed wall.
 template <class Reaches>
 std::string hint_of_change(const ValveOptions &options, const SurfaceFile &file, const Reaches &reaches) {
   for (const Change change : {Change{"1", true}, Change{"0.1", false}, Change{"10", false}, Change{"0.01", false},

@@ -33,7 +33,7 @@ class SkirtOfFile {
   std::vector<double> lengths_;  // which arrays_ borrows
   Surface wall_;                 // null without --skirt and --wall
 };
-// If the library refuses the arrays, adds to the refusal how a file names the attached vertices.
+// If the library refuses the arrays, the refusal also says how a file names the attached vertices.
 std::string with_attached_array(std::string text);
 
 // Reads a wall from the file of a surface or of a volume mesh. The boundary of a volume mesh is its wall.

@@ -46,11 +46,11 @@ class WarpSource {
 
   bool is_empty() const { return pairs_.empty(); }
   bool moves() const;
-  // Returns the landmarks of the closed state. If the open state has landmarks, they follow.
+  // Returns the landmarks of the closed state. If the open state has landmarks of its own, these follow.
   const std::vector<LandmarkPairs> &pairs() const { return pairs_; }
   bool is_in_mesh() const { return is_in_mesh_; }  // whether the landmarks are in the mesh's coordinates
   double noise() const { return noise_; }
-  // Warps the valve as at the given time.
+  // Gives the valve its warp at the given time.
   void apply(double time, riis_valve *valve);
 
  private:

@@ -27,8 +27,8 @@ riis_crossing_list crossings_of(const ValveOptions &options, const riis_surface 
   return found;
 }
 
-// Returns options that measure distances to triangles. Crossings do not depend on the measure of distances, and this measure is
-// the fastest to prepare.
+// Returns options that measure distances to triangles. Crossings do not depend on how distances are measured, and distances to
+// triangles are the fastest to prepare.
 riis_surface_options by_triangles(const ValveOptions &options, std::int32_t triangulation) {
   riis_surface_options how = options.surface_options;
   how.triangulation = triangulation;
@@ -67,8 +67,8 @@ void warn_of_crossings(const ValveOptions &options, const riis_surface_info &sur
                     second = name_of_leaflet(options, surface, found.deepest_leaflet_id[1], "");
   const std::string who =
       is_one_leaflet ? "leaflet " + first + " crosses itself" : "leaflets " + first + " and " + second + " cross";
-  // place_text rounds a position by the length of an edge. Here it gets the mean length of the triangles' intersections, which is
-  // about an edge's length.
+  // place_text rounds a position by the length of an edge. The mean length of the triangles' intersections is about an edge's
+  // length.
   warn((part.empty() ? "" : part + ": ") + who + at + ": " + counted(found.n_pairs, "pair") +
        " of triangles go through each other, along a length of " + shown(found.total_length) + "; the deepest is " +
        shown(found.deepest_depth) + " deep, at " +

@@ -53,7 +53,7 @@ double rounded_up(double x) {
 }  // namespace
 
 // Each half thickness must be tried, because the triangles of a valve depend on the half thickness. The triangles of a file do
-// not depend on it.
+// not depend on the half thickness.
 double closing_half_thickness(const riis_valve *valve, double half_thickness, const Left &left) {
   constexpr int n_tries = 8;
   double wanted = rounded_up(half_thickness);
@@ -118,7 +118,7 @@ void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const s
       (is_one ? "1 edge of length " + length + " crosses it between two unmarked nodes"
               : grouped(leaks.n_edges) + " edges cross it between two unmarked nodes, the longest (" + length + ")") +
       " at " + place_text(options, leaks.longest_middle, leaks.longest_length);
-  // If the band has an offset, shorter edges leak at sharp corners of a rim, and still shorter edges leak where a rim turns
+  // If the band has an offset, shorter edges leak at sharp corners of a rim, and the shortest edges leak where a rim turns
   // sharply (docs/theory/marks.md, "Offset").
   const double offset = options.surface_options.offset, safe = 2 * std::sqrt((1 - offset) * (1 + offset));
   std::string advice = "; ";
@@ -154,7 +154,7 @@ void MeshLeaks::add(Piece &piece, riis_marks *marks) {
 
 void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks, double half_thickness,
                     bool is_complete, std::vector<KeyedEdge> &to) const {
-  // Short edges may leak if marks may be missing, or if distances are not measured to the triangles.
+  // Short edges may also leak if marks may be missing, or if distances are not measured to the triangles.
   const bool is_exact = is_complete && options_.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const std::int32_t n_threads = options_.mark_options.n_threads;
   Adjacency adjacency;

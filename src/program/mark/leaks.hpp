@@ -19,7 +19,7 @@
 
 namespace riis::program {
 
-// An edge between two nodes. Several pieces of the mesh may have these nodes.
+// An edge between two nodes. The two nodes may be in several pieces of the mesh.
 struct KeyedEdge {
   NodeKey p, q;  // p < q
   double length, distance, middle[3];
@@ -38,9 +38,9 @@ double closing_half_thickness(const riis_valve *valve, double half_thickness, co
 // Makes the surface of a valve with another half thickness.
 Surface with_half_thickness(const MarkOptions &options, const riis_valve *valve, double half_thickness);
 
-// Returns the length of a skirt that closes the leaks of a surface from a file, or 0 if no tried length closes them. The given
-// half thickness closes the leaks, and is about as large as the gaps to the wall. `closes` tells whether a surface has no leak.
-// Returns 0 for a parametric valve, and for a surface that has a skirt.
+// Returns the length of a skirt that closes the leaks of a surface from a file, or 0 if no tried length closes them. With the
+// given half thickness there is no leak, and it is about as large as the gaps to the wall. `closes` tells whether a surface has
+// no leak. Returns 0 for a parametric valve, and for a surface that has a skirt.
 double closing_skirt(const MarkOptions &options, const riis_surface *surface, double half_thickness,
                      const std::function<bool(const riis_surface *)> &closes);
 

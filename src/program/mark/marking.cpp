@@ -112,7 +112,8 @@ std::vector<std::string> names_of_marks(const std::string &prefix, int32_t field
   return names;
 }
 
-// Moves each valve to the time with the least or the largest opening, as `order` says. Of several such times, takes the first.
+// Moves each valve to the time with the least or the largest opening, as `order` says. If several times have this opening, takes
+// the first.
 template <class Order>
 void move_to_first(const std::vector<double> &times, std::vector<MovingValve> &valves, Order order) {
   for (MovingValve &valve : valves) {
@@ -263,7 +264,7 @@ void Marking::measure(Piece &piece) {
     combine(sums.marks, valves_[i].stats());
     sums.leaks.add(piece, valves_[i].result());
     for (LeafletsOutside &state : sums.outside) state.add(piece);
-    // The closed valve is judged only if the open valve is outside the mesh. If a mesh is in pieces, this is known only after the
+    // The closed valve is judged only if the open valve is outside the mesh. In a mesh in pieces, this is known only after the
     // last piece.
     const bool may_be_outside =
         !mesh_.is_whole() || std::any_of(sums.outside.begin(), sums.outside.end(), [](const LeafletsOutside &state) {
@@ -392,7 +393,7 @@ void Marking::report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts
   report.leaks.n_cells_left_out = counts.n_cells_left_out;
 }
 
-// Warns of suspicious marks. Each valve is judged at the time at which it marks the most nodes.
+// Warns of suspicious marks. Each valve is judged at the time when it marks the most nodes.
 void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
   std::vector<Warning> warnings;
   bool are_complete = true;

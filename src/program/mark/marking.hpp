@@ -70,7 +70,8 @@ class Marking {
   std::vector<std::string> names_of_arrays() const;
   // Returns the report of a valve's surface at its present position.
   ValveReport report_of(std::size_t i);
-  // The kinds of node counts: the marked nodes at each step, then the nodes within the distance limit at the least opening.
+  // The node counts have several kinds: the marked nodes at each step, and the nodes within the distance limit at the least
+  // opening.
   std::size_t marked_at(std::size_t step, std::size_t valve) const { return step * valves_.size() + valve; }
   std::size_t within_limit(std::size_t valve) const { return marked_at(times_.size(), valve); }
 
@@ -107,9 +108,9 @@ class Marking {
   PassageCheck passage_;
 };
 
-// The driver of riis mark, surface, check leaks and check crossings. The work of a run is its valves times its times times its
-// pieces. A whole mesh counts as one piece, a single state as one time, and a valve of the command line as a case with one valve.
-// Without a mesh there are no pieces.
+// The common code of riis mark, riis surface, riis check leaks and riis check crossings. A run works on all its valves, at all
+// its times, in all its pieces. A whole mesh counts as one piece, a single state as one time, and a valve of the command line as
+// a case with one valve. Without a mesh there are no pieces.
 //     case -> surfaces -> pieces, read one by one -> marks, leaks, measures -> files -> report
 
 // Reads the case or the valve of the options, marks the mesh, writes the files and prints the report. Returns exit_none_marked if

@@ -34,7 +34,7 @@ void check_options_of_pieces(const MarkOptions &options) {
             "this search walks through the whole mesh");
 }
 
-// Refuses options that have an effect only in a series if there is no series.
+// If there is no series, refuses the options that have an effect only in a series.
 void check_one_time(const MarkOptions &options) {
   const SeriesOptions &series = options.series;
   const auto refuse_if = [&](bool is_given, const std::string &option) {
@@ -74,8 +74,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// For --steps, measures the time that a step of a moving valve takes. The mesh is prepared for many markings. The function moves
-// the opening of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step. Throws a
+// For --steps, measures how long a step of a moving valve takes. The mesh is prepared for many markings. The function moves the
+// opening of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step. Throws a
 // Refusal for a valve that cannot move.
 StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file) {
   const Stage stage("timing " + std::to_string(options.n_steps) + " steps", options.quiet);

@@ -16,12 +16,12 @@ namespace riis::program {
 Marks new_result();
 // Marks the nodes of a mesh by a surface.
 Marks marks_of(const riis_surface *surface, riis_mesh *mesh, const riis_mark_options &how);
-// Returns the options for marking with a surface that is not the user's. Any search is allowed, and distances go up to a limit.
+// Returns options for marks by a surface that the user did not choose. Any search is allowed, and distances go up to a limit.
 riis_mark_options how_to_mark_again(const MarkOptions &options, double limit = RIIS_AUTO);
 
 bool needs_adjacency(int32_t search);
 
-// K and K u_surface at every node. Each is a sum over the valves that have a resistance.
+// K and K u_surface at every node. Each of these fields is a sum over the valves that have a resistance.
 class ResistanceSum {
  public:
   enum class WithVelocity { no, yes };
@@ -99,8 +99,8 @@ class FileNodes {
   }
   double longest_edge(std::int64_t node) const;
 
-  // While an object of this type lives, the library's mesh has these neighbours or the given rows. The neighbours of a grid are
-  // always its own.
+  // While an object of this type lives, the library's mesh has the neighbours of this object, or the given rows of neighbours. A
+  // grid always has the neighbours that follow from its axes.
   class Lent {
    public:
     explicit Lent(const FileNodes &nodes) : Lent(nodes, nodes.rows_) {}

@@ -48,7 +48,7 @@ class MeshPieces {
   const std::vector<std::string> &files() const { return files_; }
   bool is_whole() const { return is_whole_; }
   const std::string &cells_where() const { return options_.cells_where; }
-  // Warns of domains that touch if the user chose no domain. The warning covers the pieces that this rank has read.
+  // If the user chose no domain, warns of domains that touch. The warning covers the pieces that this rank has read.
   void warn_of_regions() const;
   // Calls `work` with each of this rank's pieces in ascending order. With `is_wanted`, calls `work` only for the pieces whose
   // numbers `is_wanted` accepts. A failure ends the run on all ranks. Adds the time of reading to `seconds`, if this is not NULL.
@@ -144,7 +144,7 @@ MeshCounts sum_of(const MeshCounts &own, const MeshPieces &mesh);
 template <class Thing>
 class JoinedSets {
  public:
-  // Unites the sets of two things, and returns whether these were two different sets.
+  // Unites the sets of two things. Returns whether the two sets were different.
   bool unite(const Thing &a, const Thing &b) { return sets_.unite(number(a), number(b)); }
   bool are_joined(const Thing &a, const Thing &b) { return sets_.root(number(a)) == sets_.root(number(b)); }
 
@@ -186,7 +186,7 @@ struct MatchedNodes {
   std::int64_t n_nodes = 0, n_in_several = 0;  // all nodes, and the nodes that more than one piece has
   std::vector<JoinedRegions> joined{};
 
-  // Returns by how much the joins reduce the number of separate regions.
+  // Returns by how much the number of separate regions falls when regions are joined.
   std::int64_t n_joins() const;
 };
 
@@ -220,7 +220,7 @@ class NodeCounts {
  public:
   explicit NodeCounts(std::size_t n_kinds) : n_inside_(n_kinds) {}
   void add(const PieceNodes &nodes, const riis_mark_list &list, std::size_t kind);
-  // For each kind, returns the number of its nodes in all pieces of all ranks. Each node counts at most once for a kind.
+  // For each kind, returns the number of nodes in all pieces of all ranks. Each node counts at most once for a kind.
   std::vector<std::int64_t> sums() const;
 
  private:

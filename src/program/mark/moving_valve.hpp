@@ -19,13 +19,13 @@ namespace riis::program {
 
 class MovingValve {
  public:
-  // Borrows the source, and makes the valve's surface at the given time. `moves` tells that the valve will move to other times,
-  // and that it has velocities.
+  // Keeps a reference to the source, and makes the valve's surface at the given time. `moves` tells whether the valve will move
+  // to other times and have velocities.
   MovingValve(ValveSource &source, double time, bool moves);
 
   // Moves the surface to a time. If an earlier time is given, the surface also gets its mean velocities since that time.
   void move_to(double time, std::optional<double> since = std::nullopt);
-  // Marks the nodes and computes `fields`, a sum of constants RIIS_FIELD_*. Velocities are available if the last move had an
+  // Marks the nodes and computes `fields`, a sum of constants RIIS_FIELD_*. Velocities are known only if the last move had an
   // earlier time.
   void mark(FileNodes &nodes, int32_t fields);
   // Forgets the marks of the last call. With the old marks, a search in another mesh would begin at wrong nodes.
@@ -64,7 +64,7 @@ class JoinedTriangles {
  public:
   // Adds the triangles of a surface. The ids of the surface's leaflets begin at `first_leaflet`.
   void add(const riis_triangles &triangles, std::int32_t first_leaflet);
-  // Returns arrays that borrow all triangles.
+  // Returns arrays that refer to all triangles.
   riis_surface_arrays arrays() const;
 
  private:

@@ -23,9 +23,9 @@ class LeafletsOutside {
   LeafletsOutside(const MarkOptions &options, const riis_surface *surface, std::optional<double> opening);
   void add(const Piece &piece);
   std::optional<double> opening() const { return opening_; }
-  // Returns the share of the area outside the pieces that this rank has added so far.
+  // Returns the share of the area that is outside all pieces of this rank so far.
   double share_so_far() const { return share_of(is_outside_); }
-  // Returns the shares of the area outside the pieces of all ranks.
+  // Returns the shares of the area that are outside the pieces of all ranks.
   OutsideReport report() const;
 
  private:
@@ -39,7 +39,7 @@ class LeafletsOutside {
 };
 
 // Warns if more than a small share of the leaflets is outside the mesh. Open leaflets may rightly lie against the wall and reach
-// into it. The closed state, `closed`, therefore decides whether the valve stands at a wrong place. A surface from a file has no
+// into it. The closed state, `closed`, therefore decides whether the valve stands in a wrong place. A surface from a file has no
 // `closed`. In the warning, `name` names the surface.
 void warn_of_outside(const OutsideReport &report, const std::optional<OutsideReport> &closed, double half_thickness,
                      const std::string &name);

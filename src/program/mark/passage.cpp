@@ -27,7 +27,7 @@ std::string text_of(const double *point) { return numbers_text(point, 3, " "); }
 // reason.
 void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd> &nearest, const std::string &name,
                const Box &box, const std::string &why_none) {
-  // A point inside a cell is at most one edge length away from a node of the cell. The limit of the distance is two edge lengths.
+  // A point inside a cell is at most one edge length away from a node of the cell. The distance may be up to two edge lengths.
   constexpr double edges_away = 2;
   const LeakCheck &asked = *options.check_leaks;
   const double *const point = asked.point(end);
@@ -101,12 +101,12 @@ riis_passage passage_in(const Piece &piece, const MarkOptions &options, const ri
 
 // ---- The widest passage in pieces ----
 //
-// Each piece is reduced to the ways between its shared nodes. A node's distance is the least half thickness that marks the node.
-// If the band has no offset, this is the distance of the node from the surface. At first, all nodes beyond a limit are open, and
-// their connected regions are labelled. After that, the nearer nodes are opened one by one, from far to near. If a node joins two
-// sets, and each set has a shared node or an end, the node becomes a link. The distance of the link is the distance of this node.
-// Regions of different pieces are joined if they have a common node. After that, links are opened from far to near until the two
-// ends are joined. If the two ends are joined before any link is opened, the limit was too small.
+// Each piece is reduced to the ways that join its shared nodes. A node's distance is the least half thickness that marks the
+// node. If the band has no offset, this is the distance of the node from the surface. At first, all nodes beyond a limit are
+// open, and their connected regions are labelled. After that, the nearer nodes are opened one by one, from far to near. If a node
+// joins two sets, and each of the two has a shared node or an end, the node becomes a link. The distance of the link is the
+// distance of this node. Regions of different pieces are joined if they have a common node. After that, links are opened from far
+// to near until the two ends are joined. If the two ends are joined before any link is opened, the limit was too small.
 
 namespace {
 
@@ -124,7 +124,7 @@ struct PassageNode {
   std::int64_t id, piece;
   NodeKey key;
 
-  // Puts the farthest node first and, among equal distances, the lowest id first.
+  // Sorts nodes from far to near. If distances are equal, sorts by the id.
   bool operator<(const PassageNode &other) const {
     return distance != other.distance ? distance > other.distance
                                       : std::tie(id, piece) < std::tie(other.id, other.piece);
@@ -136,7 +136,7 @@ struct Link {
   PassageNode node;
 };
 
-// The place of an end of the passage. If the end is within the limit, also its node.
+// The place of an end of the passage in the mesh. If the end is within the limit, the node of the end.
 struct PlacedEnd {
   std::int64_t end;
   Place place;
@@ -285,7 +285,7 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
   const auto are_joined = [&] { return ways.are_joined(placed[0].place, placed[1].place); };
   for (const auto &[p, q] : matched.joined) ways.unite({p, {0, 0}}, {q, {0, 0}});
   if (are_joined()) {
-    // Either both ends are one node, or a way beyond the limit joins them.
+    // Both ends are one node, or a way beyond the limit joins the ends.
     if (placed[0].place.is_region()) return std::nullopt;
     return passage_at(placed[0].node, band.half_thickness, ends);
   }
@@ -300,8 +300,7 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
 PassageReport find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
                            const PieceEnd (&ends)[2]) {
   const riis_surface_info info = info_of(surface);
-  // No passage is wider than this distance, because every path has the two ends, and a half thickness of this size marks the
-  // ends.
+  // No passage is wider than this distance, because a half thickness of this size marks the two ends of every path.
   double farthest = 0;
   for (const PieceEnd &end : ends)
     for (int k = 0; k < 3; ++k)

@@ -54,7 +54,7 @@ std::string text_of(const Box &box, double edge) {
 
 bool is_parametric(const MarkOptions &options) { return options.surface.empty() && !is_valve_file(options.valve); }
 
-// Returns whether the surface has the size of a valve. Returns false for a file whose unit is not known.
+// Returns whether the surface has the size of a valve. For a file whose unit is not known, returns false.
 bool has_size_of_valve(const Situation &s) {
   const std::optional<Unit> own = s.options.surface_unit;
   if (is_parametric(s.options)) return true;
@@ -63,8 +63,7 @@ bool has_size_of_valve(const Situation &s) {
 
 bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >= fewest_judged_nodes; }
 
-// Returns whether so few nodes are marked that a fault is likely. A single layer of nodes on the surface would have about area /
-// edge^2 nodes.
+// Returns whether suspiciously few nodes are marked. A single layer of nodes on the surface would have about area / edge^2 nodes.
 bool has_hardly_any(const Situation &s) {
   if (s.n_marked == 0 || s.n_nodes < fewest_judged_nodes || s.median_edge == 0) return false;
   return static_cast<double>(s.n_marked) * s.median_edge * s.median_edge < 0.1 * s.area;
@@ -94,8 +93,8 @@ Warning warning_of_places(const Situation &s) {
 
 std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
 
-// The units of a mesh and of a surface, and the options that the user should write for them. If the units are not known, only a
-// factor is known.
+// The units of a mesh and of a surface, and the options that the user should write for them. If the units are not known, the
+// scale is only a factor.
 struct Cure {
   std::optional<UnitPair> units;
   std::string write;
@@ -125,8 +124,8 @@ std::vector<double> factors_of_units(const Situation &s) {
   return found.empty() ? unit_factors() : found;
 }
 
-// Judges the units. The length of edges near the surface is estimated from the number n of marked nodes: n cubes with this edge
-// fill the band.
+// Judges the units. The length of edges near the surface is estimated from the number n of marked nodes. It is the edge of n
+// cubes that fill the band.
 UnitJudgement judgement_of(const Situation &s, bool is_unit_known) {
   Sizes sizes = s;
   sizes.is_unit_known = is_unit_known;
@@ -147,7 +146,7 @@ std::string text_of_units(const Situation &s, const std::vector<Cure> &cures) {
                      : std::string(", the surface in ") + words_of(first.surface));
 }
 
-// Returns the options of the scale that the user gave and must replace.
+// Returns the user's options for the scale, which other options must replace.
 std::string in_place_of(const MarkOptions &options) {
   if (options.unit && !options.takes_placed_unit) {
     const std::string unit = " in place of " + option("--unit", *options.unit);
@@ -156,7 +155,7 @@ std::string in_place_of(const MarkOptions &options) {
   return options.has_scale ? " in place of --scale " + shown(options.surface_options.scale) : "";
 }
 
-// Returns an option with a half thickness that suits another unit. Returns "" if the user's half thickness suits it.
+// Returns an option with a half thickness that suits another unit. Returns "" if the user's half thickness suits the other unit.
 std::string half_thickness_at(double factor, const Situation &s) {
   if (!s.options.has_half_thickness) return "";
   const Sizes cured = rescaled(s, factor);
@@ -181,7 +180,7 @@ std::optional<Warning> warning_of_units(const Situation &s) {
   std::vector<Cure> cures;
   std::vector<std::string> write;
   for (const double factor : units.factors) {
-    // If the scales belong to no units, there are too many to name them all.
+    // If the scales belong to no units, there are too many scales to name them all.
     if (!cures.empty() && !cures.front().units) break;
     cures.push_back(cure_for_scale(s, s.options.surface_options.scale / factor));
     write.push_back(cures.back().write + half_thickness_at(factor, s));
@@ -296,13 +295,13 @@ std::string place_text(const ValveOptions &options, const double *point, double 
 
 namespace {
 
-// The coarseness of the triangles causes area differences below this share of the outline's area. The area that remains outside
-// the bands is mostly 0, so its error is smaller.
+// Area differences below this share of the outline's area come from the coarseness of the triangles. The area that the bands
+// leave is mostly 0, so its error is smaller.
 constexpr double least_share = 1e-3, least_share_left = 1e-5;
-// The width of a gap is found with an error of this share of the bridge.
+// The width of the gap is found with an error of this share of the bridge between the bands.
 constexpr int n_halvings = 10;
 
-// Removes all bumps from the valve. Returns whether a bump had a place.
+// Removes all bumps from the valve. Returns whether the valve had a bump with a place.
 bool remove_bumps(riis_valve *valve) {
   bool has_bump = false;
   for (const riis_parameter &parameter : all_parameters(valve)) {
@@ -326,8 +325,8 @@ Surface closed_surface(const ValveOptions &options, riis_valve *valve) {
   return surface_at(valve, 0, how);
 }
 
-// Returns the orifice of a surface. The effective area of an orifice is the area that remains after the edge of the orifice moves
-// inwards along the leaflets.
+// Returns the orifice of a surface. The effective area of the orifice is the area that remains after the edge of the orifice
+// moves inwards along the leaflets.
 riis_orifice orifice_of(const riis_surface *surface, double moved, double rim_reach) {
   auto resistance = defaults<riis_resistance>();
   resistance.half_thickness = moved / rim_reach;
@@ -344,7 +343,7 @@ void warn_of_bridged_gap(const ValveOptions &options, const riis_valve *valve, c
   if (!with_gap || !without_gap) return;
   const double bridged = 1 - options.surface_options.offset;  // in half thicknesses, on either side of the gap
   const double reach = bridged * info_of(with_gap).half_thickness;
-  // A rim's band reaches inwards by a share of the half thickness that is the same for all half thicknesses.
+  // A rim's band reaches inwards by a share of the half thickness. This share does not depend on the half thickness.
   const auto resistance = defaults<riis_resistance>();
   const double rim_reach = get<riis_orifice>(riis_surface_get_orifice, with_gap, &resistance).rim_reach;
   const riis_orifice whole = orifice_of(with_gap, reach, rim_reach), usual = orifice_of(without_gap, reach, rim_reach);

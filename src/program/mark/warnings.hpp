@@ -28,8 +28,8 @@ struct Situation : Sizes {
 };
 
 // The possible causes of wrong marks, in the order in which the user should correct them. A wrong unit also makes the half
-// thickness wrong, and each of these two faults can cause leaks. Each of the causes may put a part of the leaflets outside the
-// mesh.
+// thickness wrong. A wrong unit or a wrong half thickness can cause leaks. Each of these causes may put a part of the leaflets
+// outside the mesh.
 enum class Cause { units, half_thickness, place, leaks, outside };
 
 // The text of a warning and its advice, without line breaks. The advice begins with the punctuation that follows the text, as in
@@ -45,7 +45,7 @@ std::optional<Warning> warning_of(const Situation &situation);
 // Returns a warning if the half thickness is too large for a surface. The function needs no mesh.
 std::optional<Warning> warning_of_thickness(const MarkOptions &options, const riis_surface_info &info);
 
-// A unit that a mesh may have: the options that the user writes for it, the placement, and the half thickness.
+// A unit that a mesh may have, with the options that the user writes for it, the placement, and the half thickness.
 struct PossibleUnit {
   std::string write;
   double scale, half_thickness;
@@ -65,16 +65,17 @@ void warn(const std::string &text);
 void warn(std::vector<Warning> warnings);
 std::int64_t n_warnings();
 
-// Returns a position as text for a warning. If the user named a unit, the text has it. Coordinates are rounded to a tenth of the
-// edge's length or finer, so the texts of the edge's two ends differ. If the given length is 0, coordinates have six digits.
+// Returns a position as text for a warning. If the user named a unit, the text includes the unit. Coordinates are rounded to a
+// tenth of the edge's length or finer, so the texts of the edge's two ends differ. If the given length is 0, coordinates have six
+// digits.
 std::string place_text(const ValveOptions &options, const double *point, double edge);
 
 // Returns the text of a number as a user would write it.
 std::string shown(double number);
 
-// Warns if bumps (docs/theory/bumps.md) leave a gap in the closed valve that is nowhere wider than the bridge between two bands.
-// The gap is measured in the orifice, as seen along its axis. Slits that the valve has without bumps do not count. The warning
-// begins with `part`.
+// Warns if bumps (docs/theory/bumps.md) leave a gap in the closed valve, but the gap is nowhere wider than the bridge between two
+// bands. The gap is measured in the orifice, as seen along its axis. Slits that the valve has without bumps do not count. The
+// warning begins with `part`.
 void warn_of_bridged_gap(const ValveOptions &options, const riis_valve *valve, const std::string &part);
 
 }  // namespace riis::program

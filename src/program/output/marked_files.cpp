@@ -26,7 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The first line of the lists that riis writes. Files are taken as written by riis only if a list with this line names them.
+// The first line of the lists that riis writes. A file counts as written by riis only if a list with this first line names the
+// file.
 const std::string list_of_riis =
     "<?xml version=\"1.0\"?>\n<!-- written by riis -->\n"
     "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n";
@@ -196,7 +197,7 @@ void SeriesLists::end() {
   write_(true);
 }
 
-// After each writing, the thread pauses twenty times as long as the writing took. Writing the lists therefore takes little of the
+// After writing, the thread pauses twenty times as long as the writing took. Writing the lists therefore takes little of the
 // run's time.
 void SeriesLists::follow() {
   using Clock = std::chrono::steady_clock;
@@ -276,7 +277,7 @@ void MarkedFiles::list_pieces() {
   if (!is_wanted()) return;
   std::vector<Written> written = ranks::gather(written_);
   std::sort(written.begin(), written.end());
-  // The lists of a mesh in pieces name the arrays of a file that has nodes. The first rank that has such a file writes the lists.
+  // The lists of a mesh in pieces name the arrays of a file that has nodes. The first rank with such a file writes the lists.
   const std::vector<int> have = ranks::gather(std::vector<int>{sample_ ? 1 : 0});
   const bool is_writer = std::find(have.begin(), have.end(), 1) - have.begin() == ranks::rank();
   const UnbrokenWrite unbroken;

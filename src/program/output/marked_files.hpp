@@ -37,8 +37,8 @@ class SeriesFiles {
   void find_earlier(const std::vector<std::string> &parts, bool has_pieces);
   // Makes the folder if the user wants one and it does not exist. Removes the files of an earlier run.
   void make_folder() const;
-  // Returns the path of a step's file. If a step has several files, the name of the valve, `part`, tells them apart. If a step
-  // has one file, `part` is "".
+  // Returns the path of a step's file. If a step has several files, `part`, the name of the valve, distinguishes these files. If
+  // a step has one file, `part` is "".
   std::string path_of(std::size_t step, const std::string &part) const;
   // Adds a file to the list. The file must be complete.
   void add(double time, std::size_t part_number, const std::string &path);
@@ -61,8 +61,8 @@ class SeriesFiles {
 };
 
 // Writes the lists of a series within half a second after the series' files, even during a long step. If the process is killed,
-// its lists therefore name nearly all its files. The lists are not written after every file, because writing a long list takes
-// longer than writing a file.
+// its lists therefore name nearly all files. The lists are not written after every file, because writing a long list takes longer
+// than writing a file.
 
 class SeriesLists {
  public:
@@ -72,8 +72,8 @@ class SeriesLists {
   SeriesLists(const SeriesLists &) = delete;
   SeriesLists &operator=(const SeriesLists &) = delete;
 
-  // Calls `note`, which adds files to the lists. The thread does not write the lists meanwhile. If `write` has thrown an
-  // exception in the thread, throws it again.
+  // Calls `note`, which adds files to the lists. Meanwhile the thread does not write the lists. If `write` has thrown an
+  // exception in the thread, the call throws the exception again.
   void add(const std::function<void()> &note);
   // Ends the thread, and writes the lists for the last time.
   void end();

@@ -44,7 +44,7 @@ void check_ending(const std::string &path, const std::string &ending, const std:
   refuse_data(path + ": cannot be written: " + reason);
 }
 
-// Returns whether the path is a device or a pipe. The program writes into a device or a pipe, but replaces any other file as a
+// Returns whether the path is a device or a pipe. The program writes into a device or a pipe. Any other file is replaced as a
 // whole.
 bool is_special(const std::string &path) {
   std::error_code error;
@@ -130,8 +130,8 @@ KnownFiles known(const NamedFiles &files) {
   return known;
 }
 
-// Refuses a folder for the steps' files if the folder contains an input, or a link to an input. A step's file could replace this
-// input.
+// Refuses a folder for the steps' files if the folder contains an input, or a link to an input. A file of a step could replace
+// this input.
 void check_folder_of_steps(const std::string &option, const std::string &folder, const KnownFiles &inputs) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
@@ -199,7 +199,7 @@ fs::path folder_of(const fs::path &place) { return place.has_parent_path() ? pla
 
 namespace {
 
-// Returns whether the output's format stores no points, but the mesh may have been read as axes.
+// Returns whether the output's format stores no points, although the mesh may have been read as axes.
 bool is_grid_of(const std::string &mesh, const std::string &output) {
   if (!has_ending(output, ".vti") && !has_ending(output, ".vtr")) return false;
   return has_ending(mesh, ".vti") || has_ending(mesh, ".vtr") || has_ending(mesh, ".vtk");
@@ -339,7 +339,7 @@ TemporaryFolder::~TemporaryFolder() {
 
 namespace {
 
-// The lock files of this process. Only the first OutputLocks object of a process has lock files. The first object fills this list
+// The lock files of this process. Only the first OutputLocks object of a process has lock files. The first object fills the list
 // before the signal handlers are set.
 std::vector<std::string> held_locks;
 
@@ -351,7 +351,7 @@ void remove_held() {
   for (const std::string &path : held_locks) unlink(path.c_str());
 }
 
-// Removes the lock files, and raises the signal again. The signal is blocked until this handler returns. After the return of the
+// Removes the lock files, and raises the signal again. The signal is blocked until the handler returns. After the return of the
 // handler, the signal ends the process.
 void remove_and_end(int signal) {
   remove_held();

@@ -12,8 +12,8 @@
 
 namespace riis::program {
 
-// Stores the names of a file of this process and of the folder that contains it. A signal that ends the process then removes the
-// file and the folder. An empty name stands for no file or no folder.
+// Stores the names of a file of this process and of the folder that contains it. A signal that ends the process then also removes
+// this file and this folder. An empty name stands for no file or no folder.
 void remove_if_ended(const std::string &folder, const std::string &file);
 
 // A temporary folder. The destructor removes the folder with its content.
@@ -51,7 +51,7 @@ class OutputLocks {
 };
 
 // Delays Ctrl-C and similar signals while a file is written. Every file is first written under a temporary name, and then gets
-// its final name. If the process ended before this, the unfinished file would stay behind.
+// its final name. If the process ended before the file has its final name, the unfinished file would stay behind.
 
 // While an object of this type lives, the first signal SIGINT, SIGTERM or SIGHUP has to wait. When the object is destroyed, the
 // waiting signal ends the process. A second signal ends the process at once. A signal that was ignored before stays ignored. If
@@ -66,7 +66,7 @@ class UnbrokenWrite {
 
   // The signals that end the process.
   static constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
-  // Returns whether a signal is waiting. A caller with work in several parts should then stop after the present part.
+  // Returns whether a signal is waiting. A caller whose work has several parts should then stop after the present part.
   static bool has_signal();
 
  private:
@@ -90,8 +90,8 @@ std::filesystem::path folder_of(const std::filesystem::path &place);
 // Throws a Refusal if the output is one of these files. In the message, `what` describes the files.
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options);
 
-// Returns whether an output is a file that can be replaced. A text on stdout, in a device or in a pipe cannot be replaced by a
-// later text.
+// Returns whether an output is a file that can be replaced. On stdout, in a device or in a pipe, a later text cannot replace an
+// earlier text.
 bool can_be_replaced(const std::string &path);
 // The first rank writes the text to a file, or to stdout if the path is "-". Afterwards the file is complete. After a failure,
 // the file is unchanged.

@@ -81,7 +81,7 @@ std::string title_of_valve(const ValveOptions &options) {
   return title;
 }
 
-// Returns the title of a picture. The title begins with the title of the valve, where the report has the valve's name.
+// Returns the title of a picture. The title begins with the title of the valve. The report begins with the valve's name instead.
 std::string picture_title(const ValveOptions &options, const riis_valve *valve, const ValveReport &report) {
   std::string title = surface_title(report);
   const bool is_kind = report.opening && !is_valve_file(report.surface_name);
@@ -109,7 +109,7 @@ std::string fixed(double number, int decimals) {
 
 // Returns a text about the orifice, such as ", orifice 2.10 cm2". Returns "" for a surface without an outline. Slits of a closed
 // valve do not count as an orifice. If the unit of the mesh is known, areas are in cm2 and the half thickness is in mm, as is
-// usual for valves.
+// usual for heart valves.
 std::string orifice_text(const riis_surface *surface, const std::optional<Unit> &unit) {
   const auto orifice = get<riis_orifice>(riis_surface_get_orifice, surface, nullptr);
   if (orifice.outline == RIIS_OUTLINE_NONE) return "";
@@ -329,8 +329,7 @@ std::string frame_pattern(const std::string &folder) {
 
 std::vector<std::string> encoding_of(const std::string &path, bool has_size) {
   if (has_ending(path, ".gif")) {
-    // The movie is repeated without end, and all its frames use one palette of colours. The movie is small unless the user gave a
-    // size.
+    // The movie plays in a loop, and all its frames use one palette of colours. If the user gave no size, the movie is small.
     return {"-filter_complex",
             std::string(has_size ? "" : "scale='min(800,iw)':-2:flags=lanczos,") +
                 "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",

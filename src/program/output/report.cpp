@@ -39,13 +39,14 @@ std::ostringstream table_stream() {
   return out;
 }
 
-// Returns the beginning of a table line. The valve's name, `name`, may be "".
+// Returns the beginning of a line in the table. The valve's name, `name`, may be "".
 std::string line(std::string label, const std::string &name) {
   label.resize(10, ' ');
   return label + (name.empty() ? "" : name + ": ");
 }
 
-// Returns the beginning of a table line for a valve at an opening. The opening is left out if the marks belong to it.
+// Returns the beginning of a line in the table, for a valve at an opening. The opening is left out if it is also the opening of
+// the marks.
 std::string line(const std::string &label, const ValveReport &valve, const std::optional<double> &opening) {
   std::ostringstream state = table_stream();
   state << valve.name;
@@ -154,7 +155,7 @@ const char *state_name(int32_t state) {
   return state == RIIS_PASSAGE_OPEN ? "open" : state == RIIS_PASSAGE_CLOSED ? "closed" : "none";
 }
 
-// Returns the value, or null if there is no value.
+// Returns the value for JSON, or null if there is no value.
 nlohmann::ordered_json if_known(bool is_known, const nlohmann::ordered_json &value) {
   return is_known ? value : nlohmann::ordered_json();
 }
@@ -344,7 +345,7 @@ void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {
                {"outside", valve.outside ? json_of_outside(*valve.outside) : nlohmann::ordered_json()}});
 }
 
-// Returns the JSON keys of a valve. A valve that is the only one also gets the keys of the run.
+// Returns the JSON keys of a valve. If there is only one valve, the keys of the run are added.
 nlohmann::ordered_json json_of_valve(const Report &report, const ValveReport &valve, bool is_only) {
   nlohmann::ordered_json json;
   if (is_only) json["version"] = riis_version_string();

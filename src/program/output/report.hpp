@@ -13,7 +13,7 @@ namespace riis::program {
 // The change of the opening from one step of --steps to the next. The valve opens in 50 steps.
 inline constexpr double opening_of_step = 0.02;
 
-// The medians over the steps of --steps.
+// The median times of a step over all steps of --steps.
 struct StepTimes {
   std::int32_t n_steps;
   std::int32_t search;      // RIIS_SEARCH_*
@@ -53,7 +53,7 @@ struct LeakReport {
   bool has_all_edges() const { return n_volume_cells > 0 && n_cells_left_out == 0; }
 };
 
-// R with its unit, and the unit of K in the output. If the unit of the mesh is not known, these units are "".
+// R with its unit, and the unit of K in the output. If the unit of the mesh is not known, these two units are "".
 struct ResistanceReport {
   double R = 0;
   std::string R_unit{}, K_unit{};
@@ -61,7 +61,7 @@ struct ResistanceReport {
   std::optional<double> density{};  // by which K is divided, in kg/m3 or in the units of the mesh
 };
 
-// The measures of the valve and the mesh that are of interest for a flow.
+// The measures of the valve and the mesh that matter for a flow.
 struct FlowReport {
   std::optional<riis_orifice> orifice;        // set if the surface has an outline
   std::optional<double> orifice_opening;      // set if the orifice has another opening than the marks
@@ -73,7 +73,7 @@ struct FlowReport {
   std::string leak_unit{}, drop_unit{};       // "" if not known
 };
 
-// The shares of the leaflets' area that are farther than the half thickness from the mesh.
+// The shares of the leaflets' area that lie farther than the half thickness outside the mesh.
 struct OutsideReport {
   struct Leaflet {
     std::string name;

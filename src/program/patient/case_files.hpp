@@ -17,7 +17,8 @@ struct Ends {
   std::vector<Boundary> outlets;
   double outlet_area = 0;
 };
-// Refuses a case that does not have exactly one inlet, one wall and at least one outlet. Also refuses a case in another unit.
+// Refuses a case that does not have exactly one inlet, one wall and at least one outlet. Also refuses a case whose lengths have
+// another unit.
 Ends ends_of(const SolverCase &solver, Unit unit);
 
 // Makes the solver's folder. Refuses a folder that already contains a case.
@@ -35,7 +36,7 @@ std::string filled(std::string text, const std::map<std::string, std::string> &n
 std::string duration_text(double seconds);
 
 // Returns the texts of beat_table.py and of the files in the folders fenicsx, openfoam and svmultiphysics. A key is a path such
-// as "openfoam/Allrun". CMake writes these texts into the program, so that the program needs no path to the files.
+// as "openfoam/Allrun". CMake writes these texts into the program, so the program needs no path to the files.
 const std::map<std::string, std::string> &case_texts();
 
 }  // namespace riis::program

@@ -221,7 +221,7 @@ Triangles triangles_in(const PatientWall &wall) {
   return triangles;
 }
 
-// Returns whether a point is inside the wall. From there, the triangles cover all directions.
+// Returns whether a point is inside the wall. From a point inside, the triangles cover all directions.
 bool is_in_wall(const Triangles &triangles, const Vector3 &point) {
   double angle = 0;
   for (std::int64_t i = 0; i < triangles.n(); ++i) {
@@ -257,7 +257,7 @@ std::int64_t first_wall_hit(const Triangles &triangles, const Vector3 &from, con
   return hit;
 }
 
-// Follows the edges from a triangle, and returns the first end without a name.
+// Starts at a triangle, follows the edges, and returns the first end that has no name yet.
 std::int32_t first_end_from(const PatientWall &wall, const Triangles &triangles, std::int64_t from) {
   if (view(wall.end_of)[from] >= 0) return view(wall.end_of)[from];
   std::vector<std::vector<std::int64_t>> beside(triangles.points.size());

@@ -48,8 +48,8 @@ PatientWall read_patient_wall(const std::string &path, const EndPoints &points =
 // Multiplies all lengths by a factor, such as 0.001 from millimetres to metres.
 void scale_wall(PatientWall &wall, double factor);
 
-// Names the ends that have no name yet. The inlet is the end that is first reached along the wall from the place upstream of the
-// valve. The other ends are outlet, outlet_2, ..., and the largest comes first. `centre` is the middle of the valve's annulus,
+// Names the ends that have no name yet. The inlet is the first end along the wall, from the place upstream of the valve. All
+// other ends are called outlet, outlet_2 and so on, beginning with the largest. `centre` is the middle of the valve's annulus,
 // and `flow` is the direction of the blood through the open valve. Refuses a centre that is outside the wall.
 void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std::array<double, 3> &flow);
 

@@ -10,9 +10,9 @@ inline constexpr double mmHg = 133.322;         // Pa
 inline constexpr double beat_period = 0.8;      // s
 inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and in which it closes
 // The dwell time of the law. While the leaflets close, they push blood back. The valve must not open because of the pressure that
-// this causes. Each motion of the leaflets therefore ends before the next motion may begin, as in svMultiPhysics.
+// this blood causes. Each motion of the leaflets therefore ends before the next motion may begin, as in svMultiPhysics.
 inline constexpr double dwell_seconds = motion_seconds;
-// Pa. Rounding errors between equal pressures are below this difference, so they do not open a valve.
+// Pa. Rounding errors of two equal pressures are below this difference, so they cannot open the valve.
 inline constexpr double opening_pressure = 50;
 // m3/s. A mitral valve closes when the flow falls below this value, so that less blood returns.
 inline constexpr double closing_flow_of_mitral = 1e-4;
@@ -38,7 +38,7 @@ inline const PressureCurve &pressure_of_left_ventricle() {
       {{0, 8}, {0.04, 8}, {0.09, 78}, {0.14, 108}, {0.2, 120}, {0.27, 112}, {0.32, 95}, {0.38, 8}, {0.8, 8}}};
   return curve;
 }
-// The pressure of the ventricle in a beat that begins before the ventricle is filled. The ventricle is filled from the atrium
+// The pressure of the ventricle in a beat that begins before the ventricle is filled. Blood from the atrium fills the ventricle
 // through a mitral valve.
 inline const PressureCurve &pressure_of_filling_ventricle() {
   static const PressureCurve curve{{{0, 12}, {0.03, 12}, {0.08, 4}, {0.4, 4}, {0.5, 100}, {0.76, 100}, {0.8, 12}}};

@@ -36,7 +36,7 @@ using Words = std::vector<std::string>;
 
 // Defaults of lengths, in millimetres.
 constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6, usual_noise = 0.3;
-// If a half thickness is outside this range, its unit is wrong, or it would close the open valve.
+// A half thickness outside this range has a wrong unit, or would close the open valve.
 constexpr double least_half_thickness_mm = 0.1, most_half_thickness_mm = 4, most_skirt_mm = 30;
 // Landmarks that a person sets are on average closer to the wall than the first distance. Landmarks are doubtful if their average
 // distance is larger than the second distance.
@@ -55,8 +55,8 @@ constexpr std::int64_t many_nodes = 40000;
 constexpr double power_of_nodes = 2.5;
 constexpr int n_marked_openings = 11;
 
-// The opening of a valve during a beat of 0.72 s. The times are in seconds, as in examples/demo. The second text has the times to
-// write.
+// The opening of a valve during a beat of 0.72 s. The times are in seconds, as in examples/demo. The text `times` has the times
+// to write.
 struct Beat {
   const char *text, *times;
 };
@@ -96,7 +96,7 @@ std::string landmark_ending(const std::string &path) {
 // Returns the numbers that a step has written to its report.
 Json stats_of(const std::string &name) { return parse_json_file("logs/" + name + ".json", "stats"); }
 
-// Returns whether the file exists. Pictures and movies need not exist.
+// Returns whether the file exists. Pictures and movies may be missing.
 bool exists(const char *path) {
   std::error_code error;
   return fs::exists(path, error);
@@ -244,7 +244,7 @@ class PatientRun {
     const PlacedFile file = read_placed("placed.json", placed, unit_);
     for (std::size_t k = 0; k < 3; ++k) centre_[k] = file.where.translation[k];
     const double *const axis = file.where.rotation_axis;
-    // Mitral valves have their atrium towards z.
+    // The atrium of a mitral valve lies in the direction of z.
     flow_ = turned({0, 0, is_mitral_ ? -1.0 : 1.0}, {axis[0], axis[1], axis[2]}, file.where.rotation_angle);
     name_ends(wall_, centre_, flow_);
   }
@@ -489,8 +489,7 @@ class PatientRun {
     }
   }
 
-  // Runs a command that also draws. If the program cannot draw on this machine, prints this and runs the command without
-  // pictures.
+  // Runs a command that also draws. If the program cannot draw on this machine, says so and runs the command without pictures.
   void run_with_picture(const std::string &name, const Words &with_picture, const Words &words,
                         const std::string &output, const std::string &picture) {
     StepEnd end = steps_.run(name, with_picture);

@@ -33,7 +33,8 @@ namespace fs = std::filesystem;
 
 // The area of an end may change by this share, because the rim of the new surface has longer edges.
 constexpr double most_area_change = 0.05;
-// The edge length in the middle of an end, as a share of the end's radius. The rim of an end then has at least sixteen edges.
+// The edge length in the middle of an end, as a share of the end's radius. With this length, the rim of an end has at least
+// sixteen edges.
 constexpr double end_edge_share = 0.35;
 // The time in seconds that gmsh has: a fixed time, and an additional time for each triangle. If gmsh cannot remesh a surface, it
 // may run for hours.
@@ -172,7 +173,7 @@ std::string id_lines(const std::vector<std::int64_t> &numbers) {
   return text;
 }
 
-// Returns a file of VTK with the arrays that SimVascular's meshes have. Ids count from 1.
+// Returns a VTK file with the arrays that meshes of SimVascular have. Ids count from 1.
 template <class Cell>
 std::string vtk_file_text(const std::vector<Vector3> &points, const std::vector<std::int64_t> &node_ids,
                           const std::vector<Cell> &cells, const std::vector<std::int64_t> &element_ids,
@@ -272,7 +273,7 @@ class PatientMesher {
     std::string text = "Field[1] = Structured;\nField[1].FileName = \"" + field +
                        "\";\nField[1].TextFormat = 1;\nField[1].SetOutsideValue = 1;\nField[1].OutsideValue = " +
                        shortest(options_.largest_edge) + ";\n";
-    // Edges at a small end are shorter than elsewhere, and become longer with the distance from this end.
+    // Edges are shorter at a small end, and become longer with the distance from this end.
     int n_fields = 1;
     for (const FlatEnd &end : wall_.ends) {
       const double radius = std::sqrt(end.area / pi), edge = end_edge_share * radius;
@@ -315,8 +316,8 @@ class PatientMesher {
   }
 
   // Runs gmsh on a .geo file. If gmsh wrote no mesh, refuses with gmsh's last error. In the message, `cure` follows gmsh's error.
-  // With a function change_input, gmsh first gets only a part of the time. If gmsh does not end, the function is called, and gmsh
-  // runs again for the rest of the time.
+  // With a function change_input, gmsh first gets only a part of the time. If gmsh does not end in this time, the function is
+  // called, and gmsh runs again for the rest of the time.
   GmshMesh run_gmsh(double seconds, const std::string &dimension, const std::string &geo, const std::string &mesh,
                     const std::string &cure, const std::function<void()> &change_input = {}) {
     const std::string log = in_gmsh(fs::path(geo).stem().string() + ".log");
@@ -356,7 +357,7 @@ class PatientMesher {
                                ? options_.surface_seconds
                                : least_seconds + seconds_per_triangle * static_cast<double>(old_.n());
     write_text(in_gmsh("wall.msh"), text_of_wall(old_.points));
-    // In rare cases gmsh divides a clean surface without end. After a change of the last digits of the nodes, gmsh succeeds.
+    // In rare cases gmsh divides a clean surface without end. If the last digits of the nodes are changed, gmsh succeeds.
     surface_ = run_gmsh(seconds, "-2", in_gmsh("surface.geo"), in_gmsh("surface.msh"), cure_of_surface(),
                         [&] { write_text(in_gmsh("wall.msh"), text_of_wall(moved_points())); });
     name_patches();
@@ -372,7 +373,7 @@ class PatientMesher {
            ", and repair or smooth it, as by Surface Toolbox of 3D Slicer";
   }
 
-  // Tells where the wall intersects itself, or returns "". Most failures of gmsh come from such intersections.
+  // Tells where the wall intersects itself, or returns "". Most failures of gmsh come from such a self-intersection.
   std::string crossing_text() const {
     auto arrays = defaults<riis_surface_arrays>();
     arrays.n_vertices = static_cast<std::int64_t>(old_.points.size());
@@ -428,7 +429,7 @@ class PatientMesher {
   }
 
   // gmsh gives new numbers to its patches, and turns some patches over. Each new patch belongs to the part of the boundary that
-  // lies under the patch.
+  // it covers.
   void name_patches() {
     std::map<std::int64_t, std::vector<std::size_t>> patches;
     for (std::size_t i = 0; i < surface_.triangles.size(); ++i) patches[surface_.triangles[i].first].push_back(i);
@@ -459,14 +460,14 @@ class PatientMesher {
     std::int64_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::int64_t i = 0; i < old_.n(); ++i) {
-      // The distance of a triangle is computed only if its corner is not far away.
+      // The distance of a triangle is computed only if a corner of the triangle is near.
       const double distance = old_.distance(i, point);
       if (distance < least) least = distance, nearest = i;
     }
     return nearest;
   }
 
-  // Refuses a surface if a side of a triangle has no neighbour.
+  // Refuses a surface if a triangle has a side without a neighbour.
   void check_closed(const GmshMesh &mesh) const {
     std::set<std::pair<std::int64_t, std::int64_t>> sides;
     std::int64_t n_open = 0;

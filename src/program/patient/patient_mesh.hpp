@@ -17,7 +17,7 @@ struct PatientMeshOptions {
   std::string folder;       // which exists; the files go here
   std::string field;        // the file of riis size-field
   double largest_edge = 0;  // edge length outside the field's grid: --largest-edge of riis size-field
-  // This function is called with each command before the command runs. The words are those that a user would type.
+  // This function is called with each command before the command runs. The words are the command as a user would type it.
   std::function<void(const std::string &command)> announce = [](const std::string &) {};
   double surface_seconds = 0;  // the time that gmsh has for the surface; 0: by the number of triangles
 };
@@ -34,8 +34,8 @@ struct PatientMesh {
 // Throws a Refusal if there is no gmsh in PATH. The message says which package to install. Returns gmsh's version.
 std::string require_gmsh();
 
-// Makes the mesh. First gmsh remeshes the surface with the edge lengths of the size field, and keeps the rims of the ends. Then
-// gmsh fills the surface with tetrahedra. Every end must have a name. Writes into `folder`
+// Makes the mesh. First gmsh remeshes the surface with the edge lengths of the size field, and keeps the rims of the ends. After
+// that, gmsh fills the surface with tetrahedra. Every end must have a name. Writes into `folder`
 //   mesh.msh        ASCII gmsh 2.2: physical groups of the boundaries, and "blood" of the tetrahedra
 //   mesh.vtu        the tetrahedra, with GlobalNodeID and GlobalElementID
 //   faces/NAME.vtp  the triangles of a boundary, outwards, with GlobalNodeID, GlobalElementID and ModelFaceID

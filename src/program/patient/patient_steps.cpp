@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 const char *const marker_file = "UNFINISHED.txt", *const report_file = "patient.json";
 
-// The names of the files that riis patient writes into its folder. If riis patient uses a folder again, it leaves other files in
-// place.
+// The names of the files that riis patient writes into its folder. If riis patient uses a folder again, other files in the folder
+// stay.
 const char *const own_names[] = {report_file,     "wall.stl",       "placed.json",        "params.json",
                                  "valve.dat",     "gmsh",           "mesh.msh",           "mesh.vtu",
                                  "faces",         "closed.vtu",     "open.vtu",           "closed.png",

@@ -19,9 +19,9 @@ namespace {
 
 constexpr double solver_step = 0.002;  // s
 constexpr int steps_between_files = 10;
-// The largest edge of the leaflets' triangles, in half thicknesses. The K that the solver computes is then correct to 5 %, and
-// the K that riis computes in the solver is exact (docs/export.md, "How fine the triangles must be"). With finer triangles, the
-// solver would need hours.
+// The largest edge of the leaflets' triangles, in half thicknesses. With such triangles, the K that the solver computes is
+// correct to 5 %, and the K that riis computes in the solver is exact (docs/export.md, "How fine the triangles must be"). With
+// finer triangles, the solver would need hours.
 constexpr double largest_edge = 0.5;
 // The measured processor time per cell and step (docs/patient_svmultiphysics.md, "What it costs").
 constexpr double seconds_of_cell = 7e-5;

@@ -104,8 +104,8 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
       if (squared(i) < squared(nearest)) nearest = i;
     return nearest;
   };
-  // On each side of the valve, the middle of the ball is the first place that has room for the ball. A ball that is farther away
-  // than the valve extends is outside the valve's jet. If the vessel is short, there may be room only beside the leaflets.
+  // On each side of the valve, the middle of the ball is the first place that has room for the ball. A ball farther away than the
+  // valve extends is outside the valve's jet. If the vessel is short, there may be room only beside the leaflets.
   ValveSides sides;
   std::int64_t before = -1, after = -1;  // the nodes at the middles
   const auto find = [&](double sign, double radius, double beyond, std::array<double, 3> &middle) {

@@ -20,7 +20,7 @@ struct WallFrame {
 };
 
 // The lengths of the wall are in the unit of its file. `unit` and `axes` are given if the user stated them. Refuses landmarks
-// that are not at the wall. Also refuses to choose if two units or axes fit about equally well.
+// that are not at the wall. If two units or axes fit about equally well, refuses to choose one of them.
 WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, std::optional<Unit> unit,
                         const std::string &axes);
 

@@ -16,10 +16,10 @@
 namespace riis::program {
 namespace {
 
-// Two vertices of open sides are joined if their distance is below this share of the wall's size. In single precision, a root at
-// a metre from the origin has rounding errors of a sixth of this share.
+// Two vertices of open sides are joined if their distance is below this share of the wall's size. In single precision, the
+// rounding errors of a root at a metre from the origin are a sixth of this share.
 constexpr double joined_share = 1e-5;
-// If the area of a piece is below this share of the largest piece's area, the piece is an island of the segmentation.
+// A piece is an island of the segmentation if its area is below this share of the largest piece's area.
 constexpr double island_share = 0.01;
 // A hole is flat if all points of its rim are closer to a plane than this share of the rim's width.
 constexpr double flat_hole_share = 0.02;
@@ -267,7 +267,7 @@ class WallRepair {
     return longest > 0 ? norm(cross(b - a, c - a)) / longest : 0;
   }
 
-  // Repairs thin triangles. The ends of a short side are joined, or the longest side is replaced by the other diagonal.
+  // Repairs thin triangles. Either the ends of a short side are joined, or the longest side is replaced by the other diagonal.
   void repair_thin() {
     least_height_ = thin_share * made_.triangles.size();
     std::int64_t n_repaired = 0;
@@ -332,7 +332,7 @@ class WallRepair {
     for (const std::int64_t id : corner) view(is_locked_)[id] = 1;
   }
 
-  // Returns the triangle with the side from a to b in this direction, or -1. One of the two vertices must belong to a thin
+  // Returns the triangle whose side leads from a to b in this direction, or -1. Vertex a or vertex b must belong to a thin
   // triangle.
   std::int64_t of_side(std::int64_t a, std::int64_t b) const {
     const auto found = around_.find(around_.count(a) > 0 ? a : b);
@@ -342,7 +342,7 @@ class WallRepair {
     return -1;
   }
 
-  // Moves one end of a side, b, to the other end, a. Returns whether the surface allows this.
+  // Moves one end of a side, b, to the other end, a. Returns whether the surface allows this change.
   bool join_side(std::int64_t a, std::int64_t b) {
     const std::int64_t left = of_side(a, b), right = of_side(b, a);
     if (left < 0 || right < 0) return false;

@@ -14,7 +14,7 @@ namespace riis::program {
 using riis::Triangles;
 using Corners = Triangles::Corners;
 
-// A hole that was flat enough to be closed. A fan of triangles closes it.
+// A hole that was flat enough to be closed. A fan of triangles closes the hole.
 struct ClosedHole {
   std::int64_t first = 0, n_triangles = 0;  // the triangles of the fan
   Vector3 centre{};
@@ -26,7 +26,7 @@ struct ClosedSurface {
   std::vector<std::string> remarks;  // what was changed, a line each
 };
 
-// Reads and repairs the surface. Vertices at equal places become one. The function refuses the same surfaces as read_patient_wall
+// Reads and repairs the surface. Vertices at equal places become one. The same surfaces are refused as by read_patient_wall
 // (flat_ends.hpp).
 ClosedSurface read_closed_surface(const std::string &path);
 

@@ -29,7 +29,7 @@ std::array<Value, 4> tetrahedron_coordinates(const Coordinates &at) {
   return {{{at[0], {1, 0, 0}}, {at[1], {0, 1, 0}}, {at[2], {0, 0, 1}}, {1 - at[0] - at[1] - at[2], {-1, -1, -1}}}};
 }
 
-// The two corners between which each middle node of a quadratic tetrahedron lies.
+// Each middle node of a quadratic tetrahedron lies between these two corners.
 constexpr std::size_t edges_of_tetrahedron[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
 Value tetrahedron_shape(std::size_t n_nodes, std::size_t node, const Coordinates &at) {
@@ -71,7 +71,7 @@ Value hexahedron_shape(std::size_t n_nodes, const Coordinates &node, const Coord
     for (std::size_t k = 0; k < 3; ++k) v = product(v, quadratic(node[k], at[k], k));
     return v;
   }
-  // If the hexahedron has 20 nodes, a middle node has the factor (1 - x^2) along its edge, and a corner has one more factor.
+  // In a hexahedron with 20 nodes, a middle node has the factor (1 - x^2) along its edge, and a corner has one more factor.
   bool is_middle = false;
   for (std::size_t k = 0; k < 3; ++k) {
     if (node[k] != 0) {
@@ -130,7 +130,7 @@ std::vector<Coordinates> hexahedron_nodes(std::size_t n) {
 
 // ---- Points of integration ----
 
-// Returns four or fifteen points in a tetrahedron. The solver uses the same points.
+// Returns four or fifteen points in a tetrahedron. The solver uses the same points in a tetrahedron.
 std::vector<ReferencePoint> tetrahedron_gauss(std::size_t n_nodes) {
   if (n_nodes == 4) {
     const double t = (5 - std::sqrt(5.0)) / 20, s = 1 - 3 * t, w = 1.0 / 24;

@@ -30,8 +30,7 @@ namespace riis::program {
 
 namespace {
 
-// If edges are at most this long, in half thicknesses, the solver's sum of delta differs by at most 1 % from the exact sum
-// (docs/export.md).
+// The longest edge, in half thicknesses, for which the solver's sum of delta is within 1 % of the exact sum (docs/export.md).
 constexpr double fine_edges = 0.15;
 
 namespace fs = std::filesystem;
@@ -47,8 +46,8 @@ struct LawWithSpans {
 class Keys {
  public:
   explicit Keys(const OpeningTable &table) : table_(table) {}
-  // Returns the number of keys. With a period, counts the keys of two periods. In two periods, there is a span from any key to
-  // any other key.
+  // Returns the number of keys. If the cycle has a period, counts the keys of two periods. In two periods, there is a span from
+  // any key to any other key.
   std::size_t size() const { return table_.times.size() * (table_.period > 0 ? 2 : 1); }
   double time(std::size_t i) const { return table_.times[i % n()] + (i < n() ? 0 : table_.period); }
   double opening(std::size_t i) const { return table_.openings[i % n()]; }
@@ -58,8 +57,8 @@ class Keys {
   const OpeningTable &table_;
 };
 
-// Returns the span from a key with the opening `from` to a later key with the opening `to`. The span ends at the first such key.
-// The span starts at the last key before its end that has the opening `from`.
+// Returns the span from a key with the opening `from` to a later key with the opening `to`. The span ends at the first key with
+// the opening `to`. The span starts at the last key with the opening `from` before its end.
 std::optional<TimeSpan> way_between(const Keys &keys, double from, double to) {
   std::optional<double> start;
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -179,7 +178,7 @@ void check_whole_folder(const std::string &given, const std::string &option) {
   check_writable(option, path, path);
 }
 
-// A folder that receives its files only after all of them are written. Until then the files are in a hidden folder inside the
+// A folder that receives its files only after all of them are written. Until then, the files are in a hidden folder inside this
 // folder.
 class WholeFolder {
  public:
@@ -225,7 +224,7 @@ class WholeFolder {
   std::vector<std::string> names_;
 };
 
-// A file that is written in parts, because a long motion does not fit in memory.
+// A file that is written in parts, because a long motion does not fit in the memory.
 class TextFile {
  public:
   explicit TextFile(std::string path) : path_(std::move(path)), file_(path_) { check_written(); }
@@ -354,7 +353,7 @@ std::string as_name(std::string text) {
 }
 
 // Returns the name of the valve in the solver's input. The solver also uses this name for arrays and files, so two valves in one
-// run need different names. The folders of the valves differ, so the path of the folder gives the name.
+// run need different names. The path of the folder gives the name, because the valves of a run have different folders.
 std::string block_name(const ExportOptions &options) {
   if (!options.name.empty()) return options.name;
   constexpr std::size_t longest = 64;
@@ -369,7 +368,7 @@ std::string title_of(const ExportOptions &options) {
   return is_valve_file(options.valve) ? as_name(fs::path(options.valve).stem().string()) : options.valve;
 }
 
-// Returns the line about the units of the block. Two dashes in a row would end the comment in the XML file.
+// Returns the line of the block about units. Two dashes in a row would end the comment in the XML file.
 std::string text_of_units(const ExportOptions &options) {
   if (!options.unit) return "units are taken as g, cm and s, because none was given";
   const std::string units = "units are g, cm and s: R is in g/(cm s)";

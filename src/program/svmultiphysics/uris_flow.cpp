@@ -36,7 +36,7 @@ class Arrays {
       n *= static_cast<std::size_t>(length);
     }
     std::string head = std::string("{'descr': '=") + type + "', 'fortran_order': False, 'shape': (" + text + "), }";
-    // In the file, the numbers of an array begin at a multiple of 64 bytes. The ten bytes before the head count as well.
+    // In the file, the numbers of an array begin at a multiple of 64 bytes. The ten bytes before the array's head are included.
     head.append(63 - (10 + head.size()) % 64, ' ');
     head += '\n';
     const char start[] = {'\x93', 'N', 'U', 'M', 'P', 'Y', 1, 0, static_cast<char>(head.size()), 0};
@@ -45,7 +45,7 @@ class Arrays {
     write(numbers, bytes * n);
   }
 
-  // Returns the file after moving to its beginning.
+  // Moves to the beginning of the file, and returns the file.
   std::FILE *file() {
     check_written(std::fflush(file_.get()) == 0);
     std::rewind(file_.get());

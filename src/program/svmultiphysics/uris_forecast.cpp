@@ -22,9 +22,9 @@ namespace {
 // The bands in which the solver measures pressures end at this many half thicknesses.
 constexpr double band_end = 5;
 // A drop is large enough if it is at least this share of (R / eps) u. The second number is the largest half thickness that is
-// tried, over the given half thickness.
+// tried, divided by the given half thickness.
 constexpr double enough = 0.9, most_thickness = 2;
-// A drop is not sensible if it exceeds (R / eps) u divided by this share.
+// A drop is no forecast if it exceeds (R / eps) u divided by this share.
 constexpr double least_of_sensible = 0.95;
 
 // Returns whether two corners are the ends of an edge.
@@ -161,7 +161,8 @@ class Forecaster {
     warn_of_negative_shapes(distances);
     const std::vector<double> near =
         near_nodes(std::max(band_end * half_thickness_, most_thickness * half_thickness_ + 2 * median_edge_));
-    // With a larger half thickness, the export has a larger box. The signs of distances must be known up to this reach.
+    // With a larger half thickness, the export has a larger box. The signs of distances must be known up to the reach of this
+    // box.
     const SolverDistances wide = solver_distances(mesh_, leaflets_, vertices_, true, half_thickness_,
                                                   band_end * most_thickness * half_thickness_ + 4 * median_edge_);
     const Expected expected = expected_at(half_thickness_, distances, wide, near);
@@ -200,14 +201,14 @@ class Forecaster {
     warn("svMultiPhysics will drop " + shown(expected.drop) + " of (R/eps) u across the closed valve; " + needed);
   }
 
-  // Tells how stiff the resistance makes the equations.
+  // Returns a sentence about how stiff the resistance makes the equations.
   std::string text_of_stiffness() const {
     const double stiffness = options_.resistance * options_.time_step / (options_.density * half_thickness_);
     return "With --resistance " + shown(options_.resistance) + ", R dt/(rho eps) is " + shown(stiffness) +
            ", but about 1 to 1,000 in flows of blood: look at the unit of --resistance";
   }
 
-  // Finds the half thickness in steps of a quarter. After that, the last step is halved twice.
+  // Finds the half thickness in steps of a quarter. After that, halves the last step twice.
   std::string thickness_for(const SolverDistances &wide, const std::vector<double> &near) {
     bool are_found = true;
     const auto is_enough = [&](double factor) {
@@ -233,9 +234,9 @@ class Forecaster {
            text_of_finer_mesh(near, above);
   }
 
-  // Returns the edge length that would have the same effect as a half thickness larger by this factor. The drop depends on the
-  // ratio of edge and half thickness. All elements would be shorter by the same length, as they are with size fields that differ
-  // in the edge length in the band.
+  // Returns the edge length that would have the same effect as a half thickness which is larger by this factor. The drop depends
+  // on the ratio of edge and half thickness. All elements are assumed to become shorter by the same length, as with size fields
+  // of different edges in the band.
   std::string text_of_finer_mesh(const std::vector<double> &near, double factor) const {
     std::vector<double> lengths, volumes;
     const SolverElement &element = *mesh_.element;
@@ -279,7 +280,7 @@ class Forecaster {
     return shown(length / options_.to_solver) + (options_.unit ? std::string(" ") + name_of(*options_.unit) : "");
   }
 
-  // Warns of resistance far from the valve, which occurs if interpolated distances are negative.
+  // Warns of resistance far from the valve. Negative interpolated distances cause such resistance.
   void warn_of_negative_shapes(const SolverDistances &distances) {
     const SolverElement &element = *mesh_.element;
     if (element.n_nodes == element.n_corners) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: an export and the mesh of the solver's run. Out: a forecast of what svMultiPhysics will do with the export in this mesh, as
-// lines for the solver's input and as a table of frames.
+// In: an export and the mesh of the solver's run. Out: a forecast of what svMultiPhysics will do with the export in this mesh.
+// The forecast consists of lines for the solver's input and a table of frames.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ struct UrisForecast {
 UrisForecast forecast_of(const ExportOptions &options, const UrisMotion &motion, UrisLeaflets &leaflets);
 
 // Finds the drop across a closed valve as svMultiPhysics computes it (docs/export.md). uris_flow.py solves the equations in a
-// Python with NumPy and SciPy. The program contains the text of this script.
+// Python with NumPy and SciPy. The program contains the text of uris_flow.py.
 // In: the solver's delta in a mesh. Out: the drop over (R / eps) u.
 //
 // The numbers of the solver's input on which the drop depends, in the solver's units.
@@ -41,10 +41,10 @@ struct NoFlow {
   std::string reason;
 };
 
-// Solves the solver's own discrete equations for a slow and steady flow near the closed valve: elements of equal order, the
-// solver's stabilisation, and no slip at the mesh's boundary. `near` has the exact distance of each node, or infinity. The region
-// consists of the nodes up to the distance `reach`. `sides` has distances whose signs are right up to `reach`, also outside the
-// solver's box. Without `quiet`, counts steps on the terminal. Throws NoFlow.
+// Solves the solver's own discrete equations for a slow and steady flow near the closed valve. The elements have equal order, the
+// solver's stabilisation is used, and there is no slip at the mesh's boundary. `near` has the exact distance of each node, or
+// infinity. The region consists of the nodes up to the distance `reach`. `sides` has distances whose signs are right up to the
+// distance `reach`, also outside the solver's box. Without `quiet`, counts steps on the terminal. Throws NoFlow.
 ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances, const SolverDistances &sides,
                        const std::vector<double> &near, double reach, double half_thickness, const SolverFluid &fluid,
                        bool quiet);

@@ -144,7 +144,7 @@ void UrisLeaflets::part(const ExportOptions &options) {
 }
 
 // Turns the triangles of the ring so that their normals point against the flow. The solver then counts the nodes inside the ring
-// as before the valve, if they are upstream.
+// as before the valve, if the nodes are upstream.
 void UrisLeaflets::turn_ring(double opening) {
   const std::vector<double> xyz = vertices_at(opening);
   const auto middle_of = [&](const Corners &corners) {
@@ -170,8 +170,8 @@ void UrisLeaflets::turn_ring(double opening) {
   }
 }
 
-// Adds the triangles that widen the box. The face "box" is the last face, because the solver takes the first of several triangles
-// that are equally near.
+// Adds the triangles that widen the box. The face "box" is the last face, because of several equally near triangles the solver
+// takes the first.
 void UrisLeaflets::add_box(const UrisMotion &motion) {
   std::vector<Corners> triangles;
   for (const auto &[corners, leaflet] : net_.triangles()) triangles.push_back(corners);
@@ -279,7 +279,7 @@ void FinerTriangles::measure(const std::vector<double> &xyz) {
 }
 
 bool FinerTriangles::halve_longer(double length) {
-  // For each edge that is halved, the number of the vertex in its middle. For other edges, -1.
+  // For each edge that is halved, the number of the vertex in the middle of the edge. For other edges, -1.
   std::vector<std::int64_t> middle;
   for (const Edge &edge : edges_) {
     middle.push_back(edge.length > length ? n_given_ + view(middles_).size() : -1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: a valve, and the openings of its frames. Out: leaflets whose nodes and triangles are the same in all frames, and a face
-// that makes the solver's box larger.
+// that enlarges the solver's box.
 #pragma once
 
 #include <array>
@@ -55,7 +55,7 @@ class FinerTriangles {
   // Measures all edges. `xyz` has all vertices at one of the times. The length of an edge is its largest length at any time.
   void measure(const std::vector<double> &xyz);
   // Halves every edge whose measured length exceeds `length`. Returns whether an edge was halved. Triangles with a common edge
-  // also have its middle in common, so that no gap opens between them.
+  // also share the middle of the edge, so no gap opens between them.
   bool halve_longer(double length);
 
  private:
@@ -80,14 +80,14 @@ class FinerTriangles {
 
 // svMultiPhysics searches a mesh only in the box of the valve's nodes, widened by a tenth. The box of a flat valve is too thin.
 // The flat box leaves out nodes that should be marked, and parts of the bands in which the solver measures pressures.
-// In: the triangles. Out: three additional triangles, which make this box larger.
+// In: the triangles. Out: three additional triangles, which enlarge this box.
 
 // Returns a power of two, to whose multiples coordinates are rounded. `largest` is the largest coordinate. The sum of three
 // rounded coordinates is then exact, even in a box that is about ten times as large.
 double uris_grid(double largest);
 
-// Three triangles, one along each axis. The middle of each added triangle coincides with the middle of a triangle of the valve,
-// so the solver never finds the added triangle nearer. At both ends, the corners lie outside the valve's box.
+// Three triangles, one along each axis. The middle of each added triangle is also the middle of a triangle of the valve. The
+// solver therefore never finds the added triangle nearer. Two corners of each triangle lie outside the valve's box, at both ends.
 class UrisBox {
  public:
   static constexpr std::int64_t n_nodes = 9;

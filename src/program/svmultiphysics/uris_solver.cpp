@@ -17,13 +17,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The solver widens its box by this share on each side. For nodes outside the box, it takes this many half thicknesses as the
-// distance.
+// The solver widens its box by this share on each side. Nodes outside the box get this many half thicknesses as their distance.
 constexpr double widening = 0.1, far_in_half_thicknesses = 1e6;
 
 // ---- The nearest middle of a triangle ----
 
-// A tree over points. The tree finds the point nearest to a place. Of several equally near points, it finds the first.
+// A tree over points. The tree finds the point nearest to a place. Of several equally near points, the tree finds the first.
 class PointTree {
  public:
   explicit PointTree(std::vector<Point> points) : points_(std::move(points)), order_(points_.size()) {
@@ -220,7 +219,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
 
 double delta_of(double distance, double half_thickness) {
   if (!(distance < half_thickness)) return 0;
-  // As in the solver, delta is periodic: an interpolated distance below -eps gets a value from some earlier period.
+  // As in the solver, delta is periodic, so an interpolated distance below -eps gets a value from another period.
   return (1 + sine_cosine(pi * distance / half_thickness).cosine) / (2 * half_thickness * half_thickness);
 }
 
@@ -314,15 +313,16 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
   const SolverElement &element = *mesh.element;
   const std::vector<ReferencePoint> &points = at_solver_points ? element.gauss : element.fine;
   const std::vector<ShapeFunctions> &functions = at_solver_points ? element.at_gauss : element.at_fine;
-  // Most points of the elements near the band are outside the band. The distance of a point is at least a node's distance minus
-  // the way from the node to the point.
+  // Most points of the elements near the band are outside the band. The distance of such a point is at least a node's distance
+  // minus the way from the node to the point.
   const double reach = (1 + 1e-6) * half_thickness + error;  // rounding changes less
   const auto excludes = [&](std::int64_t node, const Point &point) {
     const Point off = difference(point, mesh.point(node));
     const double beyond = view(near)[node] - reach;
     return beyond > 0 && beyond < infinity && product(off, off) < beyond * beyond;
   };
-  // A linear element lies between its nodes. If a node excludes all other nodes of the element, it also excludes the element.
+  // A linear element lies between its nodes. If a node excludes all other nodes of the element, the node also excludes the
+  // element.
   const bool is_linear = element.n_nodes == element.n_corners;
   std::vector<double> xyz, weights;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {

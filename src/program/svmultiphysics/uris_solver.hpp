@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the numbers that svMultiPhysics would compute from exported leaflets in a mesh. The rules are those of the solver's
-// sources (docs/export.md). In: a mesh, and the leaflets of a frame. Out: the solver's distances at nodes, its delta at Gauss
-// points, and its bands.
+// sources (docs/export.md). In: a mesh, and the leaflets of a frame. Out: the solver's distances at nodes, the solver's delta at
+// Gauss points, and the solver's bands.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -87,8 +87,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
 
 // Returns the solver's distance at a point of element e, interpolated between the absolute distances at the element's nodes.
 // Quadratic shape functions have negative values at some points. At the border of the box, some nodes have the solver's large
-// number, and some interpolated distances become negative. By the solver's condition, points with negative distances are in the
-// band.
+// number, and some interpolated distances become negative. The solver counts points with negative distances as in the band.
 double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
                              const std::vector<double> &distances);
 // Returns the solver's delta at a point of element e: K / R.
