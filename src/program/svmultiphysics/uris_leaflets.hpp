@@ -27,7 +27,7 @@ inline Point vertex_of(const std::vector<double> &xyz, std::int64_t vertex) {
 }
 inline Point difference(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline double product(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-// Returns the normal of a triangle with a length of twice the triangle's area.
+// Returns the normal of a triangle. The normal's length is twice the triangle's area.
 inline Point twice_area(const Point &a, const Point &b, const Point &c) {
   const Point u = difference(b, a), v = difference(c, a);
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};

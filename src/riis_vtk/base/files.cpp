@@ -42,8 +42,8 @@ std::string create_beside(const std::string &place, const struct stat *replaced)
                                                   // file
     const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file >= 0) {
-      // The owner always gets permission to read and write, because the writer opens the file again. A file system without
-      // permissions may refuse the call, but this does no harm.
+      // The owner of the new file always gets permission to read and write, because the writer opens the file again. A file
+      // system without permissions may refuse the call, but this does no harm.
       if (replaced) static_cast<void>(fchmod(file, (replaced->st_mode & 0777) | S_IRUSR | S_IWUSR));
       close(file);
       return path;

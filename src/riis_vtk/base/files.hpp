@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks files, reads them as bytes, lines and words, and writes files under a temporary name. VTK reads and writes the formats.
-// This header also has the names of the arrays in files.
+// Checks files, reads files as bytes, lines and words, and writes files under a temporary name. VTK itself reads and writes the
+// formats of the files. This header also has the names of the arrays in files.
 #pragma once
 
 #include <functional>
@@ -46,36 +46,36 @@ vtkSmartPointer<Array> named_array(const std::string &name, vtkIdType n_tuples, 
   return array;
 }
 
-// Returns a text such as "; there are: a, b" for a message. The message says that an array is missing.
+// Returns a text such as "; there are: a, b", which ends a message. The message says that an array is missing.
 std::string list_of_arrays(vtkFieldData *data);
 
-// Functions for the lines and words of files that are scanned before VTK reads them. Blanks and capitals are those of ASCII,
-// whatever the locale is.
+// Functions for the lines and words of files that are scanned before VTK reads them. Blanks and capitals are those of ASCII, even
+// if the locale has others.
 bool is_blank(char c);
 
 std::string lower_case(std::string_view text);
 
-// Removes the first line from the text, and returns it without its line feed.
+// Removes the first line from the text, and returns this line without its line feed.
 std::string_view take_line(std::string_view &text);
 
-// Removes the first word and the blanks before it. Returns the word, or "" if there is none.
+// Removes the first word from the text, and the blanks before the word. Returns the word, or "" if there is none.
 std::string_view take_word(std::string_view &text);
 
-// Reads the whole text as a number. Returns false if the text is not a number of that type.
+// Reads the whole text as a number. Returns false if the text is not a number of the type.
 template <class Number>
 bool read_number(std::string_view text, Number &number) {
   const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size();
 }
 
-// Functions that visit an XML file element by element (xml_elements.cpp). No tree is built, because the destruction of a deeply
-// nested tree would overflow the stack. A hostile file could contain such a tree.
+// Functions that visit an XML file element by element (xml_elements.cpp). No tree of elements is built, because the destruction
+// of a deeply nested tree would overflow the stack. A hostile file could contain a deeply nested tree.
 
-// Names and values alternate, and NULL ends the list.
+// In the list, names and values alternate, and NULL ends the list.
 using XmlAttributes = const char **;
 std::optional<std::string> value_of(XmlAttributes attributes, const char *name);
 
-// Calls visit(way, attributes) for each element that is at most three elements deep. `way` has the names of the elements around
+// Calls visit(way, attributes) for each element that is at most three elements deep. `way` has the names of all elements around
 // the element, beginning with the outermost, and then the element's own name. Fails if the file is not XML.
 using VisitElement = std::function<void(const std::vector<std::string> &way, XmlAttributes attributes)>;
 void for_each_element(const std::string &path, const CaughtOutput &caught, const VisitElement &visit);
@@ -84,7 +84,7 @@ void for_each_element(const std::string &path, const CaughtOutput &caught, const
 std::string ending_of(const std::string &path);
 
 // Returns the size of the file. Fails if the path is not a regular and readable file, or if the file is empty. VTK's own messages
-// would not give this reason.
+// would not give the reason.
 std::int64_t check_readable(const std::string &path);
 
 // The bytes of a file, which can be read while this object lives.
@@ -118,8 +118,8 @@ class ReplacingFile {
   const std::string &temporary() const { return temporary_; }
   // Writes content from memory to the temporary file.
   void write(const unsigned char *bytes, std::int64_t n_bytes);
-  // Moves the file to its final path. Fails if the last bytes of the temporary file are not `closing`, with which the format
-  // ends. On a full disk the file is too short, and not every writer notices this.
+  // Moves the file to its final path. Fails if the temporary file does not end with `closing`, the last bytes of its format. On a
+  // full disk the temporary file is too short, and not every writer notices this.
   void commit(const std::string &closing);
 
  private:

@@ -15,7 +15,7 @@
 namespace riis::vtk {
 namespace {
 
-// The path in a message may have this length, so that the core's message has room for the reason.
+// The path in a message may have this length. The core's message then has room for the reason.
 constexpr std::size_t longest_path = 250;
 
 // Returns the part of VTK's message that helps a user. The message is "ERROR: In FILE, line N\nvtkClass (0xADDRESS):
@@ -102,7 +102,7 @@ CaughtOutput::CaughtOutput()
       caller_displays_(vtkObject::GetGlobalWarningDisplay()),
       caller_log_level_(vtkLogger::GetCurrentVerbosityCutoff()) {
   vtkOutputWindow::SetInstance(window_);
-  // Switches the display of warnings on. Without this, VTK would drop errors before they reach a window.
+  // Switches the display of warnings on. If warnings were off, VTK would drop errors before they reach a window.
   vtkObject::SetGlobalWarningDisplay(1);
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }

@@ -50,8 +50,8 @@ template <class... Parts>
   fail(RIIS_INVALID_ARGUMENT, joined(parts...));
 }
 
-// Throws RIIS_FILE_ERROR with the message "PATH: reason". If the path is too long for the message, its beginning is left out. The
-// reason stays complete.
+// Throws RIIS_FILE_ERROR with the message "PATH: reason". If the path is too long for the message, the beginning of the path is
+// left out. The reason stays complete.
 [[noreturn]] void fail_reason(const std::string &path, const std::string &reason);
 template <class... Parts>
 [[noreturn]] void fail_file(const std::string &path, const Parts &...parts) {
@@ -90,8 +90,8 @@ void destroy(Object **object) {
 }
 
 // As long as an object of this type exists, it replaces VTK's output window of the whole process. The object also silences VTK's
-// log on stderr, which would repeat every error. VTK tells only the highest level of all its logs, so the destructor sets the log
-// on stderr to this level.
+// log on stderr, which would repeat every error. VTK tells only the highest level of all its logs. The destructor sets the log on
+// stderr to this level.
 class CaughtOutput {
  public:
   CaughtOutput();
@@ -100,7 +100,7 @@ class CaughtOutput {
   CaughtOutput &operator=(const CaughtOutput &) = delete;
 
   // If VTK reported an error, fails with RIIS_FILE_ERROR for the path. The message is the first error since this object was made,
-  // as one line without VTK's source positions. The first error is the cause of the later errors, which come from higher layers
+  // as one line without VTK's source positions. The first error is the cause of all later errors, which come from higher layers
   // of VTK.
   void check(const std::string &path) const;
 

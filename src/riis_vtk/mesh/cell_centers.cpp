@@ -73,7 +73,8 @@ Vector3 center_of_cell(vtkCell *cell) {
 }
 
 // A face, which is given by its nodes, and a cell to which the face belongs. Two different faces may have three nodes in common
-// if these lie on one edge. Therefore the number of the other nodes and a hash of them also count.
+// if these three nodes lie on one edge. Therefore faces are compared by more than three nodes: by the number of the other nodes
+// and a hash of them.
 struct FaceOfCell {
   std::array<vtkIdType, 3> smallest;
   std::uint64_t others;

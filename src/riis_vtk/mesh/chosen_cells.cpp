@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Domains of a mesh, such as the fluid and the wall. A domain consists of the cells with one value in a cell array. The caller
-// keeps the cells with certain values, or learns which values touch.
+// keeps the cells with certain values, or learns which values touch each other.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -121,7 +121,7 @@ void choose_cells(riis_vtk_mesh &mesh, const Where &where, std::int64_t *n_chose
 
 // ---- Regions ----
 
-// Arrays whose names contain such a word do not tell domains apart.
+// An array does not tell domains apart if its name contains such a word.
 bool may_tell_domains(const std::string &array_name) {
   std::string name = array_name;
   for (char &c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -134,12 +134,12 @@ bool may_tell_domains(const std::string &array_name) {
 
 constexpr std::size_t most_regions = 16;
 
-// Returns the values of volume cells if they are few whole numbers, and if two values meet: two cells of one type with a common
-// node must have different values. Otherwise returns no values. Cells of different types do not count, because a domain often has
-// a block for each of its types, as Exodus needs.
+// Returns the values of volume cells if they are few whole numbers, and if cells with different values touch. Such cells must
+// have one type and a common node. Otherwise returns no values. Touching cells of different types do not count, because a domain
+// often has a block for each of its types, as Exodus needs.
 std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *array) {
   std::set<double> values;
-  // The value and the type of the first cell that has a node, for each node.
+  // For each node, the value and the type of its first cell.
   std::vector<double> of_node(static_cast<std::size_t>(grid->GetNumberOfPoints()), NAN);
   std::vector<int> type_at(of_node.size());
   bool do_touch = false;
@@ -164,8 +164,8 @@ std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *arr
   return {values.begin(), values.end()};
 }
 
-// Does the same as touching_values for a mesh given by axes. If two cells have different values, such cells also touch, because
-// each cell of a grid is beside the next one.
+// Does the same as touching_values for a mesh given by axes. In such a mesh, different values always touch, because each cell is
+// beside the next cell.
 std::vector<double> values_on_axes(vtkDataArray *array) {
   std::set<double> values;
   for (vtkIdType cell = 0; cell < array->GetNumberOfTuples(); ++cell) {

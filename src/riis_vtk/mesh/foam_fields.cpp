@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Returns the name of OpenFOAM's field for an array. The array riis_K becomes K, and riis_K_u_surface becomes Ku. Names with
-// other prefixes stay as they are.
+// other prefixes are not changed.
 std::string field_of(const std::string &array) {
   const std::string prefix = std::string(default_prefix) + "_", velocity = "K_u_surface";
   std::string name = array.rfind(prefix, 0) == 0 ? array.substr(prefix.size()) : array;
@@ -33,7 +33,8 @@ bool ends_with(const std::string &text, const std::string &end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-// OpenFOAM compares the dimensions of fields. In the momentum equation of an incompressible fluid, K is divided by the density.
+// OpenFOAM compares the dimensions of fields. OpenFOAM solves an incompressible fluid's momentum equation divided by the density,
+// so K is also divided by it.
 const char *dimensions_of(const std::string &array) {
   if (ends_with(array, "K")) return "[0 0 -1 0 0 0 0]";
   if (ends_with(array, "K_u_surface")) return "[0 1 -2 0 0 0 0]";

@@ -43,18 +43,17 @@ struct Regions {
 }  // namespace riis::vtk
 
 struct riis_vtk_mesh {
-  // A mesh. The points of its grid are a vtkDoubleArray. If the mesh is given by axes, the grid has only arrays at first. grid()
-  // makes its points and cells.
+  // A mesh. The points of its grid are a vtkDoubleArray. If axes give the nodes of the mesh, the grid has only arrays at first.
+  // grid() makes its points and cells.
   vtkSmartPointer<vtkUnstructuredGrid> data;
   std::unique_ptr<const riis::vtk::GridAxes> axes = {};
   std::string notes = {};      // the notes that riis_vtk_mesh_get_notes gives
   std::string foam_case = {};  // the folder of the case that the mesh was read from, or ""
-  // If the mesh has centres of cells, these are its nodes, and the data of nodes is data of cells.
+  // If the mesh has centres of cells, the centres are its nodes, and the data of nodes is data of cells.
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
   std::vector<riis::vtk::RegionName> region_names = {};  // of gmsh's physical groups of volumes
   riis::vtk::Regions regions = {};                       // as riis_vtk_mesh_find_regions found them
-  // If only some cells were kept, the ids that the nodes and cells had in the whole mesh. If all cells were kept, these lists are
-  // empty.
+  // The ids of nodes and cells in the whole mesh, if only some cells were kept. If all cells were kept, these lists are empty.
   std::vector<std::int64_t> whole_node_ids = {}, whole_cell_ids = {};
 
   std::int64_t n_nodes() const { return centers ? n_cells() : axes ? axes->n_nodes() : data->GetNumberOfPoints(); }
@@ -68,7 +67,7 @@ struct riis_vtk_mesh {
 
 namespace riis::vtk {
 
-// Does the same as median_edge_of for a mesh given by axes.
+// Does the same as median_edge_of, for a mesh given by axes.
 double median_edge_of(const GridAxes &axes);
 // Returns the adjacency of the grid's nodes.
 riis_adjacency *adjacency_of(const GridAxes &axes, std::int32_t n_threads);
@@ -81,8 +80,8 @@ void write_axes(const std::string &path, const riis_vtk_mesh &mesh, const Caught
 // Converts the points of the grid to double precision. If the grid has no points, it gets an empty list of points.
 void make_points_double(vtkUnstructuredGrid *grid);
 
-// The properties that all cells of a VTK type have in common. A node is given by its position in the list of the cell's nodes. If
-// the cells of a type have different edges and faces, these lists are empty.
+// The properties that all cells of a VTK type have in common. A node is given by its position in the list of the cell's nodes.
+// These lists are empty if cells of the type can have different edges and faces.
 using Edge = std::array<vtkIdType, 2>;
 struct CellShape {
   struct Face {
@@ -100,7 +99,7 @@ struct VolumeCounts {
   std::int64_t n_linear = 0;   // the volume cells that volume_cells_of returns
   std::int64_t n_unknown = 0;  // the volume cells whose edges are not known
 };
-// `ghosts` has a value for each cell, and may be NULL. Cells that `ghosts` marks are copies of another piece's cells, and do not
+// `ghosts` has a value for each cell, and may be NULL. A cell that `ghosts` marks is a copy of another piece's cell, and does not
 // count.
 VolumeCounts count_volumes(vtkUnstructuredGrid *grid, vtkUnsignedCharArray *ghosts = nullptr);
 
@@ -112,7 +111,7 @@ struct VolumeCells {
 // Returns the tetrahedra, pyramids, wedges and hexahedra of the grid. Voxels become hexahedra. Other cells are left out.
 VolumeCells volume_cells_of(vtkUnstructuredGrid *grid);
 
-// The edges of volume cells as pairs of nodes. If several cells have an edge, it appears once for each cell.
+// The edges of volume cells as pairs of nodes. An edge of several cells appears once for each cell.
 struct VolumeEdges {
   std::vector<std::int64_t> node_ids;  // (2, n)
   std::int64_t n_cells_left_out = 0;   // volume cells whose edges are not known
@@ -123,7 +122,7 @@ VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid);
 struct LongEdges {
   LongEdges(double longer_than, const double *box_lower, const double *box_upper)
       : least_square(longer_than * (1 - 1e-9) * (longer_than * (1 - 1e-9))), lower(box_lower), upper(box_upper) {}
-  // The length is compared first, because few edges of a fine mesh are long.
+  // The length is compared before the box, because few edges of a fine mesh are long.
   bool has(const double *a, const double *b) const;
 
   double least_square;
@@ -137,8 +136,8 @@ double median_of(std::vector<double> lengths);
 inline constexpr std::int64_t most_measured =
     20'000;  // cells or pairs of cells that a median is of, at equal distances in the list
 
-// Returns the median length of the edges of faces and volumes, or 0 if no edge is known. If several cells have an edge, it counts
-// once for each cell.
+// Returns the median length of the edges of faces and volumes, or 0 if no edge is known. An edge of several cells counts once for
+// each cell.
 double median_edge_of(vtkUnstructuredGrid *grid);
 
 // Keeps only the given cells, in ascending order, and the nodes of these cells (mesh_parts.cpp).

@@ -57,8 +57,8 @@ std::vector<vtkIdType> ids_of(const Chosen &chosen) {
   return ids;
 }
 
-// Converts ids of a mesh to ids of the whole mesh. If the mesh is a part, `whole` has the whole mesh's ids of its nodes.
-// Otherwise `whole` is empty.
+// Converts ids of a mesh to ids of the whole mesh. If the mesh is a part of the whole mesh, `whole` has the ids of its nodes in
+// the whole mesh. Otherwise `whole` is empty.
 std::vector<std::int64_t> whole_ids(const std::vector<vtkIdType> &ids, const std::vector<std::int64_t> &whole) {
   std::vector<std::int64_t> made(ids.begin(), ids.end());
   if (!whole.empty())

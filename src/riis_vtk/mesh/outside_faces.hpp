@@ -25,8 +25,8 @@ struct Outside {
   bool of_volumes = false;             // if true, corners run anticlockwise seen from outside
 };
 
-// Returns the faces of wanted volumes that belong to only one wanted volume. In a grid without volumes, each flat cell is a face.
-// The faces of cells of higher order become straight between their corners.
+// Returns the faces that belong to exactly one of the wanted volumes. In a grid without volumes, each flat cell is a face. The
+// faces of cells of higher order become straight between their corners.
 //   wanted       one entry for each cell; NULL for all cells
 //   face_wanted  one entry for each cell: only the faces of these cells are kept; NULL for all cells
 Outside outside_of(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> *wanted,

@@ -84,7 +84,8 @@ Declared declared_array(XmlAttributes attributes) {
   Declared array{value_of(attributes, "Name").value_or(""), value_of(attributes, "type").value_or("")};
   if (const auto n = value_of(attributes, "NumberOfComponents"); n && !read_number(*n, array.n_components))
     array.n_components = -1;
-  // dolfinx 0.5 writes no number of components for scalars. VTK reads such an array of a .vtu file as having one component.
+  // dolfinx 0.5 writes no number of components for scalars. VTK takes such an array of a .vtu file for an array with one
+  // component.
   if (array.n_components == 0) array.n_components = 1;
   return array;
 }
@@ -230,10 +231,10 @@ vtkUnsignedCharArray *ghosts_of(vtkDataSetAttributes *data, const char *kind) {
   return ghosts;
 }
 
-// Finds the nodes that other pieces may also have. A face of two cells of this piece is inside the piece. For each node, the
-// hashes of its faces are combined by exclusive or. A face inside the piece is combined twice, so it leaves no trace. The result
-// tells, without a list of faces, whether all faces of a node are inside. For each node, the answer is wrong with a probability
-// of 2^-64.
+// Finds the nodes that other pieces may also have. If two cells of this piece share a face, the face is inside the piece. For
+// each node, the hashes of its faces are combined by exclusive or. A face inside the piece is combined twice, so it leaves no
+// trace. The result tells, without a list of faces, whether all faces of a node are inside. For each node, the answer is wrong
+// with a probability of 2^-64.
 class NodeRoles {
  public:
   explicit NodeRoles(vtkUnstructuredGrid *grid)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the points that lie outside a mesh. First, the points inside each cell are found. For the remaining points, the faces of
-// the cells near them become a surface, and the core computes the points' distances from it.
+// Finds the points that lie outside a mesh. First, the points inside each cell are found. For the points that remain, the faces
+// of the cells near them become a surface, and the core computes the points' distances from this surface.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -98,8 +98,8 @@ class PointGrid {
   std::vector<std::int64_t> starts_, order_;
 };
 
-// Cuts the volume cells of a mesh into tetrahedra, and their faces into triangles. A cell is cut from its middle. A face with
-// more than three corners is cut from the middle of the face. Two neighbouring cells thus cut their common face in the same way.
+// Cuts the volume cells of a mesh into tetrahedra, and their faces into triangles. A cell is cut around its middle. A face with
+// more than three corners is cut around the middle of the face. Two neighbouring cells thus cut their common face in one way.
 class SolidCells {
  public:
   explicit SolidCells(vtkUnstructuredGrid *grid)

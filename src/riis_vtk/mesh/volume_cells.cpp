@@ -40,8 +40,8 @@ void sort_edges(std::vector<Edge> &edges) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 }
 
-// Adds the edges of a face. A side of higher order has a node in the middle of the side. The face may also have a node in its
-// middle, which is then the last node of the face.
+// Adds the edges of a face. If a side has higher order, it has a node in its middle. The face may also have a node in its middle,
+// which is then the last node of the face.
 void add_face(vtkCell *face, std::vector<Edge> &edges) {
   std::vector<vtkIdType> middles;
   const int n_sides = face->GetNumberOfEdges();
@@ -58,8 +58,8 @@ void add_face(vtkCell *face, std::vector<Edge> &edges) {
   }
   const int last = static_cast<int>(face->GetNumberOfPoints()) - 1;
   if (last == n_sides + view(middles).size()) {
-    // The middle node of a quad has edges to the middle nodes of the four sides. The middle node of a triangle also has edges to
-    // the three corners.
+    // The node in the middle of a quad has edges to the nodes in the middles of the four sides. The node in the middle of a
+    // triangle also has edges to the three corners.
     for (int i = n_sides == 3 ? 0 : n_sides; i < last; ++i)
       edges.push_back(edge_between(face->GetPointId(i), face->GetPointId(last)));
   } else if (!middles.empty()) {
@@ -79,8 +79,8 @@ void add_inner_edges(int type, std::vector<Edge> &edges) {
   if (type == VTK_BIQUADRATIC_QUADRATIC_WEDGE) edges.insert(edges.end(), {{15, 16}, {16, 17}, {15, 17}});
 }
 
-// Lists the nodes of a face. The corners come first, in their order round the face. For a voxel, VTK lists the corners of a face
-// row by row.
+// Lists the nodes of a face. The corners come first, in their order round the face. VTK lists the corners of a voxel's face row
+// by row.
 CellShape::Face listed_face(vtkCell *face) {
   CellShape::Face made{{face->GetPointIds()->begin(), face->GetPointIds()->end()}, face->GetNumberOfEdges()};
   if (face->GetCellType() == VTK_PIXEL) {
@@ -109,12 +109,12 @@ CellShape shape_from_vtk(int type) {
   return shape;
 }
 
-// Each of the next functions adds the edges between neighbouring nodes of a lattice of nodes.
+// Each of the next functions adds the edges between neighbouring nodes of a lattice.
 using Orders = std::array<int, 4>;  // the orders along three axes, then the number of nodes, as in VTK
 
 void add_tetrahedron_lattice(int order, std::vector<Edge> &edges) {
-  // Four whole numbers with the sum order - 1 stand for a small tetrahedron. If 1 is added to one of them, they are the
-  // barycentric coordinates of a corner.
+  // A small tetrahedron is given by four whole numbers, whose sum is order - 1. If 1 is added to one of these four numbers, the
+  // four are the barycentric coordinates of a corner.
   for (vtkIdType i = 0; i < order; ++i)
     for (vtkIdType j = 0; i + j < order; ++j)
       for (vtkIdType k = 0; i + j + k < order; ++k) {
@@ -181,8 +181,9 @@ std::vector<Edge> lattice_edges(int type, const Orders &orders) {
   return edges;
 }
 
-// Finds the orders of a cell from its number of nodes, n_nodes. The orders are those that the file gives (`given`), or they are
-// equal along all axes. Returns false if neither choice fits n_nodes, because the nodes then form no lattice.
+// Finds the orders of a cell from its number of nodes, n_nodes. The orders are those in the file (`given`), or they are equal
+// along all axes. Returns false if n_nodes fits neither the given orders nor equal orders, because the nodes then form no
+// lattice.
 bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &orders) {
   orders[3] = static_cast<int>(n_nodes);
   const auto fit = [&] {
@@ -201,9 +202,9 @@ bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &order
   return false;
 }
 
-// The edges of cells of all types. A cell with straight sides has its sides as edges. A cell of higher order is divided by its
-// nodes into linear cells, and has their edges. If a face has no node in its middle, edges join the middles of neighbouring
-// sides.
+// The edges of cells of all types. A cell with straight sides has its sides as edges. The nodes of a cell of higher order divide
+// it into linear cells, and the edges are those of the linear cells. If a face has no node in its middle, edges join the middles
+// of neighbouring sides.
 class CellEdges {
  public:
   explicit CellEdges(vtkUnstructuredGrid *grid) : grid_(grid), degrees_(grid->GetCellData()->GetHigherOrderDegrees()) {

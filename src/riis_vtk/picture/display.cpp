@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char *advice = "; on a machine without one, run the program by: xvfb-run -a PROGRAM";
 
-// Tries several times, because the X server refuses connections while it resets itself after a picture. A display on another
+// Tries several times, because the X server resets itself after a picture and refuses connections meanwhile. A display on another
 // machine is tried only once, because its refusal may take minutes.
 Display *open_display() {
   using std::chrono::milliseconds;
@@ -27,9 +27,9 @@ Display *open_display() {
   }
 }
 
-// Returns whether VTK's OpenGL can draw on the display. The OpenGL library in use decides about this. Some libraries, such as the
-// one in the program's archive, draw by X alone and do not need the server's extension GLX. At this point, VTK has already loaded
-// the OpenGL library.
+// Returns whether VTK's OpenGL can draw on the display. The OpenGL library in use decides whether this is possible. Some
+// libraries, such as the one in the program's archive, draw by X alone and do not need the server's extension GLX. At this point,
+// VTK has already loaded the OpenGL library.
 bool has_opengl(Display *display) {
   int opcode = 0, event = 0, error = 0;
   using Query = int(Display *, int *, int *);

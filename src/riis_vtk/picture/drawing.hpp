@@ -16,7 +16,7 @@ class vtkUnsignedCharArray;
 namespace riis::vtk {
 
 // Holds a connection to the X display while VTK draws. On Linux, VTK 9.1 draws only through X and GLX. VTK aborts the process if
-// X or GLX is missing. After its last client has left, an X server resets itself, and refuses connections during this time.
+// X or GLX is missing. An X server resets itself after its last client has left, and refuses connections during this time.
 // Therefore this connection stays open.
 class HeldDisplay {
  public:
@@ -40,8 +40,8 @@ vtkSmartPointer<vtkRenderer> two_sided_renderer();
 
 vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data);
 
-// Returns an actor for faces. The cell scalars of `faces` give their colours, three bytes for each cell. The actor has points of
-// its own.
+// Returns an actor for faces. The cell scalars of `faces` give the colours of the faces, three bytes for each cell. The actor has
+// points of its own.
 vtkSmartPointer<vtkActor> coloured_actor_of(vtkPolyData *faces);
 
 // Returns the faces with normals at their corners. With normals at the corners, smooth edges between faces become invisible, but

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of riis_vtk.h. Draws a surface and a marked mesh, as seen by one camera, into .png files. The picture options of a
-// caller may have the size of any release. The caller's options are converted to the struct of this release, and then checked. If
-// a check fails, the message names the field and its value.
+// Pictures of riis_vtk.h. Draws a surface and a marked mesh, as seen by one camera, into .png files. The struct with the caller's
+// options may have the size of any release. The caller's options are converted to the struct of this release, and then checked.
+// If a check fails, the message names the field and its value.
 #include <riis/riis_vtk.h>
 
 #include <cmath>
@@ -80,7 +80,8 @@ const riis_vtk_picture_options &default_picture_options() {
   return defaults;
 }
 
-// Returns the options. Fields that an older caller does not have get defaults. If `options` is NULL, all fields get defaults.
+// Returns the options. An older caller's struct lacks some fields, which get defaults. If `options` is NULL, all fields get
+// defaults.
 riis_vtk_picture_options completed_picture_options(const riis_vtk_picture_options *options) {
   riis_vtk_picture_options whole = default_picture_options();
   if (options) {

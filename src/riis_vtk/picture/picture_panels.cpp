@@ -133,8 +133,7 @@ double mean_edge_length(vtkPolyData *faces) {
   return sum / std::max(1.0, static_cast<double>(faces->GetNumberOfCells()));
 }
 
-// Moves an actor away from the eye. Without perspective, the actor looks the same, and only its order before or behind other
-// parts changes.
+// Moves an actor away from the eye. Without perspective, the actor looks the same, but other parts may then be drawn before it.
 void move_away(vtkActor *actor, const View &view, double length) {
   actor->SetPosition(length * view.away()[0], length * view.away()[1], length * view.away()[2]);
 }

@@ -50,7 +50,7 @@ std::string counted(vtkIdType n, const std::string &singular) {
   return grouped(n) + " " + singular + (n == 1 ? "" : "s");
 }
 
-// Returns a number of the form 1, 2 or 5 times a power of ten: the largest that is not above the limit.
+// Returns the largest number up to the limit that is 1, 2 or 5 times a power of ten.
 double round_length(double limit) {
   const double power = std::pow(10, std::floor(std::log10(limit)));
   for (const double digit : {5.0, 2.0}) {
@@ -207,7 +207,7 @@ void add_key(vtkRenderer *renderer, const Layout &layout, int column, double lef
 }
 
 // Draws all texts of a picture in a layer behind its panels. The number at the scale bar is followed by `unit`. With has_plural,
-// the unit gets an s if the number is not 1.
+// the unit ends in an s if the number is not 1.
 vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &columns,
                                               const View &view, const Sight &sight, const std::string &unit,
                                               bool has_plural, const Colour &ink) {
@@ -266,8 +266,8 @@ std::vector<KeyEntry> key_of_marks(const MarkCounts &marks, const Leaks &leaks, 
 
 KeyEntry dashes_entry(const Colour &ink) { return {"dashed: the mesh goes on", ink}; }
 
-// Returns the texts of a picture with three views: captions and keys, distributed over the columns. Each column has the name of
-// its view below its other lines.
+// Returns the texts of a picture with three views: captions and keys, distributed over the columns. Below its other lines, each
+// column has the name of its view.
 std::vector<PanelTexts> texts_of_columns(const std::vector<PanelTexts> &panels, std::int32_t first) {
   std::vector<PanelTexts> columns(n_views);
   for (std::size_t i = 0; i < panels.size(); ++i) columns[i] = panels[i];
@@ -280,8 +280,8 @@ std::vector<PanelTexts> texts_of_columns(const std::vector<PanelTexts> &panels, 
 }
 
 // Computes a picture with transparency from two pictures: one on black and one on white. A pixel that has one colour in both
-// pictures is opaque. A pixel that is black in one and white in the other is clear. The computation also works for blended
-// objects, whatever their order is.
+// pictures is opaque. A pixel that is black in one picture and white in the other is clear. The computation also works for
+// blended objects, whatever their order is.
 vtkSmartPointer<vtkImageData> transparent_from(vtkImageData *on_black, vtkImageData *on_white) {
   int size[3];
   on_black->GetDimensions(size);

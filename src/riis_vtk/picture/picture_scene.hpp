@@ -30,7 +30,7 @@ class vtkPolyData;
 namespace riis::vtk {
 
 Colour colour_of_leaflet(vtkIdType leaflet);
-// A dark red. People with any kind of colour vision can tell it from the vermilion of leaflets.
+// A dark red for leaking edges. People with any kind of colour vision can tell this red from the vermilion of leaflets.
 constexpr Colour leak_colour = {0.55, 0.0, 0.0};
 
 // The panel with the surface, in which each leaflet has its own colour. The rims of leaflets are drawn as lines, because a face
@@ -85,8 +85,8 @@ class MarksPanel {
 };
 
 // The positions of the parts of a picture, in pixels from the lower left corner. If a picture is too low for bands, it has no
-// texts. Usually the panels are side by side. In a picture with three views, the panels of one view are above each other in a
-// column. Each text belongs to one column of panels.
+// texts. Usually the panels are side by side. In a picture with three views, each column has the panels of one view, one above
+// the other. Each text belongs to one column of panels.
 class Layout {
  public:
   enum class Panels { side_by_side, stacked };
@@ -103,11 +103,11 @@ class Layout {
   double panel_width() const { return width_ / static_cast<double>(n_columns_); }
   double panel_height() const { return (height_ - top_ - bottom_) / n_rows_; }
   // caption_line and key_line return the lower end of a line of text. The lines of a caption are counted from the top of the
-  // picture downwards. The lines of a key are counted from the panels downwards.
+  // picture downwards. The lines of a key are counted downwards from the panels.
   double caption_line(int line) const { return height_ - 1.6 * letter_ * (line + 1); }
   double key_line(int line) const { return bottom_ - 1.6 * letter_ * (line + 1); }
   double bottom() const { return bottom_; }
-  // Returns the left, lower, right and upper end of a panel. Each is a share of the picture's size.
+  // Returns the left, lower, right and upper end of a panel. Each of the four ends is a share of the picture's size.
   std::array<double, 4> viewport(int panel) const;
   double line_width() const;
 
@@ -157,7 +157,7 @@ class Scene {
   vtkSmartPointer<vtkImageData> picture(std::int32_t of, const std::optional<Bounds> &seen);
 
  private:
-  // The half height of a panel is at least `least`.
+  // The half height of a panel is never below `least`.
   Sight sight(const View &view, const std::optional<Bounds> &seen, const Layout &layout, double least = 0) const;
   // Draws one view. A transparent picture has a fourth channel for the opacity.
   vtkSmartPointer<vtkImageData> shot(const View &view, const Sight &sight, const Layout &layout,

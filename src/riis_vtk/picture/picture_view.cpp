@@ -68,7 +68,7 @@ std::vector<Side> cut_sides(const Sight &sight) {
   return sides;
 }
 
-// Returns the parts of this side's line that lie inside the boundary. The parts are sorted, and do not overlap.
+// Returns the parts of the side's line that lie inside the boundary. The parts are sorted, and do not overlap.
 std::vector<Extent> cuts(const View &view, const Side &side, vtkPolyData *boundary) {
   std::vector<Extent> all;
   const Vector &across = view.axes[side.axis], &along = view.axes[1 - side.axis];

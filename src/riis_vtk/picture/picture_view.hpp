@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The view of a picture.
 // In: the direction of view, and the extents of the surface and the mesh. Out: the visible part of space, which the camera, the
-// cut and the scale bar use. If the mesh extends beyond the panel, planes cut it, and dashed lines show where.
+// cut and the scale bar use. If the mesh extends beyond the panel, planes cut the mesh, and dashed lines show the cuts.
 #pragma once
 
 #include <array>
@@ -61,9 +61,9 @@ struct Sight {
   bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
 };
 
-// Returns a sight, which always contains the surface. Along each axis on which the mesh is not much larger than the surface, the
-// sight also contains the mesh. Pictures of a valve that moves in a mesh thus show the same space, and can be compared. Along the
-// other axes, the sight contains the surroundings of the surface.
+// Returns the part of space to show, the sight. It always contains the surface. Along each axis on which the mesh is not much
+// larger than the surface, the sight also contains the mesh. Pictures of a valve that moves in a mesh thus show the same part of
+// space, and can be compared. Along the other axes, the sight contains the surroundings of the surface.
 //   mesh    NULL if there is none
 //   aspect  the panel's width divided by its height
 //   least   the least half height of the panel, so that several views can have one scale

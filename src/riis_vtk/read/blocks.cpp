@@ -28,7 +28,7 @@
 namespace riis::vtk {
 namespace {
 
-// A block, with the id in the joined mesh for each of its nodes.
+// A block, and the ids of its nodes in the joined mesh.
 struct Block {
   vtkSmartPointer<vtkUnstructuredGrid> grid;
   std::vector<vtkIdType> new_id;
@@ -36,7 +36,7 @@ struct Block {
 
 using Grids = std::vector<vtkSmartPointer<vtkUnstructuredGrid>>;
 
-// Copies the arrays that all blocks have with one type and one number of components. `place` gives the position of each value in
+// Copies the arrays that all blocks have with the same type and number of components. `place` gives the position of each value in
 // the new array. If several blocks have a value for a position, the first block decides.
 template <class DataOf, class Place>
 void join_arrays(const std::vector<Block> &blocks, vtkIdType n, const DataOf &data_of, const Place &place,
@@ -132,8 +132,8 @@ struct HashOfPoint {
 };
 
 // Gives numbers to the nodes of all blocks. Nodes of different blocks become one node if they have the same global id. If a block
-// has no global ids, nodes with equal coordinates become one node. Two nodes of one block always stay different, so that slits
-// stay open. Returns the number of nodes.
+// has no global ids, its nodes are joined with nodes at equal coordinates. Two nodes of one block always stay different, so that
+// slits stay open. Returns the number of nodes.
 vtkIdType number_nodes(std::vector<Block> &blocks) {
   const bool have_ids =
       std::all_of(blocks.begin(), blocks.end(), [](const Block &b) { return global_ids_of(b.grid) != nullptr; });
@@ -158,8 +158,8 @@ vtkIdType number_nodes(std::vector<Block> &blocks) {
   return n_nodes;
 }
 
-// Lists the files that a .vtm file names, in its order. Files that are not .vtu files, such as the surfaces of a boundary, are
-// only counted.
+// Lists the files that a .vtm file names, in the order of the .vtm file. Files that are not .vtu files, such as the surfaces of a
+// boundary, are only counted.
 void list_files(const XmlElement &parent, std::vector<std::string> &files, std::int64_t &n_others) {
   for (const XmlElement &child : parent.children) {
     const std::string file = child.attribute("file");

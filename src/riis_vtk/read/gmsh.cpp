@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads gmsh's .msh files of versions 2 and 4.1, as text or binary. The format is described in the chapter "Gmsh file formats" of
-// gmsh's manual. The section "Node ordering" there has the orders of nodes. Nodes and elements keep the file's order. Elements of
-// all dimensions become cells. The cell array gmsh:physical has the first physical group of each cell, and further arrays have
-// further groups.
+// gmsh's manual. The section "Node ordering" of this chapter has the orders of nodes. Nodes and elements keep the file's order.
+// Elements of all dimensions become cells. The cell array gmsh:physical has the first physical group of each cell, and further
+// arrays have further groups.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -34,7 +34,7 @@ const ElementType *find_type(std::int64_t gmsh_type) {
       {3, 4, VTK_QUAD, {}},
       {4, 4, VTK_TETRA, {}},
       {5, 8, VTK_HEXAHEDRON, {}},
-      // The base of a wedge in VTK is ordered as seen from outside, and the base of a prism in gmsh as seen from inside.
+      // In VTK, the base of a wedge is ordered as seen from outside. In gmsh, the base of a prism is ordered as seen from inside.
       {6, 6, VTK_WEDGE, {0, 2, 1, 3, 5, 4}},
       {7, 5, VTK_PYRAMID, {}},
       {8, 3, VTK_QUADRATIC_EDGE, {}},
@@ -48,8 +48,8 @@ const ElementType *find_type(std::int64_t gmsh_type) {
       {18, 15, VTK_QUADRATIC_WEDGE, {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10}},
       {13, 18, VTK_BIQUADRATIC_QUADRATIC_WEDGE, {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10, 16, 17, 15}},
       {19, 13, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
-      // VTK 9.1 has no type for a pyramid with a node in the middle of its base. The node stays a node of the mesh. This node
-      // gets its edges from the cell on the other side of the base.
+      // VTK 9.1 has no type for a pyramid with a node in the middle of its base. The node in the middle of the base stays a node
+      // of the mesh. This node gets its edges from the cell on the other side of the base.
       {14, 14, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
   };
   const auto found =
@@ -256,7 +256,7 @@ class GmshFile {
     return n;
   }
 
-  // In a text file, a number takes at least two bytes: a digit and a blank. A node with parameters also has its entity, and its
+  // In a text file, a number takes at least two bytes: a digit and a blank. A node with parameters also has an entity, and
   // coordinates on a curve or a surface.
   std::vector<std::int64_t> read_old_nodes(bool is_parametric) {
     const std::int64_t n = text_count(in_.is_binary ? int_bytes + 3 * real_bytes : 8, "nodes");
@@ -350,7 +350,7 @@ class GmshFile {
   }
 
   // Reads the physical groups of the model's points, curves, surfaces and volumes. An entity may have several groups. If gmsh has
-  // partitioned the mesh, the elements belong to parts of these entities, and the parts have groups of their own.
+  // partitioned the mesh, the elements belong to parts of these entities, and these parts also have groups.
   void read_entities(bool are_parts) {
     if (are_parts) {
       read_sizes(1);  // the number of partitions
@@ -424,8 +424,8 @@ class GmshFile {
   }
 
   // In version 2, an element with several physical groups is listed once for each group, each time with another number. The first
-  // of the equal elements is kept. Returns the number of the elements that are left out. Equal elements within one group all
-  // stay.
+  // of the equal elements is kept. Returns the number of the elements that are left out. Equal elements within one group are all
+  // kept.
   std::int64_t drop_copies() {
     const bool are_grouped =
         std::any_of(physical_.begin(), physical_.end(), [&](std::int32_t group) { return group != physical_[0]; });

@@ -58,7 +58,7 @@ void check_point_id(const std::string &path, vtkIdType cell_id, vtkIdType point_
   }
 }
 
-// Checks the point ids of cells. In the message, the first of these cells has the id `first_id`.
+// Checks the point ids of cells. In the message, the first of the given cells has the id `first_id`.
 void check_point_ids(const std::string &path, vtkCellArray *cells, vtkIdType first_id, vtkIdType n_points) {
   check_offsets(path, cells);
   const vtkIdType n_cells = cells ? cells->GetNumberOfCells() : 0;
@@ -70,7 +70,7 @@ void check_point_ids(const std::string &path, vtkCellArray *cells, vtkIdType fir
   }
 }
 
-// Checks faces. In the message, the first of these faces has the id `first_id`.
+// Checks faces. In the message, the first of the given faces has the id `first_id`.
 void check_faces(const std::string &path, vtkCellArray *faces, vtkIdType first_id, vtkIdType n_points) {
   check_point_ids(path, faces, first_id, n_points);
   for (vtkIdType i = 0; i < faces->GetNumberOfCells(); ++i) {
@@ -135,8 +135,8 @@ void check_polyhedra(const std::string &path, vtkUnstructuredGrid *grid) {
   }
 }
 
-// Also reads the faces of polyhedra in the layout that VTK has written since 9.4. Older releases of VTK ignore this layout. In
-// this layout, each polyhedron refers to faces in a common list, and each face refers to its corners.
+// Also reads the faces of polyhedra in the layout of VTK 9.4 and later. Older releases of VTK ignore this layout. In this layout,
+// each polyhedron refers to faces in a common list, and each face refers to its corners.
 class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
  public:
   static GridReader *New() { VTK_STANDARD_NEW_BODY(GridReader); }
@@ -160,7 +160,7 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
     const vtkIdType n_faces = faces.empty() ? 0 : 1 + *std::max_element(faces.begin(), faces.end());
     const Ids corner_ends = offsets_in(cells, "face_offsets", n_faces);
     const Ids corners = ids_in(cells, "face_connectivity", n_faces == 0 ? 0 : corner_ends.back());
-    // The first piece with polyhedra creates the list of faces. For later pieces, VTK fills in -1 for the cells without faces.
+    // The first piece with polyhedra creates the list of faces. For later pieces, VTK enters -1 for the cells without faces.
     if (!grid->GetFaces()) {
       grid->InitializeFacesRepresentation(StartCell);
       for (vtkIdType i = 0; i < n_cells; ++i) grid->GetFaceLocations()->InsertNextValue(-1);
@@ -185,7 +185,7 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
     }
   }
 
-  // Reads n values of a cell array. Fails unless the file holds these values.
+  // Reads n values of a cell array. Fails unless the file holds all these values.
   Ids ids_in(vtkXMLDataElement *cells, const char *name, vtkIdType n) {
     vtkXMLDataElement *element = FindDataArrayWithName(cells, name);
     const auto created = vtkSmartPointer<vtkAbstractArray>::Take(element ? CreateArray(element) : nullptr);

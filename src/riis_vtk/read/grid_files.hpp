@@ -40,7 +40,7 @@ vtkSmartPointer<vtkPointSet> read_legacy_surface(const std::string &path, const 
 struct Lattice {
   std::array<std::int64_t, 3> n;
   std::int64_t n_points() const { return n[0] * n[1] * n[2]; }
-  // If an axis has only one node, the grid has no thickness along it.
+  // If an axis has only one node, the grid has no thickness along this axis.
   std::int64_t n_cells() const {
     std::int64_t n_all = 1;
     for (const std::int64_t size : n) n_all *= size > 1 ? size - 1 : 1;
@@ -51,8 +51,8 @@ struct Lattice {
 void check_lattice(const std::string &path, const Lattice &lattice);
 
 // Returns the content of a legacy .vtk file. Fails for other kinds of data, and for an incomplete file. VTK's legacy reader
-// believes every count. VTK's legacy reader takes a truncated file for a smaller mesh, and ends the process on some files.
-// Therefore the sections are checked here before VTK reads them.
+// believes every count in a file. VTK's legacy reader takes a truncated file for a smaller mesh, and ends the process on some
+// files. Therefore the sections are checked here before VTK reads them.
 enum class LegacyKind { unstructured_grid, polydata, structured_points, rectilinear_grid, structured_grid };
 enum class LegacyKinds { grid, grid_or_polydata };
 struct LegacyContent {
@@ -75,10 +75,10 @@ class XmlSizes {
  public:
   explicit XmlSizes(const std::string &path);
 
-  // Fails if an array of a piece or of the field has fewer values than the file states. The parser must have read the elements
-  // before this call.
+  // Fails if an array has fewer values than the file states. The arrays are those of the pieces and of the field. The parser must
+  // have read the elements before this call.
   void check_pieces(vtkXMLDataParser *parser);
-  // Fails if the file has fewer than n values of the array's type for an element. Also fails if the stated size of a binary block
+  // Fails if the file has fewer than n values for the array of an element. Also fails if the stated size of a binary block
   // exceeds the size of the file.
   void check_values(vtkXMLDataParser *parser, vtkXMLDataElement *element, std::int64_t n, vtkAbstractArray *array);
 

@@ -45,8 +45,8 @@ class Silence {
 hid_t type_in_memory(const double *) { return H5T_NATIVE_DOUBLE; }
 hid_t type_in_memory(const std::int64_t *) { return H5T_NATIVE_INT64; }
 
-// Fails if the file does not contain all values of the dataset. For values that were never written, HDF5 would fill in a default.
-// The data can be at most 1032 times as large as its compressed chunk, because deflate compresses by no larger factor.
+// Fails if the file does not contain all values of the dataset. HDF5 would fill in a default for values that were never written.
+// Data can be at most 1032 times as large as its compressed chunk, because deflate compresses by no larger factor.
 void check_storage(const std::string &path, const std::string &name, hid_t dataset, std::int64_t n_bytes) {
   const Identifier properties(H5Dget_create_plist(dataset), H5Pclose);
   const bool is_filtered = H5Pget_layout(properties) == H5D_CHUNKED && H5Pget_nfilters(properties) > 0;

@@ -36,7 +36,7 @@ int size_of_type(std::string_view type) {
   return is_in({"string", "utf8_string"}) ? 0 : -1;
 }
 
-// Returns whether VTK would read the whole word as a number of this type. VTK reads numbers from C++ streams. VTK refuses
+// Returns whether VTK would read the whole word as a number of the given type. VTK reads numbers from C++ streams. VTK refuses
 // infinite numbers and numbers that are too large, but accepts numbers that are too small.
 bool is_number(std::string_view word, const std::string &type) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
@@ -49,7 +49,7 @@ bool is_number(std::string_view word, const std::string &type) {
     return error == std::errc() && std::isfinite(value) &&
            (type == "double" || std::isfinite(static_cast<float>(value)));
   }
-  // In text files, VTK writes and reads a byte as a number of 32 bits. A number above 255 is therefore no fault.
+  // In text files, VTK writes and reads a byte as a number of 32 bits. Therefore a number above 255 is no fault.
   const bool is_unsigned = type.rfind("unsigned", 0) == 0 || type == "vtktypeuint64";
   const int n_bits = type == "short" || type == "unsigned_short" ? 16 : size_of_type(type) == 8 ? 64 : 32;
   if (is_unsigned && size_of_type(type) > 1) {
@@ -148,8 +148,8 @@ class Scan {
     return text;
   }
 
-  // Returns the next word in lower case, or "" at the end of the file. Mostly, the format does not distinguish capitals from
-  // small letters.
+  // Returns the next word in lower case, or "" at the end of the file. Mostly, the format does not distinguish capital letters
+  // from small letters.
   std::string word() { return lower_case(word_as_it_is()); }
 
   // The next two functions return the next word, and fail at the end of the file.
@@ -325,8 +325,8 @@ class Scan {
     if (n_found != n_keys || key) refuse("has INFORMATION of ", n_keys, " keys and gives ", n_found);
   }
 
-  // Skips the values of a key of METADATA that VTK knows. The values are a string, a number, or a count followed by as many
-  // strings or numbers.
+  // Skips the values of a key of METADATA, if VTK knows the key. The values are a string, a number, or a count followed by as
+  // many strings or numbers.
   void skip_data(vtkInformationKey *key, std::string_view text) {
     if (vtkInformationStringKey::SafeDownCast(key)) return;
     const bool are_texts = vtkInformationStringVectorKey::SafeDownCast(key) != nullptr;
@@ -456,7 +456,8 @@ class Scan {
     if (n_left != 0) refuse("has ", name, " with ", n_left, " numbers too many");
   }
 
-  // Returns the values of an array. The last word was the type of the array. The values begin on the next line of the file.
+  // Returns the values of an array. The word before the values was the type of the array. The values begin on the next line of
+  // the file.
   std::string_view values_behind_line() const {
     std::string_view values = rest_;
     take_line(values);

@@ -34,7 +34,8 @@ std::optional<double> time_of(const fs::path &folder) {
   return read_number(std::string_view(folder.filename().string()), time) ? std::optional<double>(time) : std::nullopt;
 }
 
-// Unpacks a gzip file. A damaged file gives an error. The memory grows with the unpacked content, not with a stated size.
+// Unpacks a gzip file. A damaged file gives an error. The memory grows with the unpacked content, not with a size that the file
+// states.
 std::string unpacked(const std::string &path, std::string_view packed) {
   z_stream stream{};
   if (inflateInit2(&stream, 15 + 16) != Z_OK) throw std::bad_alloc();
@@ -234,7 +235,7 @@ class FoamFile {
     scalar_bytes_ = bytes_in("scalar", 8);
   }
 
-  // Reads "N (...)", or "N {value}" for N equal values. In a binary list, bytes stand between the parentheses.
+  // Reads a list "N (...)", or "N {value}" for N equal values. In a binary list, bytes stand between the parentheses.
   template <class Reserve, class ReadOne>
   void read_list(int least_bytes, const char *things, const Reserve &reserve, const ReadOne &read_one) {
     const std::int64_t n = in_->integer_of(token());
@@ -242,7 +243,7 @@ class FoamFile {
     skip_comments();
     if (!has_content && (in_->rest().empty() || (in_->rest()[0] != '(' && in_->rest()[0] != '{'))) return;
     if (!in_->rest().empty() && in_->rest()[0] == '{') {
-      // Only lists of labels have this form in OpenFOAM.
+      // In OpenFOAM, only lists of labels have this form.
       if (is_binary_ || least_bytes != 2) in_->refuse("equal ", things, " in {} are not read");
       return read_equal(n, things, read_one);
     }
@@ -256,8 +257,8 @@ class FoamFile {
     expect(")");
   }
 
-  // A list of equal entries may be much longer than its file, so it needs a separate limit. The limit is the number of entries
-  // that a mesh with one block of cells could need.
+  // A list of equal entries may be much longer than its file, so such a list needs a separate limit. The limit is the number of
+  // entries that a mesh with one block of cells could need.
   template <class ReadOne>
   void read_equal(std::int64_t n, const char *things, const ReadOne &read_one) {
     constexpr std::int64_t most = 1 << 20;
@@ -346,7 +347,7 @@ Corners sorted(Corners corners) {
   return corners;
 }
 
-// A linear cell of VTK with a base. The nodes outside the base are one apex, or one node above each node of the base.
+// A linear cell of VTK with a base. All other nodes of the cell are one apex, or one node above each node of the base.
 struct Shape {
   int vtk_type;
   std::int64_t n_faces, base_size, n_nodes;
@@ -357,7 +358,8 @@ constexpr Shape shapes[] = {{VTK_TETRA, 4, 3, 4, false},
                             {VTK_WEDGE, 5, 3, 6, true},
                             {VTK_HEXAHEDRON, 6, 4, 8, false}};
 
-// Returns the node that shares an edge of the cell with `corner` and is not in the base. Returns -1 if there is not exactly one.
+// Returns the node that shares an edge of the cell with `corner` and is not in the base. Returns -1 if there is not exactly one
+// such node.
 vtkIdType node_above(const Faces &faces, const std::vector<CellFace> &cell, const Corners &base, vtkIdType corner) {
   vtkIdType above = -1;
   for (const CellFace of : cell) {
@@ -387,7 +389,7 @@ Corners nodes_as(const Shape &shape, const Faces &faces, const std::vector<CellF
   const bool has_apex = shape.n_nodes == shape.base_size + 1;
   if (has_apex && std::count(top.begin(), top.end(), top[0]) != shape.base_size) return {};
   if (std::find(top.begin(), top.end(), -1) != top.end()) return {};
-  // The faces that a cell of this shape must have.
+  // The faces that a cell of the shape must have.
   std::vector<Corners> wanted = {sorted(base)}, found;
   const auto n = static_cast<std::size_t>(shape.base_size);
   for (std::size_t i = 0; i < n; ++i) {
@@ -456,8 +458,8 @@ bool read_folder(const Folders &folders, PlainGrid &mesh) {
 
 // ---- Decomposed cases ----
 
-// Returns the ids in the whole mesh of the nodes or the cells of all parts. Fails if the ids of all parts are not all numbers
-// from 0 to some number.
+// Returns the ids in the whole mesh of the nodes or the cells of all parts. Fails if these ids are not all numbers from 0 to some
+// number.
 std::vector<Ids> read_addresses(const std::vector<fs::path> &folders, const char *name, const Ids &sizes) {
   std::vector<Ids> all;
   std::int64_t n_claimed = 0, most = -1;
@@ -491,8 +493,8 @@ std::int64_t n_of(const std::vector<Ids> &addresses) {
   return most + 1;
 }
 
-// Joins the parts of a decomposed case to one mesh. Nodes and cells have the order of the whole mesh. If several parts have a
-// node, the first part gives it.
+// Joins the parts of a decomposed case to one mesh. Nodes and cells have the order of the whole mesh. If several parts share a
+// node, the node is taken from the first of these parts.
 bool read_parts(const std::string &path, const std::vector<fs::path> &folders, PlainGrid &whole) {
   std::vector<std::unique_ptr<PlainGrid>> parts;
   Ids n_points, n_cells;
@@ -546,7 +548,8 @@ std::vector<fs::path> parts_of(const fs::path &root) {
   return folders;
 }
 
-// Finds the latest folder of a case that has this file of the mesh. The folder's time must not be after the given time.
+// Finds the latest folder of a case in which this file of the mesh exists. The time of the folder must not be after the given
+// time.
 fs::path latest_with(const fs::path &root, double time, const char *file) {
   std::map<double, fs::path> found;
   std::error_code error;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads meshes and surfaces in formats of other programs.
 // In: a path. Out: a grid with points in double precision. The cells of the grid have VTK's types and VTK's order of nodes.
-// read_grid checks the cells again. A stated count is believed only if the file has as many bytes as the counted items need.
+// read_grid checks the cells again. A stated count is believed only if the file has enough bytes for the counted items.
 #pragma once
 
 #include <array>
@@ -52,7 +52,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_blocks(const std::string &path, const 
 vtkSmartPointer<vtkUnstructuredGrid> read_obj(const std::string &path);
 vtkSmartPointer<vtkUnstructuredGrid> read_ply(const std::string &path);
 
-// A mesh whose file is being read.
+// A mesh whose file is being read now.
 struct PlainGrid {
   vtkNew<vtkDoubleArray> xyz;  // (3, n)
   vtkNew<vtkIdTypeArray>
@@ -98,7 +98,8 @@ class Source {
   // Reads the next binary number of this type.
   template <class T>
   T raw();
-  // Reads and returns a count. Fails if the rest of the file is too short for so many items of at least `least_bytes` each.
+  // Reads and returns a count. Fails if the rest of the file is too short for so many items. Each item takes at least
+  // `least_bytes` bytes.
   std::int64_t count(int n_bytes, std::int64_t least_bytes, const char *things);
   void check_count(std::int64_t n, std::int64_t least_bytes, const char *things) const;
 
@@ -128,7 +129,7 @@ struct XmlElement {
   const XmlElement *child(const std::string &child_name) const;
 };
 
-// Returns the outermost element. Fails if the file is truncated or is not XML. Elements may be at most 64 deep.
+// Returns the outermost element. Fails if the file is truncated or is not XML. Elements may be nested at most 64 deep.
 XmlElement parse_xml(const std::string &path, std::string_view bytes);
 
 // Returns the text, in which the five predefined entities are replaced.
@@ -140,8 +141,8 @@ std::string plain_text(std::string_view text);
 // Tells whether this build of riis_vtk has HDF5.
 extern const bool has_hdf5;
 
-// Reads n numbers of a dataset as doubles or as 64-bit integers. Fails if the dataset does not have exactly n numbers, or if the
-// file lacks some of them. is_single tells whether the numbers are real numbers of 32 bits in the file.
+// Reads n numbers of a dataset as doubles or as 64-bit integers. Fails if the dataset does not have exactly n numbers, or if some
+// of these numbers are missing in the file. is_single tells whether the numbers are real numbers of 32 bits in the file.
 template <class Number>
 std::vector<Number> read_hdf5(const std::string &path, const std::string &name, std::int64_t n, bool &is_single);
 

@@ -13,7 +13,7 @@ class XmlParser {
   XmlParser(const std::string &path, std::string_view bytes) : path_(path), bytes_(bytes), rest_(bytes) {}
 
   XmlElement document() {
-    // A byte 0 would end the name of a file too early.
+    // A byte of value 0 would end the name of a file too early.
     if (bytes_.find('\0') != std::string_view::npos) fail_file(path_, "is not an XML file: it holds a byte of value 0");
     if (rest_.substr(0, 3) == "\xef\xbb\xbf") rest_.remove_prefix(3);  // a byte order mark
     skip_to_tag();

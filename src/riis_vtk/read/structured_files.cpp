@@ -30,8 +30,8 @@
 namespace riis::vtk {
 namespace {
 
-// Returns the corners of the first cell of the grid. If a node's number is added, they become the corners of the cell that begins
-// at this node.
+// Returns the corners of the first cell of the grid. If a node's number is added to them, they become the corners of the cell
+// that begins at this node.
 std::vector<std::int64_t> corners_of_first(const std::array<std::int64_t, 3> &n) {
   std::vector<std::int64_t> corners = {0};
   std::int64_t stride = 1;
@@ -124,7 +124,7 @@ std::unique_ptr<const GridAxes> axes_of(vtkImageData *data) {
     image.spacing[axis] = data->GetSpacing()[axis];
     image.first[axis] = data->GetExtent()[2 * axis];
     for (std::int64_t i = 0; i < n[axis]; ++i) {
-      // The product is rounded before it is added to the origin.
+      // The product is rounded before the origin is added.
       const double step = static_cast<double>(image.first[axis] + i) * image.spacing[axis];
       axes.of[axis].push_back(image.origin[axis] + step);
     }
@@ -148,7 +148,7 @@ bool is_single(vtkRectilinearGrid *data) { return data->GetXCoordinates()->GetDa
 bool is_single(vtkStructuredGrid *data) { return data->GetPoints()->GetDataType() == VTK_FLOAT; }
 
 // Fails if the number of coordinates of an axis differs from the grid's number of nodes along it. VTK would believe the grid's
-// number.
+// number of nodes.
 void check_axes(const std::string &path, vtkRectilinearGrid *data) {
   const Sizes n = sizes_of(data);
   vtkDataArray *const coordinates[3] = {data->GetXCoordinates(), data->GetYCoordinates(), data->GetZCoordinates()};

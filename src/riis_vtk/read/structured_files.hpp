@@ -36,7 +36,7 @@ struct GridAxes {
 // Adds cells to a grid of points. The points are those of a structured grid with n nodes along each axis.
 void add_structured_cells(vtkUnstructuredGrid *grid, const std::array<std::int64_t, 3> &n);
 
-// Gives a data set the arrays of another data set: on points, on cells and on the whole.
+// Gives a data set all arrays of another data set: the arrays on points, on cells and on the whole.
 void share_arrays(vtkDataSet *from, vtkDataSet *to);
 
 // Returns whether the file has a structured grid. The ending tells this, or the header of a legacy file.

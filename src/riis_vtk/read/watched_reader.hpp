@@ -27,8 +27,8 @@ namespace riis::vtk {
   fail_file(path, "cell ", cell, " has broken polyhedron faces");
 }
 
-// Runs functions in callbacks from VTK. An exception must not pass through VTK. The first exception is stored, and rethrow()
-// throws it later.
+// Runs functions in callbacks from VTK. An exception must not pass through VTK. Therefore the first exception is stored, and
+// rethrow() throws it later.
 class Steps {
  public:
   template <class Step>
@@ -56,8 +56,8 @@ inline vtkIdType id_at(vtkDataArray *array, vtkIdType i) {
   return value >= 0 ? static_cast<vtkIdType>(std::min(value, most)) : -1;
 }
 
-// Makes visible those failures that VTK's XML readers only record. If the file has less data than VTK would read for an array,
-// the array is refused before VTK reads it.
+// Makes failures visible that VTK's XML readers only record. If the file has less data than VTK would read for an array, the
+// array is refused before VTK reads it.
 template <class Reader>
 class WatchedReader : public Reader {
  public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads XDMF: an .xdmf file describes a mesh, and its numbers are in this file, in HDF5 files or in plain binary files (xdmf.org,
 // "XDMF Model and Format"). The reader reads XDMF as FEniCS, dolfinx and meshio write it. The nodes of a cell are in VTK's order,
-// as in these programs.
+// as they are in these programs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,8 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // A type of cells: its number in a list of mixed types, and its names in lower case without "_". If the number of nodes varies,
-// n_nodes is 0. The first of the names is written. If XDMF gives a type no number, the number is 0. An example are cells of order
-// 3, which dolfinx writes with VTK's order of nodes.
+// n_nodes is 0. If a type of cells has several names, the first name is written. If XDMF gives no number to a type of cells, the
+// number is 0. For example, dolfinx writes cells of order 3 with VTK's order of nodes.
 struct Topology {
   int number, vtk_type, n_nodes;
   const char *written;
@@ -91,7 +91,7 @@ class XdmfFile {
   }
 
  private:
-  // Returns the first grid that is not a collection. For a collection over time, this grid is that of the first time.
+  // Returns the first grid that is not a collection. For a collection over time, returns the grid of the first time.
   const XmlElement &first_mesh(const XmlElement &parent) const {
     const XmlElement *grid = parent.child("Grid");
     if (!grid) fail_file(path_, "holds no Grid with a Topology");
@@ -105,8 +105,8 @@ class XdmfFile {
     return *grid;
   }
 
-  // Returns the element Topology or Geometry of a grid. A grid of a series in time may refer to the Topology or Geometry of
-  // another grid, because meshio and dolfinx write them once.
+  // Returns the element Topology or Geometry of a grid. A grid of a series in time may refer to another grid's Topology or
+  // Geometry, because meshio and dolfinx write these only once.
   const XmlElement &part_of(const XmlElement &domain, const XmlElement &grid, const char *name) const {
     if (const XmlElement *own = grid.child(name)) return *own;
     for (const XmlElement &child : grid.children) {
@@ -313,7 +313,7 @@ class XdmfFile {
 
   void add_cell(const Topology &known, std::int64_t n_nodes, const std::int64_t *nodes, std::int64_t base) {
     for (std::int64_t i = 0; i < n_nodes; ++i) {
-      // If the base is invalid, the subtraction could overflow.
+      // If the base were invalid, the subtraction could overflow.
       const std::int64_t n = mesh_.xyz->GetNumberOfTuples(), node = nodes[i];
       if (base < 0 || base > 1 || node < base || node - base >= n)
         fail_file(path_, "cell ", mesh_.types->GetNumberOfValues(), " names point ", node, " of ", n);
@@ -326,8 +326,8 @@ class XdmfFile {
     mesh_.end_cell(type);
   }
 
-  // Reads cells of several types. Each cell is the number of its type, followed by its nodes. If a type has no fixed number of
-  // nodes, the number precedes the nodes.
+  // Reads cells of several types. Each cell consists of the number of its type, followed by its nodes. If a type has no fixed
+  // number of nodes, the number precedes the nodes.
   void read_mixed(const std::vector<std::int64_t> &values, std::int64_t base) {
     std::int64_t at = 0;
     const std::int64_t end = view(values).size();
@@ -487,8 +487,8 @@ class XdmfWriter {
     text_ += "</Topology>\n";
   }
 
-  // Returns an attribute with the unit of an array. The unit is an attribute, because readers expect that the element has no
-  // children except the numbers.
+  // Returns an attribute with the unit of an array. The unit is an attribute, because readers expect only the numbers inside the
+  // element.
   static std::string unit_of(vtkDataArray *array) {
     if (!array->HasInformation() || !array->GetInformation()->Has(vtkDataArray::UNITS_LABEL())) return "";
     return joined(" Unit=\"", in_xml(array->GetInformation()->Get(vtkDataArray::UNITS_LABEL())), "\"");
@@ -508,7 +508,7 @@ class XdmfWriter {
                       "\" Center=\"", center, "\"", unit_of(array), ">\n");
       std::string dataset = std::string(center) + "_" + name;
       std::replace(dataset.begin(), dataset.end(), '/', '_');
-      // Without the added ending, the arrays a/b and a_b would get the same name.
+      // The ending is added, because the arrays a/b and a_b would otherwise get the same name.
       while (!datasets_.insert(dataset).second) dataset += '_';
       const std::int64_t n = array->GetNumberOfTuples();
       if (array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT) {

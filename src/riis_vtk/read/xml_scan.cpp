@@ -78,7 +78,7 @@ class Tags {
   std::string_view attribute_;
 };
 
-// The number of components is checked early, because VTK looks for the names of all components before it looks for the data.
+// The number of components is checked before the data, because VTK looks for the names of all components first.
 void check_components(const std::string &path, std::string_view text, std::string_view given) {
   const std::string_view number = take_word(given);
   std::int64_t n = 0;
@@ -124,7 +124,7 @@ std::uint64_t bits_of(vtkAbstractArray *array) {
 }
 
 // Returns the largest number of bytes that one byte of compressed data can stand for. Runs of zeros shrink to 1/1032 of their
-// size in zlib, and to 1/255 in LZ4. LZMA has no limit. The strongest compression that was measured is to 1/7000.
+// size in zlib, and to 1/255 in LZ4. LZMA has no limit. The strongest compression that was measured with LZMA is to 1/7000.
 std::uint64_t most_from_a_byte(vtkDataCompressor *compressor) {
   return std::strcmp(compressor->GetClassName(), "vtkLZMADataCompressor") == 0 ? 20'000 : 1'100;
 }
@@ -174,7 +174,8 @@ void XmlSizes::refuse(vtkXMLDataElement *element, const Parts &...parts) const {
   fail_file(path_, "is damaged: array ", name ? std::string(name).substr(0, 40) : "without a name", " ", parts...);
 }
 
-// Finds the data in the same way as VTK. If an element has an offset, its data is appended, whatever its attribute format says.
+// Finds the data in the same way as VTK. If an element has an offset, its data is appended, and its attribute "format" does not
+// count.
 XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElement *element) const {
   const std::size_t size = bytes_.size();
   if (element->GetAttribute("offset")) {
@@ -183,7 +184,7 @@ XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElemen
     vtkXMLDataElement *appended = parser->GetRootElement()->FindNestedElementWithName("AppendedData");
     const char *encoding = appended ? appended->GetAttribute("encoding") : nullptr;
     const vtkTypeInt64 start = parser->GetAppendedDataPosition();
-    // The comparison uses a difference, because the sum of offset and start could overflow.
+    // The comparison uses a difference, because the sum of the offset and the start could overflow.
     const bool is_inside = offset >= 0 && start >= 0 && start <= static_cast<vtkTypeInt64>(size) &&
                            offset <= static_cast<vtkTypeInt64>(size) - start;
     return {encoding && std::strcmp(encoding, "raw") == 0 ? ArrayData::raw : ArrayData::base64,

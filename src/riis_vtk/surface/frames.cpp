@@ -65,11 +65,11 @@ class FirstCells {
   std::vector<std::size_t> ends_;  // the end of each cell in ids_
 };
 
-// The corners of triangles in files whose triangles share no vertices, such as .stl files. Corners that are at one position in
+// The corners of triangles in a file whose triangles share no vertices, such as an .stl file. Corners that are at one position in
 // the first file become one vertex.
 class MergedCorners {
  public:
-  // Merges vertices of the faces. A vertex is numbered when its first corner occurs.
+  // Merges vertices of the faces. Vertices are numbered in the order of their first corners.
   explicit MergedCorners(Faces &faces) {
     const std::vector<std::int64_t> places = places_of(faces);
     std::vector<std::int64_t> vertex_at(places.size(), -1);

@@ -21,7 +21,7 @@ struct riis_vtk_motion {
 namespace riis::vtk {
 namespace {
 
-// A DataSet element with its texts as in the file.
+// A DataSet element, whose texts are as in the file.
 struct NamedDataSet {
   std::optional<std::string> file, timestep;
 };
@@ -165,7 +165,7 @@ RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_
     std::vector<const char *> paths;
     for (const std::string &file : files) paths.push_back(file.c_str());
     append_frames(motion->frames, other->frames);
-    // If the list of files moves in memory, its texts stay in place.
+    // The texts stay in place when the list of files moves in memory.
     motion->files = std::move(files);
     motion->paths = std::move(paths);
   });

@@ -30,8 +30,8 @@ std::int64_t binary_count(std::string_view bytes) {
   return byte(80) | byte(81) << 8 | byte(82) << 16 | byte(83) << 24;
 }
 
-// Counts the triangles in an ASCII file. Only the first word of a line is a keyword. In the line "solid endfacet part", the word
-// endfacet belongs to a name. Blank lines may follow the last endsolid.
+// Counts the triangles in an ASCII file. Only the first word of a line is a keyword. For example, in the line "solid endfacet
+// part", the word endfacet is part of a name. Blank lines may follow the last endsolid.
 std::int64_t ascii_count(const std::string &path, std::string_view text) {
   std::int64_t n = 0;
   std::string keyword;

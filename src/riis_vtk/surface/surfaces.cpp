@@ -55,7 +55,7 @@ void cut_polygon(const std::string &path, vtkPointSet *data, vtkIdType cell_id, 
   }
 }
 
-// Returns the normal of a triangle with a length of twice the triangle's area.
+// Returns the normal of a triangle. The normal's length is twice the triangle's area.
 std::array<double, 3> area_of(vtkPointSet *data, const vtkIdList *ids, vtkIdType a, vtkIdType b, vtkIdType c) {
   auto *list = const_cast<vtkIdList *>(ids);
   double p[3], q[3], r[3], area[3];
@@ -319,7 +319,7 @@ void give_arrays(const Faces &faces, riis_surface_arrays *arrays, std::int64_t s
   whole.corners_per_face = faces.corners_per_face;
   whole.leaflet_id = faces.leaflet_id.empty() ? nullptr : faces.leaflet_id.data();
   whole.attached = faces.attached.empty() ? nullptr : faces.attached.data();
-  // An older caller's struct ends before the last fields.
+  // The struct of an older caller ends before the newest fields.
   check_core(riis_surface_arrays_init(arrays, struct_size));
   whole.struct_size = struct_size;
   std::memcpy(arrays, &whole, static_cast<std::size_t>(struct_size));

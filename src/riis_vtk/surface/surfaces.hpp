@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a surface into a data set, either from a file or from the core. From the data set, makes plain arrays for the core, with
-// a leaflet id for each face. Also finds the connected pieces of faces.
+// Reads a surface from a file, or takes it from the core, and makes a data set of it. From the data set, makes plain arrays for
+// the core, with a leaflet id for each face. Also finds pieces of faces that are connected.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const Ca
 // riis_vtk.h.
 vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface);
 
-// Faces as plain arrays. If the data set has only quads, they are quads. Otherwise they are triangles.
+// Faces as plain arrays. If the data set has only quads, the faces are quads. Otherwise they are triangles.
 struct Faces {
   std::vector<double> xyz;  // (3, n_vertices), all points, used or not
   // (corners_per_face, n_faces); the diagonal from a quad's first corner to its third lies inside the quad
@@ -54,8 +54,8 @@ Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &w
 // attachment is lost.
 void append_faces(Faces &faces, const Faces &other);
 
-// Gives each vertex a number from 0 to the number of vertices minus 1, and returns these numbers. Two vertices have one number if
-// and only if their coordinates are exactly equal.
+// Gives each vertex a number from 0 to the number of vertices minus 1, and returns these numbers. Two vertices have the same
+// number if and only if their coordinates are exactly equal.
 std::vector<std::int64_t> places_of(const Faces &faces);
 
 // For each face, returns the piece to which the face belongs. Pieces are numbered in the order of their first faces. Two faces
@@ -85,15 +85,15 @@ struct Frames {
 Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
                        const CaughtOutput &caught);
 
-// Reads the frames of a motion from point arrays with displacements. All arrays are in one file. The name of an array is the
-// prefix, then "_" or nothing, then a number. The frames are in the order of the numbers in these names. If `times` is NULL, the
-// field array TimeValue gives the times.
+// Reads the frames of a motion from point arrays with displacements. All these arrays are in one file. The name of an array is
+// the prefix, then "_" or nothing, then a number. The frames are in the order of the numbers in these names. If `times` is NULL,
+// the field array TimeValue gives the times.
 Frames frames_of_displacements(const std::string &path, const std::string &prefix, const std::vector<double> *times,
                                const LeafletArray &leaflets, const CaughtOutput &caught);
 
 // Reads the frames that svMultiPhysics uses: a .dat file with the positions of all nodes, frame by frame. The faces are in a .vtu
 // or .vtp file in the same folder. For NAME_motion_open.dat, the file with the faces is NAME_motion_open, NAME_motion or NAME.
-// Each of these names may also end in _mesh or _face. The times are the multiples of the time step, beginning with 0.
+// Each of these names may also end in _mesh or _face. The times are multiples of the time step, beginning with 0.
 Frames frames_of_text(const std::string &path, double time_step, const LeafletArray &leaflets,
                       const CaughtOutput &caught);
 
