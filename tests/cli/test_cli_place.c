@@ -676,7 +676,7 @@ TEST(sizes_that_do_not_go_together_are_named) {
               "a.json: the landmarks give root_radius 1.1, commissure_radius 1.05, commissure_height 1.4, and then "
               "coaptation_height is 2; it must be from 0.02 to 0.9 times effective_height",
               "place", path, "--valve", "coapting", "--set", "coaptation_height=2");
-  assert_non_null(strstr(program_err, "--set gives sizes that landmarks do not tell, in centimetres"));
+  assert_non_null(strstr(program_err, "--set sets sizes that do not follow from landmarks, in centimetres"));
   RUN_REFUSED(1, "and then effective_height is 1.39; it must be from 0.1 to 0.97 times commissure_height", "place",
               path, "--valve", "coapting", "--set", "effective_height=1.39");
   RUN_FINE("place", path, "--valve", "coapting", "--set", "coaptation_height=0.2", "--output", "-");

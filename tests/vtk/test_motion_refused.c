@@ -73,9 +73,9 @@ TEST(test_bad_data_sets) {
                {DATA_SET("1.1e30", "a.vtp"), "DataSet 0 has the timestep '1.1e30', which is no number"},
                {DATA_SET("1e999", "a.vtp"), "DataSet 0 has the timestep '1e999', which is no number"},
                {DATA_SET("0", "a.vtp") DATA_SET("0.5", "a.vtp") DATA_SET("0.25", "a.vtp"),
-                "DataSet 2 has the timestep 0.25, which is not above that of the DataSet before, 0.5"},
+                "DataSet 2 has the timestep 0.25, which is not above the timestep before it, 0.5"},
                {DATA_SET("0", "a.vtp") "<DataSet timestep=\"0\" part=\"1\" file=\"a.vtp\"/>",
-                "DataSet 1 has the timestep 0, which is not above that of the DataSet before, 0"}};
+                "DataSet 1 has the timestep 0, which is not above the timestep before it, 0"}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
     char text[1024];
     snprintf(text, sizeof text, COLLECTION("%s"), cases[i].data_sets);

@@ -205,7 +205,7 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
   if (options.at_cells) {
     if (!options.pictures.empty()) refuse_usage("--cells: --picture shows marks of nodes");
     if (!options.series.movie.empty()) refuse_usage("--cells: --movie shows marks of nodes");
-    if (options.n_steps > 0) refuse_usage("--cells: --steps times marks of nodes");
+    if (options.n_steps > 0) refuse_usage("--cells: --steps marks nodes, not centres");
     options.series.all_cells = true;  // centres have no parts
   }
   if (options.n_steps > 0 && (has_case || !options.series.times.empty()))

@@ -244,8 +244,8 @@ void declare_marking(Command &command, MarkOptions &options) {
       .parsed("--density", "RHO", "Density in kg/m3, by which OpenFOAM's fields of K are divided", options.density,
               positive_amount_of(a_density))
       ->needs(resistance);
-  command.parsed("--far-distance", "X", "riis_distance of nodes beyond the limit (default 1e30)", options.far_distance,
-                 parse_number);
+  command.parsed("--far-distance", "X", "Value of riis_distance at nodes beyond the limit (default 1e30)",
+                 options.far_distance, parse_number);
   command
       .choice("--distance", "Distances to triangles (default), or by sampling or minimization", distance_names,
               options.surface_options.measure)
@@ -254,7 +254,7 @@ void declare_marking(Command &command, MarkOptions &options) {
                  options.surface_options.measure_tolerance, parse_positive);
   declare_search(command, options);
   command
-      .value("--steps", "N", "Also time N steps: each moves the opening by 0.02 and marks again",
+      .value("--steps", "N", "Also measure the time of N steps: each moves the opening by 0.02 and marks again",
              [&options](const std::string &text) {
                options.n_steps = parse_integer(text, "--steps");
                if (options.n_steps < 1) refuse_usage("--steps: " + text + " is not above 0");
@@ -304,7 +304,7 @@ void declare_style(Command &command, PictureStyle &style) {
   command.parsed("--picture-background", "COLOUR",
                  "white (default), black, transparent, or a colour such as f4f1ea: riis help pictures",
                  style.background, parse_background);
-  command.choice("--picture-captions", "all (default), scale (only the scale bar) or none", caption_names,
+  command.choice("--picture-captions", "Captions: all (default), scale (only the scale bar) or none", caption_names,
                  style.captions, "WHICH");
   command.choice("--picture-panels", "both (default), valve or marks", panel_names, style.panels, "WHICH");
 }
@@ -449,7 +449,8 @@ void declare_crossings(Command command, MarkOptions &options) {
 
 void declare_leaks(Command command, MarkOptions &options) {
   declare_mesh(command, options);
-  command.flag("--cells", "Take the centres of the cells as the nodes, as riis mark --cells does", options.at_cells);
+  command.flag("--cells", "Use the centres of cells in place of the nodes, as riis mark --cells does",
+               options.at_cells);
   command
       .values("--between", "X,Y,Z X,Y,Z", "Say whether and where unmarked nodes join these two points",
               [&options](const std::vector<std::string> &ends) {
@@ -464,7 +465,8 @@ void declare_leaks(Command command, MarkOptions &options) {
   command
       .flag("--first-passage", "Also tell at which opening unmarked nodes first join the points", options.first_passage)
       ->needs(command.option("--between"));
-  command.flag("--demand-sealed", "Exit with status 4 unless the valve seals", options.demand_sealed);
+  command.flag("--demand-sealed", "Exit with status 4 if the valve leaks, or if this is unknown",
+               options.demand_sealed);
   CLI::Option *const resistance =
       command.parsed("--resistance", "R", "Resistance of the valve in kg/(m s), for the ideal leak",
                      options.given_resistance, positive_amount_of(a_resistance));
@@ -494,7 +496,7 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
                  options.growth, parse_positive_finite);
   command.parsed("--largest-edge", "L", "Largest edge length, in the mesh's unit (default 4 half thicknesses)",
                  options.largest_edge, parse_positive_finite);
-  command.parsed("--spacing", "L", "Spacing of the grid, in the mesh's unit (default half a half thickness)",
+  command.parsed("--spacing", "L", "Spacing of the grid, in the mesh's unit (default 0.5 half thicknesses)",
                  options.spacing, parse_positive_finite);
   command.parsed("--count", "N", "Number of openings (default 41)", options.n_openings, parse_count);
   declare_threads(command, options);
@@ -534,7 +536,8 @@ void declare_from_area(Command command, AreaOptions &options) {
       command.parsed("--area", "A", "The area in the mesh's unit squared, or with a unit, such as '2.5 cm2'",
                      options.given_area, amount_of(an_area));
   CLI::Option *const areas =
-      command.text("--areas", "FILE.csv", "Areas in time, which become a cycle of openings: time, area", options.areas);
+      command.text("--areas", "FILE.csv",
+                   "File of areas in time, for a cycle of openings; its columns are time and area", options.areas);
   area->excludes(areas);
   command
       .parsed("--area-unit", "UNIT", "Unit of the areas in --areas, such as cm2 (default the mesh's unit squared)",
@@ -646,8 +649,8 @@ void declare_place(Command command, PlaceOptions &options) {
   command.group("Valve");
   command.text("--valve", "KIND", "aortic, coapting, mitral, trileaflet or bileaflet (default that of the file)",
                options.valve);
-  command.text("--params", "FILE.json", "Parameters of the valve that serves as the template", options.params);
-  declare_settings(command, "Set and keep one parameter, in cm; may be repeated", options);
+  command.text("--params", "FILE.json", "Parameters of the valve before the landmarks size it", options.params);
+  declare_settings(command, "Set one parameter, in cm, and keep it; may be repeated", options);
 }
 
 void declare_patient(Command command, PatientOptions &options) {
@@ -697,8 +700,8 @@ void declare_patient(Command command, PatientOptions &options) {
   command.group("Valve");
   command.text("--valve", "KIND|DISEASE", "coapting, mitral or another kind, or a disease (default by the landmarks)",
                options.valve);
-  command.text("--params", "FILE.json", "Parameters of the valve that serves as the template", options.params);
-  declare_settings(command, "Set and keep one parameter, in cm; may be repeated", options);
+  command.text("--params", "FILE.json", "Parameters of the valve before the landmarks size it", options.params);
+  declare_settings(command, "Set one parameter, in cm, and keep it; may be repeated", options);
   command.parsed("--skirt", "L", "The longest acceptable skirt from the valve to the wall (default 6 mm)",
                  options.given_skirt, positive_amount_of(a_length));
   command.group("Mesh and flow");

@@ -125,9 +125,10 @@ void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
   for (const double turn : range.turns)
     if (std::isfinite(turn)) places.push_back(shown(turn));
   const std::string taken = options.solve == "opening" ? "the least opening" : "the value nearest to the present one";
-  warn("the " + words_of(options) + " does not only grow or only fall: it turns at " + options.solve + " " +
-       joined_by(places, ", ") + (range.n_turns > static_cast<std::int64_t>(places.size()) ? " and further on" : "") +
-       "; of several solutions " + taken + " was found, and --from and --to lead to the others");
+  warn("the " + words_of(options) + " grows in a part of the range and falls in another: it turns at " + options.solve +
+       " " + joined_by(places, ", ") +
+       (range.n_turns > static_cast<std::int64_t>(places.size()) ? " and further on" : "") + "; of several solutions " +
+       taken + " was found, and --from and --to lead to the other solutions");
 }
 
 // With adapted triangles, the area jumps by less than this share of its value, except for small areas.

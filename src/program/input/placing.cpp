@@ -78,7 +78,7 @@ void check_landmarks(riis_status status, const LandmarkFile &landmarks, Reader r
   if (status != RIIS_INVALID_ARGUMENT && status != RIIS_INVALID_PARAMETER) return check(status);
   std::string text = in_words_of_file(riis_last_error(), landmarks);
   if (reader == Reader::program && text.rfind("the landmarks give ", 0) == 0)
-    text += "; --set gives sizes that landmarks do not tell, in centimetres";
+    text += "; --set sets sizes that do not follow from landmarks, in centimetres";
   throw Refusal{exit_bad_data, landmarks.path + ": " + text, status};
 }
 
@@ -458,7 +458,7 @@ std::string place_report(const Placed &placed, Reader reader) {
     text += std::string(at.n_as_annulus == 1 ? "The trigone lies" : "The trigones lie") +
             " behind the anterior horn, where the valve has none: " +
             (at.n_as_annulus == 1 ? "it counts as a point" : "they count as points") +
-            " of the annulus, and IT_distance is not theirs.\n";
+            " of the annulus, and IT_distance does not follow from trigones.\n";
   text += undetermined.empty()
               ? "\nThe landmarks determine every size that depends on them.\n"
               : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") +

@@ -182,7 +182,7 @@ void add_flow(const ValveReport &valve, std::ostringstream &out) {
         << flow.orifice->effective_area << " effective: the band takes " << flow.orifice->rim_reach
         << " half thicknesses along a perimeter of " << flow.orifice->perimeter
         << (has_slits(*flow.orifice) ? slits_text : "")
-        << (flow.orifice->outline == RIIS_OUTLINE_BOUNDARY ? "; the outline is that of the open edges" : "") << "\n";
+        << (flow.orifice->outline == RIIS_OUTLINE_BOUNDARY ? "; the outline consists of the open edges" : "") << "\n";
   if (flow.first) {
     out << line("opens", valve.name);
     if (flow.first->state == RIIS_FIRST_PASSAGE_FOUND)

@@ -557,7 +557,7 @@ const ValveKind *new_kind(const char *name, KindSizes sizes) {
     {"gap", length, "distance between closed leaflets in the middle of the coaptation zone", 1, {0.03}, shortest, longest},
     {"belly", number, "closed: start tangent of a leaflet, times its horizontal reach", 1, {0.55}, 0.1, 0.9},
     {"turn", number, "closed: end tangent of a leaflet above the coaptation line, times its drop", 1, {0.5}, 0.1, 0.9},
-    {"open_angle", degree, "how open leaflets hang: 0 inwards, 90 straight down", 1, {sizes.open_angle}, 30, 90},
+    {"open_angle", degree, "angle at which open leaflets hang: 0 inwards, 90 straight down", 1, {sizes.open_angle}, 30, 90},
     {"translation", length, "shift of the valve", 3, {0, 0, 0}, -longest, longest},
     opening_spec("0 closed to 1 open", 0),
   };

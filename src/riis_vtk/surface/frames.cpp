@@ -273,11 +273,12 @@ Frames frames_of_text(const std::string &path, double time_step, const LeafletAr
 void append_frames(Frames &frames, const Frames &other) {
   const std::int64_t n = view(frames.times).size();
   if (view(other.times).size() != n)
-    refuse_argument("the motions have ", n, " and ", view(other.times).size(), " frames; all need the same times");
+    refuse_argument("the motions have ", n, " and ", view(other.times).size(),
+                    " frames; all motions need the same times");
   for (std::int64_t i = 0; i < n; ++i)
     if (view(frames.times)[i] != view(other.times)[i])
       refuse_argument("frame ", i, " is at the time ", view(frames.times)[i], " in one motion and at ",
-                      view(other.times)[i], " in the other; all need the same times");
+                      view(other.times)[i], " in the other; all motions need the same times");
   const std::vector<double> &first = frames.xyz, &second = other.xyz;
   const auto n_first = view(first).size() / n, n_second = view(second).size() / n;
   std::vector<double> xyz;

@@ -68,7 +68,7 @@ Collection read_collection(const std::string &path, const CaughtOutput &caught) 
     if (!data_set.timestep) fail_file(path, which, " has no timestep");
     const double time = time_of(path, which, *data_set.timestep);
     if (!collection.times.empty() && !(time > collection.times.back()))
-      fail_file(path, which, " has the timestep ", time, ", which is not above that of the DataSet before, ",
+      fail_file(path, which, " has the timestep ", time, ", which is not above the timestep before it, ",
                 collection.times.back());
     collection.times.push_back(time);
     collection.paths.push_back((folder / *data_set.file).string());
