@@ -127,9 +127,9 @@ boolList endsOf(const fvMesh &mesh, const scalarField &K, const labelList &side)
 
 // Returns the part of the closed area that lies in this rank's cells (docs/theory/measures.md, "Closed area"). Triangles are cut
 // into parts whose edges are below a quarter of the half thickness. If the middle of a part lies in this rank's cells, the part
-// counts. Eight points on the normal through this middle stand for equal shares of the integral of K across the band. If another
-// leaflet is nearer to one of these points, the point's share belongs to that leaflet. Leaflets that touch thus count only once.
-// The leaflet with the id leftOut does not count.
+// counts. On the normal through the middle, eight points stand for equal shares of the integral of K across the band. If another
+// leaflet is nearer to a point, the point's share belongs to the other leaflet. Leaflets that touch thus count only once. The
+// leaflet with the id leftOut does not count.
 template <class Check>
 scalar closedArea(const polyMesh &mesh, const riis_surface *surface, scalar halfThickness, int32_t leftOut,
                   int32_t nThreads, const Check &check) {
@@ -323,14 +323,14 @@ void riisValve::estimateDrop() {
   scalar area = returnReduce(closedArea(mesh_, surface_.get(), halfThickness_, housing, placement_.n_threads, check),
                              sumOp<scalar>());
   if (placement_.offset != 0) {
-    // Blood passes through the middle of the band, whose area differs from that of the leaflets. The library's ideal leak uses
-    // this area.
+    // The middle of the band, through which blood passes, has another area than the leaflets. The library's ideal leak uses the
+    // area of the band's middle.
     double leak = 0;
     check(riis_surface_get_leak(surface_.get(), &resistance_, 1, &leak));
     area *= leak * resistance_.R / halfThickness_ / areaOf(surface_.get(), housing, check);
   }
 
-  // A flow of 1 should have the drop R / (eps area). In this mesh, its drop is rho / conductance.
+  // A flow of 1 should have the drop R / (eps area). In the mesh, a flow of 1 has the drop rho / conductance.
   const auto share = [&](scalar factor) {
     return rho_.value() / conductance(scalarField(factor * K), side, isEnd) / (resistance_.R / (halfThickness_ * area));
   };

@@ -19,8 +19,8 @@ double area_of(const double *a, const double *b, const double *c) {
 }
 
 // Points that fill a triangle evenly, one after the other (Roberts's sequence). The corners of the triangle are (0, 0), (1, 0)
-// and (0, 1). With one fixed point in each part of the triangle, the points would form rows. If a wall ran along a row, it would
-// then cut off too many or too few points.
+// and (0, 1). With one fixed point in each part of the triangle, the points would form rows. A wall along a row would cut off too
+// many or too few points.
 class Places {
  public:
   struct Place {

@@ -238,13 +238,13 @@ const std::vector<std::string> &triangulation_names();
 // Computes the scale from the units, and also the half thickness if the user gave none.
 void apply_units(ValveOptions &options);
 
-// Computes R, and the unit of K in the output, from the unit of the mesh. Refuses options that do not fit this unit.
+// Computes R, and the unit of K in the output, from the unit of the mesh. Refuses options that contradict the unit.
 void apply_amounts(MarkOptions &options);
 
 // Returns whether the user gave the valve's opening by --opening or --set.
 bool sets_opening(const ValveOptions &options);
 
-// Returns whether the names of arrays may begin with this name.
+// Returns whether `name` may be the beginning of arrays' names.
 bool is_prefix(const std::string &name);
 
 }  // namespace riis::program

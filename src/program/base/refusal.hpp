@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Refusal is an exit code and one line for stderr. The program throws a Refusal to give up. The Python package makes an
-// exception of a Refusal's status and text.
+// A Refusal is an exit code and one line for stderr. The program throws a Refusal to give up. The Python package raises an
+// exception with a Refusal's status and text.
 #pragma once
 
 #include <riis/riis.h>

@@ -183,7 +183,7 @@ std::string text_of_file(const std::string &path) {
 
 namespace {
 
-// The library accepts no time above this limit.
+// The largest time that the library accepts.
 constexpr double largest_time = 1e30;
 
 [[noreturn]] void refuse_count(const std::string &subject, double n) {

@@ -76,8 +76,8 @@ std::string text_of_file(const std::string &path);
 // have another form are comments.
 
 std::string trimmed(const std::string &text);
-// Returns the cells of a line. Commas or semicolons separate cells, except within quotation marks. Two quotation marks within a
-// quoted cell stand for one.
+// Returns the cells of a line. Commas or semicolons separate cells, except within quotation marks. Within a quoted cell, two
+// quotation marks stand for one quotation mark.
 std::vector<std::string> csv_cells(const std::string &line);
 // Reads a number. The refusal of a bad number names the file.
 double number_in_file(const std::string &path, const std::string &text, const std::string &subject);

@@ -71,25 +71,24 @@ namespace {
 // because a vessel is not much wider than its valve. Both widths are multiples of the valve's largest side. The two widths are a
 // decade apart, so two units seldom fit.
 constexpr double least_width = 0.4, largest_width = 4;
-// A mesh with edges longer than this share of the valve's largest side cannot show the valve.
+// The longest edge of a mesh that can show the valve, as a share of the valve's largest side.
 constexpr double longest_edge = 0.3;
-// In a mesh for the default half thickness, edges are seldom longer than this number of half thicknesses.
+// The usual upper limit of edges in a mesh for the default half thickness, in half thicknesses.
 constexpr double usual_edge = 3;
-// Edges near the valve are seldom shorter than this number of half thicknesses.
+// The usual lower limit of edges near the valve, in half thicknesses.
 constexpr double shortest_edge = 0.3;
 // Longer edges mean that the mesh was made for another valve. The limits are a number of half thicknesses, and a share of the
 // valve's largest side.
 constexpr double most_edge = 10, most_edge_of_valve = 0.4;
-// The least half thickness, as a share of the mesh's edge length. If a band is thinner, it falls between two layers of nodes and
-// contains few nodes.
+// The least half thickness, as a share of the mesh's edge length. A thinner band falls between two layers of nodes and contains
+// few nodes.
 constexpr double smallest_half_thickness = 0.3;
-// A unit is impossible if it makes the vessel too narrow or too wide by more than these ratios. The larger ratio allows a valve
-// in a wide basin.
+// A unit is impossible if it makes the vessel much too narrow or much too wide. The larger ratio allows a valve in a wide basin.
 constexpr double most_too_narrow = 1.5, most_too_wide = 10;
-// A unit is possible if its oddity is at most this many times the oddity of the likeliest unit. The oddity of a unit is a product
-// of ratios of at least 1.
+// A unit is possible if its oddity is at most a few times the oddity of the likeliest unit. The oddity of a unit is a product of
+// ratios of at least 1.
 constexpr double most_odd = 2.7;
-// In a wide basin, the present unit is right if the oddity of every other unit is at least this many times as large.
+// In a wide basin, the present unit is right if every other unit is clearly odder.
 constexpr double surely_odder = 1.35;
 
 double excess(double ratio) { return std::max(ratio, 1.0); }
@@ -103,7 +102,7 @@ double wideness_at(double factor, const Sizes &s) {
 }
 
 // Returns the oddity of the sizes after the mesh's lengths are multiplied by the factor. A default half thickness has the valve's
-// unit, so it limits the mesh's edges from above and below.
+// unit, and the mesh's edges may be too long or too short for it.
 double oddity_at(double factor, const Sizes &s, double edge) {
   double oddity = narrowness_at(factor, s) * wideness_at(factor, s) *
                   excess(factor * edge / (longest_edge * s.surface.largest_side()));

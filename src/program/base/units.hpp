@@ -81,8 +81,8 @@ struct Moments {
 // a disc whose points would have the same moment. Without points, the sides of the box are returned.
 std::array<double, 3> sides_of(const Box &box, const Moments &moments);
 
-// The sizes of a mesh and of a valve in the mesh. The functions below tell whether these sizes fit together, and which unit and
-// which half thickness would fit. The program's warnings and the lights of Python's view follow the same rules.
+// The sizes of a mesh and of a valve in the mesh. The functions below tell whether the sizes of mesh and valve fit together, and
+// which unit and which half thickness would fit. The program's warnings and the lights of Python's view follow the same rules.
 struct Sizes {
   std::array<double, 3> mesh_sides;  // the longest first
   Box surface;
@@ -102,8 +102,8 @@ inline constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.
 // the band is so thin that it falls between the mesh's nodes.
 bool is_too_large(double half_thickness, const Sizes &sizes);
 bool is_too_small(double half_thickness, const Sizes &sizes);
-// Returns a half thickness that fits: the present half thickness times a power of ten. If no such half thickness fits, returns
-// the mesh's edge length, or 0 if the edge length does not fit either.
+// Returns a half thickness that fits: the present half thickness times a power of ten. If no half thickness fits, returns the
+// mesh's edge length, or 0 if the edge length does not fit either.
 double better_half_thickness(const Sizes &sizes);
 
 // The judgement of a mesh's unit. A factor stands for a unit. Multiplied by the factor, the mesh's lengths are in the surface's

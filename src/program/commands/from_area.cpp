@@ -68,7 +68,8 @@ class Search {
 
   const riis_valve *valve() const { return valve_; }
 
-  // Warns if the band closes the gap of a closed valve whose size was found. Without a half thickness, the band is not known.
+  // After a search for a closed valve's size, warns if the band closes the valve's gap. Without a half thickness, the band is not
+  // known.
   void judge_gap(const Solution &found) const {
     const bool is_size = options_.solve != "opening" && options_.solve != "scale";
     if (!is_size || !options_.has_half_thickness || opening_of(valve_) != 0) return;
@@ -131,7 +132,7 @@ void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
        taken + " was found, and --from and --to lead to the other solutions");
 }
 
-// With adapted triangles, the area jumps by less than this share of its value, except for small areas.
+// With adapted triangles, the area jumps by less than a small share of its value, except for small areas.
 constexpr double fair_error = 1e-4;
 
 void warn_of_jumps(const Areas &wanted, const Solution &found) {

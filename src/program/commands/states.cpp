@@ -178,9 +178,9 @@ States measure_states(const StatesOptions &options) {
 
 // ---- State table ----
 
-// A free edge may become longer or shorter by this share before the summary mentions it.
+// The summary mentions a change of a free edge's length only above a certain share of the length.
 constexpr double fair_change = 0.1;
-// Lengths and areas count as equal if they differ by at most this share, because rounding alone can cause such a difference.
+// Lengths and areas count as equal if their difference can be due to rounding.
 constexpr double same = 1e-9;
 
 using StateValue = std::function<double(const State &)>;

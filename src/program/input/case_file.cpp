@@ -256,7 +256,7 @@ class CaseReader {
     source.warp.apply(times.empty() ? 0 : times.front(), valve);
   }
 
-  // Sets parameters from an object. If a path is given, sets them from the file.
+  // Sets parameters from an object, or from the file at a path.
   void set_parameters_of(const CaseValues &values, const char *key, riis_valve *valve) {
     if (!values.has(key)) return;
     if (values.needed(key).is_string())
@@ -265,7 +265,7 @@ class CaseReader {
       set_from_json(valve, values.needed(key), values.subject() + ": " + key);
   }
 
-  // Sets the law of opening. Also opens the valve as far as the law requires. This fails if the valve cannot open.
+  // Sets the law of opening. Also opens the valve as far as the law requires. Fails if the valve cannot open.
   void set_law(const CaseValues &values, riis_valve *valve, ValveSource &source) {
     const std::vector<double> &times = all_.options.series.times;
     source.law = OpeningLaw(opening_of(valve));
@@ -409,8 +409,7 @@ void read_surfaces(Case &all) {
       continue;
     }
     KeyframeFiles read = read_keyframes(options, all.seconds);
-    // Outputs are written after all frames are read. Without this check, the user would not notice an output that replaces a
-    // frame.
+    // Outputs are written after all frames are read. Without a check, the user would not notice an output that replaces a frame.
     check_no_output_is("a frame of --surface " + options.surface, read.files, options);
     source.keyframes = std::move(read.keyframes);
     all.files.insert(all.files.end(), read.files.begin(), read.files.end());

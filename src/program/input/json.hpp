@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a JSON file. Out: its value. The reader refuses deep nesting, repeated keys, and control characters in keys. The parser
-// alone would accept all these faults.
+// In: a JSON file. Out: its value. The reader refuses deep nesting, repeated keys, and control characters in keys, which the
+// parser alone would accept.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,8 +18,7 @@ namespace riis::program {
 
 using Json = nlohmann::ordered_json;
 
-// `content` names what the file should contain, such as "parameters". If the file is nested too deeply, the refusal has this
-// name.
+// `content` names the content of the file, such as "parameters", in the refusal of a file that is nested too deeply.
 Json parse_json_file(const std::string &path, const std::string &content);
 Json parse_json(const std::string &path, const std::string &text, const std::string &content);
 
@@ -35,8 +34,8 @@ std::optional<std::array<double, 3>> point_in(const Json &value);
 
 class CaseValues {
  public:
-  // `object`, such as "valve 0", names the object in refusals. If `object` is "", it stands for the file's root. Refusals then
-  // call the root by `root`. The new object borrows the JSON value.
+  // `object`, such as "valve 0", names the object in refusals. If `object` is "", refusals name the file's root by `root`. The
+  // new object borrows the JSON value.
   CaseValues(const std::string &path, const std::string &object, const Json &value,
              const std::vector<std::string> &keys, const std::string &root = "the case");
 

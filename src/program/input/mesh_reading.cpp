@@ -49,8 +49,8 @@ class PassingFolder {
 };
 
 // Limits the memory of this process, because damaged files may claim any size. Reading needs a few times the size of an undamaged
-// file in memory. For a compressed file, it may need a thousand times the size. Builds with the address sanitizer have no limit,
-// because the sanitizer reserves terabytes.
+// file in memory. A compressed file may need a thousand times its size. Builds with the address sanitizer have no limit, because
+// the sanitizer reserves terabytes.
 void limit_memory([[maybe_unused]] const std::string &path) {
 #ifndef __SANITIZE_ADDRESS__
   std::error_code error;

@@ -145,8 +145,8 @@ Warp unfolded_warp(const Placed &placed, riis_valve *valve, double noise, Reader
   return warp;
 }
 
-// Returns advice for a warp that meets the landmarks but folds. For this advice, a warp is tried that the landmarks' noise
-// smooths.
+// Returns advice for a warp that meets the landmarks but folds. For the advice, tries a warp that is smoothed according to the
+// landmarks' noise.
 std::string cure_of_folds(const Placed &placed, const riis_valve *valve, Reader reader) {
   const std::string smoothed = option_text(reader, "warp", "smoothed"),
                     look = "look for a landmark that is not at its place";

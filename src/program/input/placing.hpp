@@ -94,8 +94,8 @@ struct Placed {
   std::vector<double> still_off;  // distances of the landmarks from the warped closed valve, right to a micrometre
 };
 
-// Finds the sizes and the placement of the valve from the landmarks. The parameters in `held`, and those that the landmarks' file
-// states, keep their values. The caller sets these parameters before the call.
+// Finds the sizes and the placement of the valve from the landmarks. The parameters in `held` and the parameters that the
+// landmarks' file states keep the values that the caller has set.
 Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, const std::string &kind,
                           const std::vector<std::string> &held, Reader reader);
 

@@ -154,7 +154,7 @@ Surface surface_at(riis_valve *valve, double opening, const riis_surface_options
   return surface;
 }
 
-// Tries the valve only at opening 1. If a valve is accepted at opening 0 and refused at opening 1, it has only one state. Other
+// Tries the valve only at opening 1. A valve that is accepted at opening 0 but refused at opening 1 has only one state. Other
 // faults are reported when the surface is made.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
   check(riis_valve_set_scalar(valve, "opening", 1));
@@ -326,14 +326,14 @@ const std::set<std::string> meshes_of_gmsh = {".unv", ".bdf", ".nas"};
 // gmsh 4 silently leaves out the prisms of a .mesh file.
 const std::set<std::string> meshes_of_meshio = {".inp", ".su2",  ".med", ".mesh", ".meshb", ".avs", ".dat", ".f3grid",
                                                 ".h5m", ".mdpa", ".vol", ".node", ".ele",   ".xml", ".post"};
-// ParaView opens files with these endings. The files contain blocks, or grids that are not unstructured.
+// Endings of files that ParaView opens. The files contain blocks, or grids that are not unstructured.
 const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".pvti", ".pvtr",
                                                   ".pvts", ".plt",  ".tec",   ".vtmb",   ".vtpc", ".vtpd"};
 // Endings of CAD files. gmsh fills a CAD model with cells, or covers it with triangles.
 const std::set<std::string> cad_files = {".step", ".stp", ".iges", ".igs", ".brep"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2", ".med", ".wrl"};
 const std::set<std::string> surfaces_of_meshio = {".off"};
-// From a file with such an ending, meshio writes all faces to a .vtu file. To a .stl file, meshio writes only triangles.
+// Endings of surface files from which meshio writes all faces to a .vtu file. To a .stl file, meshio writes only triangles.
 const std::set<std::string> faces_of_meshio = {".xdmf", ".xmf", ".inp", ".e", ".exo", ".avs", ".mdpa", ".vol"};
 const std::set<std::string> surfaces_of_paraview = {".vtkhdf", ".pvtp", ".vtm"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};

@@ -59,8 +59,8 @@ Valve copy_of(const riis_valve *valve);
 // Returns the surface at an opening that the program chose, or null if the valve cannot have this opening. After the call, the
 // valve has the opening that was tried.
 Surface surface_at(riis_valve *valve, double opening, const riis_surface_options &how);
-// Returns the library's reason why the valve cannot open, or "" if it can. The valve must allow a surface at opening 0 with these
-// options. After the call, the valve has opening 1.
+// Returns the library's reason why the valve cannot open, or "" if it can. The valve must allow a surface at opening 0 with the
+// options `how`. After the call, the valve has opening 1.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how);
 
 // Checks the status of reading a mesh. If riis_vtk cannot read the file, the refusal also has a command that converts the file.

@@ -22,10 +22,9 @@ namespace {
 
 // The number of openings at which the wall must be near enough.
 constexpr std::int32_t n_openings = 11;
-// The gap is measured at other points than the skirt, so the gap may be longer than the skirt by this share.
+// The gap may be longer than the skirt by a small share, because the two are measured at different points.
 constexpr double most_beyond = 0.01;
-// An open line of the wall counts as a hole if its length is below this share of the attachment's length. The end of a vessel is
-// a longer line.
+// The largest length of a hole in the wall, as a share of the attachment's length. A longer open line is the end of a vessel.
 constexpr double longest_hole = 0.3;
 
 // A wall that differs from its file: its lengths are multiplied by a factor, or it is turned by half a turn about z, as between

@@ -46,7 +46,7 @@ class WarpSource {
 
   bool is_empty() const { return pairs_.empty(); }
   bool moves() const;
-  // Returns the landmarks of the closed state. If the open state has landmarks of its own, these follow.
+  // Returns the landmarks of the closed state, followed by the landmarks of the open state if there are any.
   const std::vector<LandmarkPairs> &pairs() const { return pairs_; }
   bool is_in_mesh() const { return is_in_mesh_; }  // whether the landmarks are in the mesh's coordinates
   double noise() const { return noise_; }

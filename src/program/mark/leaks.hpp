@@ -50,11 +50,10 @@ class MeshLeaks {
   // In the warning, `name` names the surface.
   MeshLeaks(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface, const riis_valve *valve,
             std::string name);
-  // Adds the leaks of a piece. The piece must have been marked with this surface.
+  // Adds the leaks of a piece. The piece must already be marked with the surface.
   void add(Piece &piece, riis_marks *marks);
-  // Puts the leaks of all ranks into the report. Warns of leaks, and also if leaks are unknown. If two points are checked,
-  // PassageCheck warns in place of this function. The report must already have the marks, the surface and the numbers of volume
-  // cells.
+  // Puts the leaks of all ranks into the report. Warns of leaks, and also if leaks are unknown. Leaves the warning to
+  // PassageCheck if two points are checked. The report must already have the marks, the surface and the numbers of volume cells.
   void judge(ValveReport &report);
 
  private:

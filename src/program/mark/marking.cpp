@@ -112,8 +112,8 @@ std::vector<std::string> names_of_marks(const std::string &prefix, int32_t field
   return names;
 }
 
-// Moves each valve to the time with the least or the largest opening, as `order` says. If several times have this opening, takes
-// the first.
+// Moves each valve to the time with the least or the largest opening, as `order` says. Among times with equal openings, chooses
+// the first time.
 template <class Order>
 void move_to_first(const std::vector<double> &times, std::vector<MovingValve> &valves, Order order) {
   for (MovingValve &valve : valves) {
@@ -202,7 +202,7 @@ ValveReport Marking::report_of(std::size_t i) {
 // Leaks are judged when a valve is least open. An open valve is not meant to stop the flow.
 void Marking::move_to_least_openings() { move_to_first(times_, valves_, std::less<>()); }
 
-// The leaflets of the closed valve may reach beyond the wall, and so may those of the open valve.
+// The leaflets of the closed valve or of the open valve may reach beyond the wall.
 void Marking::take_states_for_outside() {
   for (std::size_t i = 0; i < valves_.size(); ++i) sums_[i].outside.emplace_back(valves_[i]);
   if (!all_.is_series()) return;
@@ -264,8 +264,8 @@ void Marking::measure(Piece &piece) {
     combine(sums.marks, valves_[i].stats());
     sums.leaks.add(piece, valves_[i].result());
     for (LeafletsOutside &state : sums.outside) state.add(piece);
-    // The closed valve is judged only if the open valve is outside the mesh. In a mesh in pieces, this is known only after the
-    // last piece.
+    // The closed valve is judged only if the open valve is outside the mesh. If the mesh is in pieces, only the last piece tells
+    // whether the open valve is outside.
     const bool may_be_outside =
         !mesh_.is_whole() || std::any_of(sums.outside.begin(), sums.outside.end(), [](const LeafletsOutside &state) {
           return state.share_so_far() > most_outside;

@@ -49,7 +49,7 @@ void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd
 void warn_of_passage(const MarkOptions &options, const PassageReport &report, const std::string &surface,
                      double opening, const std::string &unknown) {
   const LeakCheck &asked = *options.check_leaks;
-  // If the band has an offset, the passage's width is the half thickness that closes it.
+  // If the band has an offset, the width of a passage is the half thickness that closes the passage.
   const bool has_offset = options.surface_options.offset != 0;
   const std::string ends = text_of(asked.point(0)) + " and " + text_of(asked.point(1));
   const riis_passage &found = report.found;
@@ -102,11 +102,11 @@ riis_passage passage_in(const Piece &piece, const MarkOptions &options, const ri
 // ---- The widest passage in pieces ----
 //
 // Each piece is reduced to the ways that join its shared nodes. A node's distance is the least half thickness that marks the
-// node. If the band has no offset, this is the distance of the node from the surface. At first, all nodes beyond a limit are
-// open, and their connected regions are labelled. After that, the nearer nodes are opened one by one, from far to near. If a node
-// joins two sets, and each of the two has a shared node or an end, the node becomes a link. The distance of the link is the
-// distance of this node. Regions of different pieces are joined if they have a common node. After that, links are opened from far
-// to near until the two ends are joined. If the two ends are joined before any link is opened, the limit was too small.
+// node. If the band has no offset, the least half thickness is the node's distance from the surface. At first, all nodes beyond a
+// limit are open, and their connected regions are labelled. The other nodes are then opened one by one, from far to near. If a
+// node joins two sets, and each of the two has a shared node or an end, the node becomes a link. A link has the distance of its
+// node. Regions of different pieces are joined if they have a common node. Links are opened from far to near until the two ends
+// are joined. If the two ends are joined before any link is opened, the limit was too small.
 
 namespace {
 
@@ -300,7 +300,7 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
 PassageReport find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
                            const PieceEnd (&ends)[2]) {
   const riis_surface_info info = info_of(surface);
-  // No passage is wider than this distance, because a half thickness of this size marks the two ends of every path.
+  // An upper limit of the widths of passages: a band with this half thickness contains the two ends of every path.
   double farthest = 0;
   for (const PieceEnd &end : ends)
     for (int k = 0; k < 3; ++k)

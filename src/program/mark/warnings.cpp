@@ -124,8 +124,8 @@ std::vector<double> factors_of_units(const Situation &s) {
   return found.empty() ? unit_factors() : found;
 }
 
-// Judges the units. The length of edges near the surface is estimated from the number n of marked nodes. It is the edge of n
-// cubes that fill the band.
+// Judges the units. The length of edges near the surface is estimated from the number n of marked nodes. The estimate is the edge
+// of n equal cubes that fill the band together.
 UnitJudgement judgement_of(const Situation &s, bool is_unit_known) {
   Sizes sizes = s;
   sizes.is_unit_known = is_unit_known;
@@ -180,7 +180,7 @@ std::optional<Warning> warning_of_units(const Situation &s) {
   std::vector<Cure> cures;
   std::vector<std::string> write;
   for (const double factor : units.factors) {
-    // If the scales belong to no units, there are too many scales to name them all.
+    // Scales that belong to no unit are too many to be named one by one.
     if (!cures.empty() && !cures.front().units) break;
     cures.push_back(cure_for_scale(s, s.options.surface_options.scale / factor));
     write.push_back(cures.back().write + half_thickness_at(factor, s));
@@ -295,10 +295,10 @@ std::string place_text(const ValveOptions &options, const double *point, double 
 
 namespace {
 
-// Area differences below this share of the outline's area come from the coarseness of the triangles. The area that the bands
+// Below a small share of the outline's area, area differences come from the coarseness of the triangles. The area that the bands
 // leave is mostly 0, so its error is smaller.
 constexpr double least_share = 1e-3, least_share_left = 1e-5;
-// The width of the gap is found with an error of this share of the bridge between the bands.
+// The width of the gap is found by halving, with a small share of the bridge between the bands as its error.
 constexpr int n_halvings = 10;
 
 // Removes all bumps from the valve. Returns whether the valve had a bump with a place.
@@ -343,7 +343,7 @@ void warn_of_bridged_gap(const ValveOptions &options, const riis_valve *valve, c
   if (!with_gap || !without_gap) return;
   const double bridged = 1 - options.surface_options.offset;  // in half thicknesses, on either side of the gap
   const double reach = bridged * info_of(with_gap).half_thickness;
-  // A rim's band reaches inwards by a share of the half thickness. This share does not depend on the half thickness.
+  // A rim's band reaches inwards by a share of the half thickness. The share is equal for all half thicknesses.
   const auto resistance = defaults<riis_resistance>();
   const double rim_reach = get<riis_orifice>(riis_surface_get_orifice, with_gap, &resistance).rim_reach;
   const riis_orifice whole = orifice_of(with_gap, reach, rim_reach), usual = orifice_of(without_gap, reach, rim_reach);

@@ -28,8 +28,7 @@ struct Situation : Sizes {
 };
 
 // The possible causes of wrong marks, in the order in which the user should correct them. A wrong unit also makes the half
-// thickness wrong. A wrong unit or a wrong half thickness can cause leaks. Each of these causes may put a part of the leaflets
-// outside the mesh.
+// thickness wrong. A wrong unit or a wrong half thickness can cause leaks, or can put a part of the leaflets outside the mesh.
 enum class Cause { units, half_thickness, place, leaks, outside };
 
 // The text of a warning and its advice, without line breaks. The advice begins with the punctuation that follows the text, as in

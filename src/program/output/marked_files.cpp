@@ -277,7 +277,8 @@ void MarkedFiles::list_pieces() {
   if (!is_wanted()) return;
   std::vector<Written> written = ranks::gather(written_);
   std::sort(written.begin(), written.end());
-  // The lists of a mesh in pieces name the arrays of a file that has nodes. The first rank with such a file writes the lists.
+  // The lists of a mesh in pieces name the arrays of a file that has nodes. The first rank that has a file with nodes writes the
+  // lists.
   const std::vector<int> have = ranks::gather(std::vector<int>{sample_ ? 1 : 0});
   const bool is_writer = std::find(have.begin(), have.end(), 1) - have.begin() == ranks::rank();
   const UnbrokenWrite unbroken;

@@ -130,8 +130,8 @@ KnownFiles known(const NamedFiles &files) {
   return known;
 }
 
-// Refuses a folder for the steps' files if the folder contains an input, or a link to an input. A file of a step could replace
-// this input.
+// Refuses a folder for the steps' files if the folder contains an input, or a link to an input. A step's file could replace the
+// input.
 void check_folder_of_steps(const std::string &option, const std::string &folder, const KnownFiles &inputs) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
@@ -413,8 +413,8 @@ bool is_at(int file, const std::string &path) {
 int take(const std::string &output, const std::string &lock) {
   for (;;) {
     int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    // The lock file may be left over from another user's run that was killed. The present user may only read this file, but that
-    // suffices for a lock.
+    // The lock file may be left over from another user's run that was killed. Read permission for the lock file suffices for a
+    // lock.
     if (file < 0 && errno == EACCES) file = open(lock.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) refuse_lock(output, "its lock " + lock + " cannot be made: " + system_text(errno));
     if (flock(file, LOCK_EX | LOCK_NB) == 0) {

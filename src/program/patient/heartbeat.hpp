@@ -9,12 +9,12 @@ namespace riis::program {
 inline constexpr double mmHg = 133.322;         // Pa
 inline constexpr double beat_period = 0.8;      // s
 inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and in which it closes
-// The dwell time of the law. While the leaflets close, they push blood back. The valve must not open because of the pressure that
-// this blood causes. Each motion of the leaflets therefore ends before the next motion may begin, as in svMultiPhysics.
+// The dwell time of the law. Leaflets that close push blood back, and the pressure of this blood must not open the valve. Each
+// motion of the leaflets therefore ends before the next motion may begin, as in svMultiPhysics.
 inline constexpr double dwell_seconds = motion_seconds;
-// Pa. Rounding errors of two equal pressures are below this difference, so they cannot open the valve.
+// Pa. The opening pressure is larger than the rounding error of the difference between two equal pressures.
 inline constexpr double opening_pressure = 50;
-// m3/s. A mitral valve closes when the flow falls below this value, so that less blood returns.
+// m3/s. A mitral valve closes when the flow falls below a small value, so that less blood returns.
 inline constexpr double closing_flow_of_mitral = 1e-4;
 
 // A pressure as a function of time, which is linear between its keys. The function repeats with the period beat_period.

@@ -36,7 +36,7 @@ using Words = std::vector<std::string>;
 
 // Defaults of lengths, in millimetres.
 constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6, usual_noise = 0.3;
-// A half thickness outside this range has a wrong unit, or would close the open valve.
+// Limits of the half thickness. A value beyond the limits has a wrong unit, or would close the open valve.
 constexpr double least_half_thickness_mm = 0.1, most_half_thickness_mm = 4, most_skirt_mm = 30;
 // Landmarks that a person sets are on average closer to the wall than the first distance. Landmarks are doubtful if their average
 // distance is larger than the second distance.
@@ -46,12 +46,12 @@ constexpr double usual_band_edge = 0.95, usual_largest_edge = 3;
 // (docs/export.md).
 constexpr double uris_band_edge = 0.55;
 constexpr double usual_resistance = 1e4;  // kg/(m s)
-// If an edge leaks, a second mesh is made, whose edges are shorter by this factor.
+// If an edge leaks, a second mesh with shorter edges is made.
 constexpr double shorter_by = 0.9;
-// Flow solvers on one computer take meshes up to about this size.
+// The largest usual number of nodes for a flow solver on one computer.
 constexpr std::int64_t many_nodes = 40000;
-// The number of nodes is proportional to this power of 1 / (edge length in the band). The power was found by meshes of a root and
-// a ventricle.
+// The number of nodes grows with a power of 1 / (edge length in the band). The power was found by meshes of a root and a
+// ventricle.
 constexpr double power_of_nodes = 2.5;
 constexpr int n_marked_openings = 11;
 

@@ -31,20 +31,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The area of an end may change by this share, because the rim of the new surface has longer edges.
+// The area of an end may change a little, because the rim of the new surface has longer edges.
 constexpr double most_area_change = 0.05;
-// The edge length in the middle of an end, as a share of the end's radius. With this length, the rim of an end has at least
-// sixteen edges.
+// The edge length in the middle of an end, as a share of the end's radius. The rim of an end then has at least sixteen edges.
 constexpr double end_edge_share = 0.35;
 // The time in seconds that gmsh has: a fixed time, and an additional time for each triangle. If gmsh cannot remesh a surface, it
 // may run for hours.
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
-// If there is a second try, the first try gets this share of the time.
+// The first of two tries gets a share of the time.
 constexpr double first_share = 0.25;
-// For the second try, nodes are moved by at most this share of the wall's size. The rounding errors of files in single precision
+// In the second try, nodes are moved by at most a tiny share of the wall's size. The rounding errors of files in single precision
 // are as large.
 constexpr double moved_share = 1e-7;
-// The wall intersects itself if triangles overlap by more than this share of the wall's size.
+// Triangles that overlap by more than a tiny share of the wall's size count as a self-intersection.
 constexpr double least_crossing_share = 1e-5;
 // The number of triangles of each new patch that are compared with the wall.
 constexpr std::size_t n_compared = 9;
@@ -273,7 +272,7 @@ class PatientMesher {
     std::string text = "Field[1] = Structured;\nField[1].FileName = \"" + field +
                        "\";\nField[1].TextFormat = 1;\nField[1].SetOutsideValue = 1;\nField[1].OutsideValue = " +
                        shortest(options_.largest_edge) + ";\n";
-    // Edges are shorter at a small end, and become longer with the distance from this end.
+    // Edges are shorter at a small end, and become longer with the distance from the end.
     int n_fields = 1;
     for (const FlatEnd &end : wall_.ends) {
       const double radius = std::sqrt(end.area / pi), edge = end_edge_share * radius;
@@ -297,7 +296,7 @@ class PatientMesher {
            "Mesh.MeshSizeFromCurvature = 0;\n";
   }
 
-  // Runs gmsh. Returns nothing if gmsh did not end within this time.
+  // Runs gmsh. Returns nothing if gmsh runs longer than the limit.
   static std::optional<ProgramEnd> end_of_gmsh(const std::vector<std::string> &words, double seconds) {
     // SIGTERM does not end gmsh. The program timeout takes only whole seconds.
     const double limit = std::ceil(seconds);
@@ -316,8 +315,8 @@ class PatientMesher {
   }
 
   // Runs gmsh on a .geo file. If gmsh wrote no mesh, refuses with gmsh's last error. In the message, `cure` follows gmsh's error.
-  // With a function change_input, gmsh first gets only a part of the time. If gmsh does not end in this time, the function is
-  // called, and gmsh runs again for the rest of the time.
+  // With a function change_input, gmsh first gets only a part of the time. If gmsh does not end in time, change_input is called,
+  // and gmsh runs again for the rest of the time.
   GmshMesh run_gmsh(double seconds, const std::string &dimension, const std::string &geo, const std::string &mesh,
                     const std::string &cure, const std::function<void()> &change_input = {}) {
     const std::string log = in_gmsh(fs::path(geo).stem().string() + ".log");
@@ -373,7 +372,7 @@ class PatientMesher {
            ", and repair or smooth it, as by Surface Toolbox of 3D Slicer";
   }
 
-  // Tells where the wall intersects itself, or returns "". Most failures of gmsh come from such a self-intersection.
+  // Tells where the wall intersects itself, or returns "". Most failures of gmsh come from a wall that intersects itself.
   std::string crossing_text() const {
     auto arrays = defaults<riis_surface_arrays>();
     arrays.n_vertices = static_cast<std::int64_t>(old_.points.size());

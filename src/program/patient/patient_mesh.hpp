@@ -34,8 +34,8 @@ struct PatientMesh {
 // Throws a Refusal if there is no gmsh in PATH. The message says which package to install. Returns gmsh's version.
 std::string require_gmsh();
 
-// Makes the mesh. First gmsh remeshes the surface with the edge lengths of the size field, and keeps the rims of the ends. After
-// that, gmsh fills the surface with tetrahedra. Every end must have a name. Writes into `folder`
+// Makes the mesh. First gmsh remeshes the surface with the edge lengths of the size field, and keeps the rims of the ends. Then
+// gmsh fills the remeshed surface with tetrahedra. Every end must have a name. Writes into `folder`
 //   mesh.msh        ASCII gmsh 2.2: physical groups of the boundaries, and "blood" of the tetrahedra
 //   mesh.vtu        the tetrahedra, with GlobalNodeID and GlobalElementID
 //   faces/NAME.vtp  the triangles of a boundary, outwards, with GlobalNodeID, GlobalElementID and ModelFaceID

@@ -11,10 +11,9 @@
 namespace riis::program {
 namespace {
 
-// If landmarks belong to a wall, their mean distance from the wall is below this limit, in millimetres. Cusps and annuli are
-// about 25 mm wide.
+// The largest mean distance of landmarks from their wall, in millimetres. Cusps and annuli are about 25 mm wide.
 constexpr double at_wall = 5;
-// Another unit or other axes are excluded if the landmarks would then be this many times farther away.
+// Another unit or other axes are excluded if the landmarks would then be clearly farther from the wall.
 constexpr double clearly_farther = 2;
 
 std::string mm_text(double length) { return printed("%.3g", length) + " mm"; }
@@ -57,7 +56,7 @@ WallFrame frame_with(const riis_surface *wall, const LandmarkFile &given, Unit u
   return frame;
 }
 
-// Returns the options that choose a unit and axes, or words for this unit and these axes.
+// Returns the options that choose a frame's unit and axes, or words for the unit and the axes.
 std::string options_of(const WallFrame &frame, const WallFrame &other) {
   std::vector<std::string> options;
   if (frame.unit != other.unit) options.push_back(std::string("--wall-unit ") + name_of(frame.unit));

@@ -16,16 +16,16 @@
 namespace riis::program {
 namespace {
 
-// Two vertices of open sides are joined if their distance is below this share of the wall's size. In single precision, the
-// rounding errors of a root at a metre from the origin are a sixth of this share.
+// Two vertices of open sides are joined if their distance is below a tiny share of the wall's size. In single precision, the
+// rounding errors of a root at a metre from the origin are a sixth of the share.
 constexpr double joined_share = 1e-5;
-// A piece is an island of the segmentation if its area is below this share of the largest piece's area.
+// A piece is an island of the segmentation if its area is below a small share of the largest piece's area.
 constexpr double island_share = 0.01;
-// A hole is flat if all points of its rim are closer to a plane than this share of the rim's width.
+// A hole is flat if all points of its rim are close to a plane, compared with the rim's width.
 constexpr double flat_hole_share = 0.02;
 
-// A triangle is thin if its height is below this share of the wall's size. With thin triangles, gmsh would run for hours. A side
-// of a thin triangle is short if it is shorter than this number of heights.
+// A triangle is thin if its height is below a tiny share of the wall's size. With thin triangles, gmsh would run for hours. A
+// side of a thin triangle is short if it is shorter than a few times the height.
 constexpr double thin_share = 2e-6, short_in_heights = 10;
 constexpr int most_thin_rounds = 20;
 
@@ -281,7 +281,7 @@ class WallRepair {
              (n_repaired == 1 ? "is" : "are") + " repaired");
   }
 
-  // Repairs thin triangles that have no vertex in common with a triangle repaired in this round. Returns the number of repairs.
+  // In one round, repairs thin triangles that have no common vertex. Returns the number of repairs.
   std::int64_t repair_some_thin() {
     std::vector<std::int64_t> thin;
     for (std::int64_t i = 0; i < made_.triangles.n(); ++i)
@@ -342,7 +342,7 @@ class WallRepair {
     return -1;
   }
 
-  // Moves one end of a side, b, to the other end, a. Returns whether the surface allows this change.
+  // Moves one end of a side, b, to the other end, a. Returns whether the surface allows the move.
   bool join_side(std::int64_t a, std::int64_t b) {
     const std::int64_t left = of_side(a, b), right = of_side(b, a);
     if (left < 0 || right < 0) return false;

@@ -178,8 +178,8 @@ void check_whole_folder(const std::string &given, const std::string &option) {
   check_writable(option, path, path);
 }
 
-// A folder that receives its files only after all of them are written. Until then, the files are in a hidden folder inside this
-// folder.
+// A folder that receives its files only after all of them are written. While files are being written, they are in a hidden folder
+// inside the folder.
 class WholeFolder {
  public:
   // Makes a new folder, or uses an empty folder. A Refusal names the option.
@@ -284,8 +284,8 @@ std::string vtu_text(const std::vector<double> &xyz, const UrisLeaflet &leaflet)
          "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-// Stops the export after a frame if a signal is waiting. The signal ends the process after the files are removed, so that this
-// message is never printed.
+// Stops the export after a frame if a signal is waiting. The message is never printed, because the signal ends the process after
+// the files are removed.
 void stop_if_interrupted() {
   if (UnbrokenWrite::has_signal()) refuse_data("riis export: interrupted, and nothing is left");
 }
@@ -345,8 +345,8 @@ void write_export(const ExportOptions &options, const UrisMotion &motion, UrisLe
   folder.take_place();
 }
 
-// Returns the text with only those characters that a name may have. A dash is replaced, because two dashes in a row would end the
-// comment in the XML file.
+// Returns the text with only the characters that are allowed in a name. A dash is replaced, because two dashes in a row would end
+// the comment in the XML file.
 std::string as_name(std::string text) {
   for (char &c : text) c = c != '-' && is_prefix(std::string(1, c)) ? c : '_';
   return text;

@@ -19,12 +19,12 @@
 namespace riis::program {
 namespace {
 
-// The bands in which the solver measures pressures end at this many half thicknesses.
+// The end of the bands in which the solver measures pressures, in half thicknesses.
 constexpr double band_end = 5;
-// A drop is large enough if it is at least this share of (R / eps) u. The second number is the largest half thickness that is
-// tried, divided by the given half thickness.
+// The least sufficient drop, as a share of (R / eps) u. The second number is the largest half thickness that is tried, divided by
+// the given half thickness.
 constexpr double enough = 0.9, most_thickness = 2;
-// A drop is no forecast if it exceeds (R / eps) u divided by this share.
+// A drop is no forecast if it exceeds (R / eps) u by more than a small share.
 constexpr double least_of_sensible = 0.95;
 
 // Returns whether two corners are the ends of an edge.
@@ -161,8 +161,8 @@ class Forecaster {
     warn_of_negative_shapes(distances);
     const std::vector<double> near =
         near_nodes(std::max(band_end * half_thickness_, most_thickness * half_thickness_ + 2 * median_edge_));
-    // With a larger half thickness, the export has a larger box. The signs of distances must be known up to the reach of this
-    // box.
+    // With a larger half thickness, the export has a larger box. The signs of distances must be known up to the reach of the
+    // larger box.
     const SolverDistances wide = solver_distances(mesh_, leaflets_, vertices_, true, half_thickness_,
                                                   band_end * most_thickness * half_thickness_ + 4 * median_edge_);
     const Expected expected = expected_at(half_thickness_, distances, wide, near);
@@ -208,7 +208,7 @@ class Forecaster {
            ", but about 1 to 1,000 in flows of blood: look at the unit of --resistance";
   }
 
-  // Finds the half thickness in steps of a quarter. After that, halves the last step twice.
+  // Finds the half thickness in steps of a quarter. The last step is halved twice for a finer result.
   std::string thickness_for(const SolverDistances &wide, const std::vector<double> &near) {
     bool are_found = true;
     const auto is_enough = [&](double factor) {
@@ -234,9 +234,9 @@ class Forecaster {
            text_of_finer_mesh(near, above);
   }
 
-  // Returns the edge length that would have the same effect as a half thickness which is larger by this factor. The drop depends
-  // on the ratio of edge and half thickness. All elements are assumed to become shorter by the same length, as with size fields
-  // of different edges in the band.
+  // Returns the shorter edge length that has the same effect as a half thickness times `factor`. The drop depends on the ratio of
+  // edge and half thickness. All elements are assumed to become shorter by the same length, as with size fields of different
+  // edges in the band.
   std::string text_of_finer_mesh(const std::vector<double> &near, double factor) const {
     std::vector<double> lengths, volumes;
     const SolverElement &element = *mesh_.element;
@@ -271,8 +271,8 @@ class Forecaster {
     return grouped(static_cast<std::int64_t>(std::llround(count / unit) * std::llround(unit)));
   }
 
-  // Because of the stabilisation, the drop can exceed (R / eps) u a little. A drop that is much larger than this value, or
-  // negative, is no forecast.
+  // Because of the stabilisation, the drop can exceed (R / eps) u a little. A drop that is negative or much larger than (R / eps)
+  // u is no forecast.
   static bool is_sensible(double drop) { return drop > 0 && drop <= 1 / least_of_sensible; }
 
   // Returns a length in the unit of the mesh, as the user would write it.
@@ -280,7 +280,7 @@ class Forecaster {
     return shown(length / options_.to_solver) + (options_.unit ? std::string(" ") + name_of(*options_.unit) : "");
   }
 
-  // Warns of resistance far from the valve. Negative interpolated distances cause such resistance.
+  // Warns of resistance far from the valve, which negative interpolated distances cause.
   void warn_of_negative_shapes(const SolverDistances &distances) {
     const SolverElement &element = *mesh_.element;
     if (element.n_nodes == element.n_corners) return;

@@ -80,7 +80,7 @@ class FinerTriangles {
 
 // svMultiPhysics searches a mesh only in the box of the valve's nodes, widened by a tenth. The box of a flat valve is too thin.
 // The flat box leaves out nodes that should be marked, and parts of the bands in which the solver measures pressures.
-// In: the triangles. Out: three additional triangles, which enlarge this box.
+// In: the triangles. Out: three additional triangles, which enlarge the box.
 
 // Returns a power of two, to whose multiples coordinates are rounded. `largest` is the largest coordinate. The sum of three
 // rounded coordinates is then exact, even in a box that is about ten times as large.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The solver widens its box by this share on each side. Nodes outside the box get this many half thicknesses as their distance.
+// The share by which the solver widens its box on each side. The distance of nodes outside the box, in half thicknesses.
 constexpr double widening = 0.1, far_in_half_thicknesses = 1e6;
 
 // ---- The nearest middle of a triangle ----
@@ -313,16 +313,16 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
   const SolverElement &element = *mesh.element;
   const std::vector<ReferencePoint> &points = at_solver_points ? element.gauss : element.fine;
   const std::vector<ShapeFunctions> &functions = at_solver_points ? element.at_gauss : element.at_fine;
-  // Most points of the elements near the band are outside the band. The distance of such a point is at least a node's distance
-  // minus the way from the node to the point.
+  // Most points of the elements near the band are outside the band. A point's distance is at least a node's distance minus the
+  // way from the node to the point.
   const double reach = (1 + 1e-6) * half_thickness + error;  // rounding changes less
   const auto excludes = [&](std::int64_t node, const Point &point) {
     const Point off = difference(point, mesh.point(node));
     const double beyond = view(near)[node] - reach;
     return beyond > 0 && beyond < infinity && product(off, off) < beyond * beyond;
   };
-  // A linear element lies between its nodes. If a node excludes all other nodes of the element, the node also excludes the
-  // element.
+  // A linear element lies between its nodes. If one node shows that all other nodes are outside the band, the whole element is
+  // outside the band.
   const bool is_linear = element.n_nodes == element.n_corners;
   std::vector<double> xyz, weights;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {

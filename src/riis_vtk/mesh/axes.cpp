@@ -28,7 +28,7 @@ double median_edge_of(const GridAxes &axes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double step = view(axes.of[axis])[at[axis] + 1] - view(axes.of[axis])[at[axis]];
       const double length = std::sqrt(step * step);
-      // A cell has four edges along each axis. It does not change the median if each edge is counted four times.
+      // A cell has four edges along each axis. The median does not change if each edge is counted four times.
       if (length > 0 && std::isfinite(length)) lengths.push_back(length);
     }
   }

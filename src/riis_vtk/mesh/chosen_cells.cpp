@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Domains of a mesh, such as the fluid and the wall. A domain consists of the cells with one value in a cell array. The caller
-// keeps the cells with certain values, or learns which values touch each other.
+// keeps the cells of certain domains, or learns which domains touch each other.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -121,7 +121,7 @@ void choose_cells(riis_vtk_mesh &mesh, const Where &where, std::int64_t *n_chose
 
 // ---- Regions ----
 
-// An array does not tell domains apart if its name contains such a word.
+// Returns false if the array's name contains a word that seldom names domains.
 bool may_tell_domains(const std::string &array_name) {
   std::string name = array_name;
   for (char &c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -134,7 +134,7 @@ bool may_tell_domains(const std::string &array_name) {
 
 constexpr std::size_t most_regions = 16;
 
-// Returns the values of volume cells if they are few whole numbers, and if cells with different values touch. Such cells must
+// Returns the values of volume cells if they are few whole numbers, and if cells with different values touch. Cells touch if they
 // have one type and a common node. Otherwise returns no values. Touching cells of different types do not count, because a domain
 // often has a block for each of its types, as Exodus needs.
 std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *array) {
@@ -164,8 +164,8 @@ std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *arr
   return {values.begin(), values.end()};
 }
 
-// Does the same as touching_values for a mesh given by axes. In such a mesh, different values always touch, because each cell is
-// beside the next cell.
+// Does the same as touching_values for a mesh given by axes. In a mesh given by axes, different values always touch, because each
+// cell is beside the next cell.
 std::vector<double> values_on_axes(vtkDataArray *array) {
   std::set<double> values;
   for (vtkIdType cell = 0; cell < array->GetNumberOfTuples(); ++cell) {

@@ -53,7 +53,7 @@ struct riis_vtk_mesh {
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
   std::vector<riis::vtk::RegionName> region_names = {};  // of gmsh's physical groups of volumes
   riis::vtk::Regions regions = {};                       // as riis_vtk_mesh_find_regions found them
-  // The ids of nodes and cells in the whole mesh, if only some cells were kept. If all cells were kept, these lists are empty.
+  // The ids of nodes and cells in the whole mesh, if only some cells were kept. The lists are empty if all cells were kept.
   std::vector<std::int64_t> whole_node_ids = {}, whole_cell_ids = {};
 
   std::int64_t n_nodes() const { return centers ? n_cells() : axes ? axes->n_nodes() : data->GetNumberOfPoints(); }
@@ -77,11 +77,11 @@ void find_outside(const GridAxes &axes, std::int64_t n_points, const double *xyz
 // Writes the arrays to a .vtr file with axes. For an image, writes them to a .vti file.
 void write_axes(const std::string &path, const riis_vtk_mesh &mesh, const CaughtOutput &caught);
 
-// Converts the points of the grid to double precision. If the grid has no points, it gets an empty list of points.
+// Converts the points of the grid to double precision. A grid without points gets an empty list of points.
 void make_points_double(vtkUnstructuredGrid *grid);
 
 // The properties that all cells of a VTK type have in common. A node is given by its position in the list of the cell's nodes.
-// These lists are empty if cells of the type can have different edges and faces.
+// The lists of edges and faces are empty for a type whose cells can have different edges and faces.
 using Edge = std::array<vtkIdType, 2>;
 struct CellShape {
   struct Face {

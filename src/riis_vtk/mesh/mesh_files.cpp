@@ -72,8 +72,8 @@ void check_adjacency(riis_status status, const std::string &structure) {
   fail(status, text.rfind(structure, 0) == 0 ? text.substr(structure.size()) : text);
 }
 
-// Makes an adjacency of nodes from edges. The core has a call for cells and the faces between cells. For this call, the nodes
-// count as cells, and the edges count as faces.
+// Makes an adjacency of nodes from edges. The core has a call for cells and the faces between cells. The nodes are passed as
+// cells, and the edges as faces.
 riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::int64_t> &edges,
                                    std::int32_t n_threads) {
   riis_mesh_faces faces;
@@ -122,7 +122,7 @@ const double *points_of(const riis_vtk_mesh *mesh) {
   return vtkDoubleArray::SafeDownCast(mesh->data->GetPoints()->GetData())->GetPointer(0);
 }
 
-// Returns the pairs of neighbouring cells as edges. The two ends of such an edge are the centres of two neighbouring cells.
+// Returns the pairs of neighbouring cells as edges. The two ends of an edge are the centres of two neighbouring cells.
 std::vector<std::int64_t> long_pairs_of(const CellCenters &centers, const LongEdges &wanted) {
   std::vector<std::int64_t> pairs;
   for (std::int64_t i = 0; i < view(centers.pairs).size(); i += 2) {

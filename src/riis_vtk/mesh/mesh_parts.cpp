@@ -66,7 +66,7 @@ std::vector<std::int64_t> whole_ids(const std::vector<vtkIdType> &ids, const std
   return made;
 }
 
-// Copies the values at the given nodes or cells. Also adds an array with the ids of these nodes or cells in the whole mesh.
+// Copies the values at the given nodes or cells. Also adds an array with the nodes' or the cells' ids in the whole mesh.
 void copy_data(vtkDataSetAttributes *from, const std::vector<vtkIdType> &ids, const char *id_array,
                const std::vector<std::int64_t> &whole, vtkDataSetAttributes *to) {
   const auto n = static_cast<vtkIdType>(ids.size());

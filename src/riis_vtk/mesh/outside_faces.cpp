@@ -24,13 +24,13 @@ struct Face {
   int number;  // the face's position in its cell
 };
 
-// Faces for which only one cell has been found so far. Neighbouring cells are mostly near each other in the list of cells, so
-// there are few of these faces at any time.
+// Faces for which only one cell has been found so far. There are few lone faces at any time, because neighbouring cells are
+// mostly near each other in the list of cells.
 class LoneFaces {
  public:
   explicit LoneFaces(vtkIdType n_points) : first_(static_cast<std::size_t>(n_points), -1) {}
 
-  // Adds a face. If the face was added before, it belongs to two cells, and is removed.
+  // Adds a face. A face that is added for the second time belongs to two cells, and is removed.
   void toggle(const Corners &corners, Face face) {
     Key key = {-1, -1, -1, -1};
     std::partial_sort_copy(corners.begin(), corners.end(), key.begin(), key.end());

@@ -84,7 +84,7 @@ Declared declared_array(XmlAttributes attributes) {
   Declared array{value_of(attributes, "Name").value_or(""), value_of(attributes, "type").value_or("")};
   if (const auto n = value_of(attributes, "NumberOfComponents"); n && !read_number(*n, array.n_components))
     array.n_components = -1;
-  // dolfinx 0.5 writes no number of components for scalars. VTK takes such an array of a .vtu file for an array with one
+  // dolfinx 0.5 writes no number of components for scalars. For VTK, an array without this number in a .vtu file has one
   // component.
   if (array.n_components == 0) array.n_components = 1;
   return array;
@@ -119,9 +119,9 @@ std::unique_ptr<riis_vtk_pieces> read_pieces(const std::string &path, const Caug
   });
   check_declared(path, made->point_arrays);
   check_declared(path, made->cell_arrays);
-  // In the array with this name, dolfinx gives each node of the mesh a number that is valid on all ranks. A file of functions is
-  // refused, because the last bits of a shared node's coordinates differ between ranks. A file that states the order of bytes was
-  // written by VTK. Such a file is left out, because VTK's filters number the nodes of each piece separately.
+  // dolfinx writes an array that gives each node a number, which is valid on all ranks. A file of functions is refused, because
+  // the last bits of a shared node's coordinates differ between ranks. A file that states the order of bytes was written by VTK.
+  // A file by VTK is left out, because VTK's filters number the nodes of each piece separately.
   made->has_ids_of_dolfinx = !has_byte_order && std::any_of(made->point_arrays.begin(), made->point_arrays.end(),
                                                             [](const Declared &a) { return a.name == ids_of_dolfinx; });
   made->path = path;
@@ -231,10 +231,10 @@ vtkUnsignedCharArray *ghosts_of(vtkDataSetAttributes *data, const char *kind) {
   return ghosts;
 }
 
-// Finds the nodes that other pieces may also have. If two cells of this piece share a face, the face is inside the piece. For
-// each node, the hashes of its faces are combined by exclusive or. A face inside the piece is combined twice, so it leaves no
-// trace. The result tells, without a list of faces, whether all faces of a node are inside. For each node, the answer is wrong
-// with a probability of 2^-64.
+// Finds the nodes that other pieces may also have. A face of two cells in one piece lies inside the piece. For each node, the
+// hashes of its faces are combined by exclusive or. A face inside the piece is combined twice, so it leaves no trace. The result
+// tells, without a list of faces, whether all faces of a node are inside. For each node, the answer is wrong with a probability
+// of 2^-64.
 class NodeRoles {
  public:
   explicit NodeRoles(vtkUnstructuredGrid *grid)

@@ -40,8 +40,8 @@ void sort_edges(std::vector<Edge> &edges) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 }
 
-// Adds the edges of a face. If a side has higher order, it has a node in its middle. The face may also have a node in its middle,
-// which is then the last node of the face.
+// Adds the edges of a face. A side of higher order has a node in its middle. The face may also have a node in its middle, which
+// is then the last node of the face.
 void add_face(vtkCell *face, std::vector<Edge> &edges) {
   std::vector<vtkIdType> middles;
   const int n_sides = face->GetNumberOfEdges();
@@ -113,8 +113,8 @@ CellShape shape_from_vtk(int type) {
 using Orders = std::array<int, 4>;  // the orders along three axes, then the number of nodes, as in VTK
 
 void add_tetrahedron_lattice(int order, std::vector<Edge> &edges) {
-  // A small tetrahedron is given by four whole numbers, whose sum is order - 1. If 1 is added to one of these four numbers, the
-  // four are the barycentric coordinates of a corner.
+  // A small tetrahedron is given by four whole numbers, whose sum is order - 1. If 1 is added to one of the numbers, the four
+  // numbers are the barycentric coordinates of a corner.
   for (vtkIdType i = 0; i < order; ++i)
     for (vtkIdType j = 0; i + j < order; ++j)
       for (vtkIdType k = 0; i + j + k < order; ++k) {
@@ -181,7 +181,7 @@ std::vector<Edge> lattice_edges(int type, const Orders &orders) {
   return edges;
 }
 
-// Finds the orders of a cell from its number of nodes, n_nodes. The orders are those in the file (`given`), or they are equal
+// Finds the orders of a cell from its number of nodes, n_nodes. The cell has the orders in the file (`given`), or equal orders
 // along all axes. Returns false if n_nodes fits neither the given orders nor equal orders, because the nodes then form no
 // lattice.
 bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &orders) {

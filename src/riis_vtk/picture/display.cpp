@@ -27,9 +27,9 @@ Display *open_display() {
   }
 }
 
-// Returns whether VTK's OpenGL can draw on the display. The OpenGL library in use decides whether this is possible. Some
-// libraries, such as the one in the program's archive, draw by X alone and do not need the server's extension GLX. At this point,
-// VTK has already loaded the OpenGL library.
+// Returns whether VTK's OpenGL can draw on the display. Whether VTK can draw depends on the OpenGL library in use. Some
+// libraries, such as the one in the program's archive, draw by X alone and do not need the server's extension GLX. VTK has
+// already loaded the OpenGL library before the call.
 bool has_opengl(Display *display) {
   int opcode = 0, event = 0, error = 0;
   using Query = int(Display *, int *, int *);

@@ -196,16 +196,16 @@ void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
   counts_ = {grid->GetNumberOfPoints(), std::count(marked.begin(), marked.end(), 1),
              std::count(parts.begin(), parts.end(), whole_marked),
              std::count(parts.begin(), parts.end(), partly_marked)};
-  // Faces between wholly marked cells and partly marked cells are left out. Nobody can see such faces, because partly marked
-  // cells surround the wholly marked cells.
+  // Faces between wholly marked cells and partly marked cells are left out, because nobody can see them. Partly marked cells
+  // surround the wholly marked cells.
   std::vector<std::uint8_t> chosen(parts.size());
   std::transform(parts.begin(), parts.end(), chosen.begin(), [](std::uint8_t part) { return part == partly_marked; });
   const Outside partly = outside_of(grid, &parts, &chosen);
   colour_faces(partly.faces, leaflets_of(grid, partly.cell_id), pale);
   partly_length_ = mean_edge_length(partly.faces);
   partly_ = coloured_actor(partly.faces);
-  // Faces that look towards the eye are not drawn, because they would hide the wholly marked cells. All other faces are visible
-  // around the wholly marked cells, and in gaps between these cells.
+  // Faces that look towards the eye are not drawn, because they would hide the wholly marked cells. Faces that look away from the
+  // eye are visible around the wholly marked cells, and in gaps between them.
   partly_->GetProperty()->SetFrontfaceCulling(partly.of_volumes);
   partly_->GetProperty()->SetAmbient(0.6);
   partly_->GetProperty()->SetDiffuse(0.45);

@@ -177,8 +177,8 @@ void add_caption(vtkRenderer *renderer, const Layout &layout, int column, const 
   }
 }
 
-// Adds the key of colours, from `left` to the right end of the column, in one or more lines. If entries do not fit, dots replace
-// them.
+// Adds the key of colours, from `left` to the right end of the column, in one or more lines. Entries that do not fit are replaced
+// by dots.
 void add_key(vtkRenderer *renderer, const Layout &layout, int column, double left, int n_lines,
              const std::vector<KeyEntry> &key) {
   const double right = layout.column_left(column) + layout.panel_width() - layout.margin();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads gmsh's .msh files of versions 2 and 4.1, as text or binary. The format is described in the chapter "Gmsh file formats" of
-// gmsh's manual. The section "Node ordering" of this chapter has the orders of nodes. Nodes and elements keep the file's order.
-// Elements of all dimensions become cells. The cell array gmsh:physical has the first physical group of each cell, and further
-// arrays have further groups.
+// gmsh's manual. The order of nodes is described in the section "Node ordering" of the chapter. Nodes and elements keep the
+// file's order. Elements of all dimensions become cells. The cell array gmsh:physical has the first physical group of each cell,
+// and further arrays have further groups.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -49,7 +49,7 @@ const ElementType *find_type(std::int64_t gmsh_type) {
       {13, 18, VTK_BIQUADRATIC_QUADRATIC_WEDGE, {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10, 16, 17, 15}},
       {19, 13, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
       // VTK 9.1 has no type for a pyramid with a node in the middle of its base. The node in the middle of the base stays a node
-      // of the mesh. This node gets its edges from the cell on the other side of the base.
+      // of the mesh. The node in the middle gets its edges from the cell on the other side of the base.
       {14, 14, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
   };
   const auto found =
@@ -350,7 +350,7 @@ class GmshFile {
   }
 
   // Reads the physical groups of the model's points, curves, surfaces and volumes. An entity may have several groups. If gmsh has
-  // partitioned the mesh, the elements belong to parts of these entities, and these parts also have groups.
+  // partitioned the mesh, elements belong to parts of entities, and the parts also have groups.
   void read_entities(bool are_parts) {
     if (are_parts) {
       read_sizes(1);  // the number of partitions

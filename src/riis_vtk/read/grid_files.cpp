@@ -135,8 +135,8 @@ void check_polyhedra(const std::string &path, vtkUnstructuredGrid *grid) {
   }
 }
 
-// Also reads the faces of polyhedra in the layout of VTK 9.4 and later. Older releases of VTK ignore this layout. In this layout,
-// each polyhedron refers to faces in a common list, and each face refers to its corners.
+// Also reads the faces of polyhedra in the layout of VTK 9.4 and later. Older releases of VTK ignore the new layout. In the new
+// layout, each polyhedron refers to faces in a common list, and each face refers to its corners.
 class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
  public:
   static GridReader *New() { VTK_STANDARD_NEW_BODY(GridReader); }
@@ -185,7 +185,7 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
     }
   }
 
-  // Reads n values of a cell array. Fails unless the file holds all these values.
+  // Reads n values of a cell array. Fails if the file holds fewer values.
   Ids ids_in(vtkXMLDataElement *cells, const char *name, vtkIdType n) {
     vtkXMLDataElement *element = FindDataArrayWithName(cells, name);
     const auto created = vtkSmartPointer<vtkAbstractArray>::Take(element ? CreateArray(element) : nullptr);

@@ -76,7 +76,7 @@ std::string upper_case(std::string text) {
 
 bool begins_with(std::string_view text, std::string_view what) { return text.substr(0, what.size()) == what; }
 
-// A sequence of whole numbers. The scan has already checked that these numbers exist and are valid.
+// A sequence of whole numbers. The scan has already checked that the numbers exist and are valid.
 class Numbers {
  public:
   // In a binary file, `size` is the number of bytes of each number, 4 or 8. In an ASCII file, `size` is 0.
@@ -368,7 +368,7 @@ class Scan {
     }
   }
 
-  // Reads a section that occurs only in structured grids. Returns false if the keyword does not begin such a section.
+  // Reads a section that occurs only in structured grids. Returns false for a keyword of another section.
   bool structured_section(const std::string &keyword) {
     if (keyword == "dimensions") {
       if (lattice_) refuse("has DIMENSIONS twice");
@@ -528,7 +528,7 @@ class Scan {
     return value;
   }
 
-  // Skips an array of POINT_DATA or CELL_DATA. Returns false if the keyword does not begin such an array.
+  // Skips an array of POINT_DATA or CELL_DATA. Returns false for any other keyword.
   bool attribute(const std::string &keyword) {
     static const std::map<std::string, int> widths = {{"vectors", 3},   {"normals", 3},    {"tensors", 9},
                                                       {"tensors6", 6},  {"global_ids", 1}, {"pedigree_ids", 1},
@@ -584,8 +584,8 @@ class Scan {
   std::int64_t n_cells_ = -1;                    // -1 if not known yet
   std::int64_t n_types_ = -1;
   std::int64_t n_points_ = 0;
-  // Views of the arrays of cells. Each begins at its array. Files up to version 4 have no offsets. Each cell in such a file is
-  // its number of corners, followed by its corners.
+  // Views of the arrays of cells. Each begins at its array. Files up to version 4 have no offsets. In files up to version 4, each
+  // cell is its number of corners, followed by its corners.
   std::string_view types_, offsets_, corners_;
   std::string type_of_offsets_ = "int", type_of_corners_ = "int";
   std::int64_t n_corners_ = 0;

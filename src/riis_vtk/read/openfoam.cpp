@@ -257,8 +257,8 @@ class FoamFile {
     expect(")");
   }
 
-  // A list of equal entries may be much longer than its file, so such a list needs a separate limit. The limit is the number of
-  // entries that a mesh with one block of cells could need.
+  // A list of equal entries may be much longer than its file, so it needs a separate limit. The limit is the number of entries
+  // that a mesh with one block of cells could need.
   template <class ReadOne>
   void read_equal(std::int64_t n, const char *things, const ReadOne &read_one) {
     constexpr std::int64_t most = 1 << 20;
@@ -358,8 +358,8 @@ constexpr Shape shapes[] = {{VTK_TETRA, 4, 3, 4, false},
                             {VTK_WEDGE, 5, 3, 6, true},
                             {VTK_HEXAHEDRON, 6, 4, 8, false}};
 
-// Returns the node that shares an edge of the cell with `corner` and is not in the base. Returns -1 if there is not exactly one
-// such node.
+// Returns the node that shares an edge of the cell with `corner` and is not in the base. Returns -1 if no node fits, or if
+// several nodes fit.
 vtkIdType node_above(const Faces &faces, const std::vector<CellFace> &cell, const Corners &base, vtkIdType corner) {
   vtkIdType above = -1;
   for (const CellFace of : cell) {
@@ -458,8 +458,8 @@ bool read_folder(const Folders &folders, PlainGrid &mesh) {
 
 // ---- Decomposed cases ----
 
-// Returns the ids in the whole mesh of the nodes or the cells of all parts. Fails if these ids are not all numbers from 0 to some
-// number.
+// Returns the ids in the whole mesh of the nodes or the cells of all parts. Fails if the ids are not exactly the numbers from 0
+// to the largest id.
 std::vector<Ids> read_addresses(const std::vector<fs::path> &folders, const char *name, const Ids &sizes) {
   std::vector<Ids> all;
   std::int64_t n_claimed = 0, most = -1;
@@ -560,7 +560,7 @@ fs::path latest_with(const fs::path &root, double time, const char *file) {
   return found.empty() ? root / "constant" / "polyMesh" : found.rbegin()->second;
 }
 
-// Returns whether the case has a folder such as processors4. Each file of such a folder has the parts of all processes.
+// Returns whether the case has a folder such as processors4. Each file in the folder processors4 has the parts of all processes.
 bool has_collated_parts(const fs::path &root) {
   std::error_code error;
   const fs::directory_iterator entries(root, error);

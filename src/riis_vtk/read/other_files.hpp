@@ -19,7 +19,7 @@
 
 namespace riis::vtk {
 
-// A grid has this field array if the numbers in its file have single precision. riis_vtk_mesh_get_notes reads it.
+// The field array of a grid whose numbers have single precision in the file. riis_vtk_mesh_get_notes reads it.
 inline constexpr const char *note_array = "riis_note";
 // The cell array with the first physical group of each cell, as gmsh gives it. Arrays with this name and an added _2, _3 and so
 // on have further groups, or 0.
@@ -141,8 +141,8 @@ std::string plain_text(std::string_view text);
 // Tells whether this build of riis_vtk has HDF5.
 extern const bool has_hdf5;
 
-// Reads n numbers of a dataset as doubles or as 64-bit integers. Fails if the dataset does not have exactly n numbers, or if some
-// of these numbers are missing in the file. is_single tells whether the numbers are real numbers of 32 bits in the file.
+// Reads n numbers of a dataset as doubles or as 64-bit integers. Fails if the dataset has fewer or more numbers, or if numbers
+// are missing in the file. `is_single` tells whether the numbers are real numbers of 32 bits in the file.
 template <class Number>
 std::vector<Number> read_hdf5(const std::string &path, const std::string &name, std::int64_t n, bool &is_single);
 

@@ -30,8 +30,8 @@
 namespace riis::vtk {
 namespace {
 
-// Returns the corners of the first cell of the grid. If a node's number is added to them, they become the corners of the cell
-// that begins at this node.
+// Returns the corners of the first cell of the grid. The corners of any cell are the first cell's corners plus the number of the
+// cell's first node.
 std::vector<std::int64_t> corners_of_first(const std::array<std::int64_t, 3> &n) {
   std::vector<std::int64_t> corners = {0};
   std::int64_t stride = 1;

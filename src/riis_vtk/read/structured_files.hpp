@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a .vti, .vtr or .vts file, or a legacy file of such a grid. Out: axes and arrays. If no ascending axes give the nodes, an
-// unstructured grid.
+// In: a .vti, .vtr or .vts file, or a legacy file with a structured grid. Out: axes and arrays, or an unstructured grid if the
+// nodes do not lie on ascending axes.
 #pragma once
 
 #include <array>
@@ -33,13 +33,13 @@ struct GridAxes {
   std::int64_t n_cells() const { return (size(0) - 1) * (size(1) - 1) * (size(2) - 1); }
 };
 
-// Adds cells to a grid of points. The points are those of a structured grid with n nodes along each axis.
+// Adds the cells of a structured grid, which has n nodes along each axis, to a grid of points.
 void add_structured_cells(vtkUnstructuredGrid *grid, const std::array<std::int64_t, 3> &n);
 
 // Gives a data set all arrays of another data set: the arrays on points, on cells and on the whole.
 void share_arrays(vtkDataSet *from, vtkDataSet *to);
 
-// Returns whether the file has a structured grid. The ending tells this, or the header of a legacy file.
+// Returns whether the file has a structured grid. Looks at the file's ending, and in a legacy file at the header.
 bool is_structured(const std::string &path);
 
 struct StructuredFile {

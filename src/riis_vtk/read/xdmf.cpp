@@ -105,8 +105,8 @@ class XdmfFile {
     return *grid;
   }
 
-  // Returns the element Topology or Geometry of a grid. A grid of a series in time may refer to another grid's Topology or
-  // Geometry, because meshio and dolfinx write these only once.
+  // Returns the element Topology or Geometry of a grid. In a series in time, a grid may refer to another grid's Topology or
+  // Geometry, which meshio and dolfinx write only once.
   const XmlElement &part_of(const XmlElement &domain, const XmlElement &grid, const char *name) const {
     if (const XmlElement *own = grid.child(name)) return *own;
     for (const XmlElement &child : grid.children) {
@@ -130,7 +130,7 @@ class XdmfFile {
   }
 
   // Returns the first grid that has its own part of a mesh. The grid, or a grid around it, must have the given name. With "" as
-  // the name, every grid is accepted. Returns NULL if there is no such grid.
+  // the name, every grid is accepted. Returns NULL if no grid fits.
   static const XmlElement *grid_with(const XmlElement &parent, const char *part, const std::string &name) {
     for (const XmlElement &child : parent.children) {
       if (child.name != "Grid") continue;
@@ -396,7 +396,7 @@ const Topology *topology_of(vtkUnstructuredGrid *grid, vtkIdType cell) {
   return found == std::end(topologies) ? nullptr : found;
 }
 
-// Writes the text of the .xdmf file. Numbers go into this text, or into an HDF5 file.
+// Writes the text of the .xdmf file. Numbers go into the text, or into an HDF5 file.
 class XdmfWriter {
  public:
   XdmfWriter(const std::string &path, vtkUnstructuredGrid *grid) : path_(path), grid_(grid) {

@@ -214,9 +214,9 @@ std::vector<std::uint64_t> XmlSizes::words(const ArrayData &data, int size, bool
   return made;
 }
 
-// Returns the stated number of bytes in a block of binary data. An uncompressed block begins with this number. A compressed block
-// begins with the number of parts, the size of a part, the size of a smaller last part, and the compressed sizes of the parts. In
-// base64, all these numbers are encoded separately from the data.
+// Returns the stated number of bytes in a block of binary data. An uncompressed block begins with its number of bytes. A
+// compressed block begins with the number of parts, the size of a part, the size of a smaller last part, and the compressed sizes
+// of the parts. In base64, the numbers at the beginning are encoded separately from the data.
 std::uint64_t XmlSizes::n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *element, const ArrayData &data) const {
   vtkXMLDataElement *root = parser->GetRootElement();
   const char *header_type = root->GetAttribute("header_type"), *byte_order = root->GetAttribute("byte_order");

@@ -183,7 +183,7 @@ void check_places(const std::string &path, const std::vector<double> &xyz, const
                 largest, " in magnitude");
 }
 
-// Appends a frame. Before this call, frames.times must have the times of all frames.
+// Appends a frame. frames.times must already have the times of all frames.
 void add_frame(Frames &frames, const std::vector<double> &xyz) {
   // The memory for all frames is reserved at once. An array that grows by doubling may need twice its memory.
   if (frames.xyz.empty()) frames.xyz.reserve(xyz.size() * frames.times.size());

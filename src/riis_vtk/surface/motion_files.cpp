@@ -52,8 +52,8 @@ struct Collection {
   std::vector<double> times;       // finite and strictly ascending
 };
 
-// Reads a .pvd file, in which ParaView lists files in time. Fails if the file is not such a list or names no files. Also fails if
-// the timesteps are not numbers in ascending order.
+// Reads a .pvd file, in which ParaView lists files in time. Fails if the file has no list of files, or an empty list. Also fails
+// if the timesteps are not numbers in ascending order.
 Collection read_collection(const std::string &path, const CaughtOutput &caught) {
   if (ending_of(path) != "pvd") fail_file(path, "a collection of files in time must be a .pvd file");
   const std::vector<NamedDataSet> data_sets = data_sets_of(path, caught);

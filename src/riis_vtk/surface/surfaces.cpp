@@ -75,8 +75,8 @@ bool is_inner_diagonal(vtkPointSet *data, const vtkIdList *ids, vtkIdType i) {
   return vtkMath::Dot(one.data(), other.data()) > 0;
 }
 
-// This file and the core cut every quad by the diagonal from the first to the third corner. If only the other diagonal lies
-// inside the quad, the list of corners is rotated by one.
+// A quad is cut by the diagonal from its first to its third corner, here and in the core. If only the other diagonal lies inside
+// the quad, the list of corners is rotated by one.
 void put_inner_diagonal_first(vtkPointSet *data, vtkIdList *ids) {
   if (!is_inner_diagonal(data, ids, 0) && is_inner_diagonal(data, ids, 1)) {
     std::rotate(ids->begin(), ids->begin() + 1, ids->end());

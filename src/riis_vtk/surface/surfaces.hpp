@@ -49,9 +49,8 @@ struct LeafletArray {
 // path is used only in messages.
 Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted);
 
-// Appends the faces and the vertices of another surface. Each surface that is joined in this way becomes a leaflet. If only one
-// of the two surfaces has quads, its quads are cut into triangles. If only one of the two surfaces has an attachment, the
-// attachment is lost.
+// Appends the faces and the vertices of another surface. Each appended surface becomes a leaflet. If only one of the two surfaces
+// has quads, its quads are cut into triangles. If only one of the two surfaces has an attachment, the attachment is lost.
 void append_faces(Faces &faces, const Faces &other);
 
 // Gives each vertex a number from 0 to the number of vertices minus 1, and returns these numbers. Two vertices have the same
@@ -80,20 +79,20 @@ struct Frames {
 };
 
 // Reads a surface file for each time. Fails if the cells of a file differ from those of the first file, or if a coordinate is not
-// finite. In .stl files, corners that are at one position in the first file become one vertex. In every other file, the corners
-// of such a vertex must also be at one position.
+// finite. In .stl files, corners that are at one position in the first file become one vertex. In every other .stl file, the
+// corners of one vertex must also be at one position.
 Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
                        const CaughtOutput &caught);
 
-// Reads the frames of a motion from point arrays with displacements. All these arrays are in one file. The name of an array is
-// the prefix, then "_" or nothing, then a number. The frames are in the order of the numbers in these names. If `times` is NULL,
-// the field array TimeValue gives the times.
+// Reads the frames of a motion from point arrays with displacements. All arrays of the motion are in one file. The name of an
+// array is the prefix, then "_" or nothing, then a number. The numbers in the names give the order of the frames. If `times` is
+// NULL, the field array TimeValue gives the times.
 Frames frames_of_displacements(const std::string &path, const std::string &prefix, const std::vector<double> *times,
                                const LeafletArray &leaflets, const CaughtOutput &caught);
 
 // Reads the frames that svMultiPhysics uses: a .dat file with the positions of all nodes, frame by frame. The faces are in a .vtu
 // or .vtp file in the same folder. For NAME_motion_open.dat, the file with the faces is NAME_motion_open, NAME_motion or NAME.
-// Each of these names may also end in _mesh or _face. The times are multiples of the time step, beginning with 0.
+// The name of the file with the faces may also end in _mesh or _face. The times are multiples of the time step, beginning with 0.
 Frames frames_of_text(const std::string &path, double time_step, const LeafletArray &leaflets,
                       const CaughtOutput &caught);
 
