@@ -44,8 +44,8 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
   labelList regionBeyond;
   syncTools::swapBoundaryCellList(mesh, region, regionBeyond);
 
-  // A face between the band and another region lies on one side of the middle of the band. The area of such a face counts as a
-  // vote for this side.
+  // A face between the band and another region lies on one side of the middle of the band. With its area, the face votes for its
+  // side of the band.
   scalarField votes(region.nRegions(), 0), all(region.nRegions(), 0), volume(region.nRegions(), 0);
   labelList entry(mesh.nCells(), -1);
   for (int64_t i = 0; i < marked.n_nodes; ++i) {
@@ -78,8 +78,8 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
   addOverRanks(all);
   addOverRanks(volume);
 
-  // The two sides are the largest regions whose votes are clearly for one side. Together they contain most of the blood, because
-  // pockets are small.
+  // The two sides are the largest regions whose votes are clearly for one side. Together the two regions contain most of the
+  // blood, because pockets are small.
   label up = -1, down = -1;
   forAll(volume, i) {
     if (votes[i] < -0.5 * all[i] && (up < 0 || volume[i] > volume[up])) up = i;
@@ -93,8 +93,8 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
 
 // On both sides, chooses the cells that keep the pressure 1 or 0. Between the chosen cells and the band there are more than four
 // cells, or fewer if the mesh ends sooner. If an edge between cell centres is not orthogonal to its face, the solver corrects the
-// flow by the gradient in the cells. Beside the band, this gradient includes the gradient in the band. The pressure there must
-// therefore be free to balance it.
+// flow by the gradient in the cells. Beside the band, the correction includes the gradient in the band. The pressure beside the
+// band must therefore be free to balance the correction.
 boolList endsOf(const fvMesh &mesh, const scalarField &K, const labelList &side) {
   constexpr label most = 4;
   labelList layer(mesh.nCells(), most + 1), beyond;
@@ -270,7 +270,7 @@ scalar riisValve::conductance(const scalarField &K, const labelList &side, const
       forAll(cells, i) diagonal[cells[i]] += equation.internalCoeffs()[patch][i];
     }
     // setValues removes the coefficients between a fixed cell and the cells of other ranks. A cell whose neighbours are all on
-    // other ranks then has no diagonal.
+    // other ranks thus loses its diagonal coefficient.
     forAll(fixed, i) {
       const label cell = fixed[i];
       if (diagonal[cell] != 0) continue;
@@ -285,8 +285,8 @@ scalar riisValve::conductance(const scalarField &K, const labelList &side, const
   return flow;
 }
 
-// Logs the drop of the closed valve divided by (R / eps) u. With `calibrate yes` it also finds the factor of K that makes this
-// ratio 1.
+// Logs the drop of the closed valve divided by (R / eps) u. With `calibrate yes`, also finds the factor of K with which the drop
+// is (R / eps) u.
 void riisValve::estimateDrop() {
   estimated_ = true;
   factor_ = 1;

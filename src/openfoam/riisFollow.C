@@ -149,7 +149,8 @@ riisFollow::riisFollow(const fvMesh &mesh, const dictionary &dict) : mesh_(mesh)
   fit(atRest_);  // refuses points that do not fix a rotation
 }
 
-// Returns the points of all ranks on the first rank. They are sorted by order_, if it is set. Other ranks get an empty field.
+// Returns the points of all ranks on the first rank. If order_ is set, the points are sorted by order_. Other ranks get an empty
+// field.
 pointField riisFollow::gathered(const pointField &points) const {
   List<pointField> parts(Pstream::nProcs());
   parts[Pstream::myProcNo()] = pointField(points, local_);

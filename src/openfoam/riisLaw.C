@@ -108,7 +108,7 @@ void riisValve::restartLaw(bool found) {
         switchState_.rate = state_.get<scalar>("rate");
         switchState_.progress = state_.get<scalar>("progress");
         switchState_.phase = state_.get<label>("phase");
-        // The file lacks the keys pressureDifference, flow and turnTime if the switch had no state yet.
+        // If the switch had no state yet, the keys pressureDifference, flow and turnTime are missing in the file.
         state_.readIfPresent("pressureDifference", switchState_.pressure_difference);
         state_.readIfPresent("flow", switchState_.flow);
         state_.readIfPresent("turnTime", switchState_.turn_time);
@@ -172,7 +172,7 @@ scalar riisValve::flow(const FlowPatch &patch) const {
   return patch.sign * returnReduce(sum, sumOp<scalar>());
 }
 
-// Advances the law to the end of the step. For this, the law uses the pressures and the flow at the beginning of the step.
+// Advances the law to the end of the step. The law uses the pressures and the flow at the beginning of the step.
 scalar riisValve::openingAt(scalar time, Ostream &report) {
   scalar opening = 0;
   if (law_ == Law::time) opening = timeLaw_.at(time, check);

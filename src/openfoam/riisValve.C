@@ -68,7 +68,7 @@ void riisValve::copyValve() {
 }
 
 void riisValve::readAll() {
-  // If the entry has a subdictionary for the keys, OpenFOAM reads the keys only from there. Keys beside this subdictionary would
+  // If the entry has a subdictionary for the keys, OpenFOAM reads the keys only from there. Keys beside the subdictionary would
   // have no effect.
   const word part = modelType_ + "Coeffs";
   if (dict_.found(part)) {
@@ -127,8 +127,8 @@ void riisValve::readAll() {
   if (resistance_.rim == RIIS_RIM_CUT) markOptions_.fields |= RIIS_FIELD_RIM;
 }
 
-// Reads the keys by which other options choose cells and fields. Here the leaflets choose the cells, so only one value is
-// accepted.
+// Reads the keys by which other options choose cells and fields. The leaflets choose the cells, so each key accepts only one
+// value.
 void riisValve::readFields(const dictionary &dict) const {
   const word mode = dict.getOrDefault<word>("selectionMode", "all");
   if (mode != "all") {
@@ -264,8 +264,8 @@ void riisValve::setWarp(const pointField &targets, const dictionary *dict) {
   checked(riis_valve_set_warp(valve_.get(), warp_.get(), nullptr));
 }
 
-// Moves the placement of the valve with the points of the mesh. If a warp follows points, it gets the part of their motion that
-// is not rigid.
+// Moves the placement of the valve with the points of the mesh. A warp that follows points gets the part of the points' motion
+// that is not rigid.
 void riisValve::follow() {
   placement_ = placementAtRest_;
   if (!follow_) return;

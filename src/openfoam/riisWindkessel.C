@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines riisWindkessel, a boundary condition for the pressure at an outlet. It models the vessels behind the outlet by two
-// resistances and a compliance.
+// Defines riisWindkessel, a boundary condition for the pressure at an outlet. The condition models the vessels behind the outlet
+// by two resistances and a compliance.
 //
 //   p = p_c + Rp Q,   C dp_c/dt = Q - (p_c - p_v) / Rd
 //

@@ -56,7 +56,7 @@ class riisModel : public fvModel {
   using fvModel::addSup;
   void addSup(const volVectorField &U, fvMatrix<vector> &eqn) const override;
   void addSup(fvMatrix<scalar> &eqn) const override;
-  // These functions refuse equations that are multiplied by a density or by the fraction of a phase.
+  // Equations that are multiplied by a density or by the fraction of a phase are refused.
   void addSup(const volScalarField &rho, const volVectorField &U, fvMatrix<vector> &eqn) const override;
   void addSup(const volScalarField &alpha, const volScalarField &rho, const volVectorField &U,
               fvMatrix<vector> &eqn) const override;
@@ -193,7 +193,7 @@ void riisModel::addSup(const volVectorField &U, fvMatrix<vector> &eqn) const {
   if (withVelocity_) eqn += KU_ / rho;
 }
 
-// Adds the volume source to the solver's equation of p. All valves have one source together, so only the first valve adds it.
+// Adds the volume source to the solver's equation of p. One source serves all valves, so only the first valve adds it.
 void riisModel::addSup(fvMatrix<scalar> &eqn) const {
   if (!mesh().conformal()) {
     FatalErrorInFunction << "valve " << name() << " at time " << timeName(mesh())

@@ -9,7 +9,7 @@
 
 namespace riis::program {
 
-// A run warns if a larger share of the leaflets' area is outside the mesh.
+// A run warns if more than a small share of the leaflets' area is outside the mesh.
 inline constexpr double most_outside = 0.02;
 
 struct AreaSamples {

@@ -116,7 +116,7 @@ void agree(const Refusal *failure) {
   if (failure) throw AgreedRefusal{*failure};
 }
 
-// With a single rank, gather and exchange return their argument, so they never call this function.
+// Is not called with a single rank, because gather and exchange then return their argument.
 std::vector<std::byte> gather_bytes(const void *own, std::size_t n_bytes, std::size_t) {
   std::vector<std::byte> all(n_bytes);
   if (n_bytes > 0) std::memcpy(all.data(), own, n_bytes);

@@ -4,8 +4,8 @@
 
 // All ranks call the exchanges in the same order. Each exchange begins with an agreement, in which all ranks learn whether one of
 // them has failed. A rank that fails outside an exchange makes one more agreement, at the end of the program. The other ranks
-// receive the failure of this rank in their next agreement. All ranks then end with the message of the lowest failed rank, so no
-// rank waits forever.
+// learn of the failure in their next agreement. All ranks then end with the message of the lowest failed rank, so no rank waits
+// forever.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +32,8 @@ int n_ranks();
 // Only the first rank prints, and it writes the files that all ranks share.
 inline bool is_first() { return rank() == 0; }
 
-// While an object of this type lives, the first rank works alone. Its exchanges and agreements then have no partner. The other
-// ranks wait in the agreement at the end of the program.
+// While an object of this type lives, the first rank works alone. The first rank's exchanges and agreements then have no partner.
+// The other ranks wait in the agreement at the end of the program.
 class Alone {
  public:
   Alone();

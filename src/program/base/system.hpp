@@ -15,8 +15,8 @@ std::string path_of_this_program();
 // Makes a pipe whose ends no other program inherits. Returns true after success. After a failure, errno has the reason.
 bool make_pipe(int ends[2]);
 
-// This process, a child by fork(), gets the signal when its parent ends. The function does not notice a parent that has ended
-// before the call.
+// Makes the system send the signal to this child process when the parent ends. The function does not notice a parent that has
+// ended before the call.
 void end_with_parent(int signal);
 
 // Returns the bytes of this process that count towards the limit of its memory (RLIMIT_AS). Returns nothing if the system does

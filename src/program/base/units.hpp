@@ -77,8 +77,8 @@ struct Moments {
   void add(const Moments &other);
 };
 
-// Returns the three sides of a mesh, the longest first. A side is at most as long as the side of the box, and as the diameter of
-// a disc whose points would have the same moment. Without points, the sides of the box are returned.
+// Returns the three sides of a mesh, the longest first. A side is at most as long as the side of the box, and at most the
+// diameter of a disc with the points' moment. Without points, the sides of the box are returned.
 std::array<double, 3> sides_of(const Box &box, const Moments &moments);
 
 // The sizes of a mesh and of a valve in the mesh. The functions below tell whether the sizes of mesh and valve fit together, and

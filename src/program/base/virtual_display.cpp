@@ -38,8 +38,7 @@ constexpr const char *name_of_server = "Xvfb";
 // The numbers of the file descriptors in Xvfb.
 enum ServerFile : int { display_file = 3, key_file = 4, n_server_files = 5 };
 
-// A file descriptor whose number is above the numbers that Xvfb's files will have. Xvfb's files therefore do not replace this
-// file.
+// A file descriptor that Xvfb's files cannot replace, because its number is above their numbers.
 class File {
  public:
   explicit File(int low) : number_(low < 0 ? -1 : fcntl(low, F_DUPFD_CLOEXEC, 10)) {

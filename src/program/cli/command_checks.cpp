@@ -119,8 +119,8 @@ void check_distance(const Command &command, const MarkOptions &options) {
     refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
 }
 
-// Refuses options for looks that no picture has. Also refuses options for looks that a movie, or a picture without a mesh, cannot
-// have.
+// Refuses options for the looks of pictures if there is neither a picture nor a movie. Also refuses options for looks that a
+// movie, or a picture without a mesh, cannot have.
 void check_style(const Command &command, const MarkOptions &options) {
   const std::string &movie = options.series.movie;
   const PictureStyle &style = options.style;

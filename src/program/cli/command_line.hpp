@@ -22,7 +22,7 @@ namespace riis::program {
 using Request = std::variant<MarkOptions, SizeFieldOptions, StatesOptions, AreaOptions, ExportOptions, ParamsOptions,
                              PlaceOptions, PatientOptions>;
 
-// Parses the command line. If the user wants only help or the version, prints this text and returns nothing. Throws a Refusal for
+// Parses the command line. If the user wants only help or the version, prints the text and returns nothing. Throws a Refusal for
 // wrong usage.
 std::optional<Request> parse_command_line(int argc, char **argv);
 
@@ -39,7 +39,7 @@ class Command {
   void group(const char *title) { group_ = title; }
 
   using Take = std::function<void(const std::string &)>;
-  // Each of the next functions declares an option. The arguments are its names, a word for its value, and a help text. A
+  // Each of the next functions declares an option. The arguments are the option's names, a word for its value, and a help text. A
   // positional argument has a name such as "OUT".
   CLI::Option *value(const std::string &names, const char *type, const char *help, const Take &take);
   CLI::Option *text(const std::string &names, const char *type, const char *help, std::string &to);

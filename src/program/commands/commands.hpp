@@ -30,10 +30,10 @@ void run_place(const PlaceOptions &options);
 ExitCode run_patient(const PatientOptions &options);
 
 // riis export. Writes the opening and closing of a valve as files for svMultiPhysics. Prints the block of the solver's input that
-// names these files.
+// names the files.
 void export_uris(const ExportOptions &options);
-// The files of an export, after they are written. `named_folder` is the path of the folder as the solver sees it. The block names
-// the files by this path.
+// The files of an export, after they are written. `named_folder` is the path of the folder as the solver sees it. In the block,
+// the paths of the files begin with `named_folder`.
 struct UrisExport {
   std::string block;
   std::string failure;  // why the drop was not found; "" if it was found, or without a mesh

@@ -39,7 +39,7 @@ struct Solution {
 
 std::string words_of(const AreaOptions &options) { return options.is_effective ? "effective area" : "area"; }
 
-// Returns a number with nine digits. With so many digits, an opening or a size gives the area again.
+// Returns a number with nine digits. Nine digits suffice to get the area again from an opening or a size.
 std::string exact(double number) { return printed("%.9g", number); }
 
 std::string text_of_range(const AreaOptions &options, const riis_area_range &range) {
@@ -119,7 +119,7 @@ class Search {
   riis_area_search search_ = defaults<riis_area_search>();
 };
 
-// Tells where the area stops growing or falling. Several openings or sizes then have one area.
+// Tells where the area stops growing or falling. If the area turns, several openings or sizes have one area.
 void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
   if (range.n_turns == 0) return;
   std::vector<std::string> places;

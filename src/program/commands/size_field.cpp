@@ -153,7 +153,7 @@ Surface surface_of(const JoinedTriangles &triangles, double half_thickness) {
   return create_for<Surface>("the triangles of all states together", riis_surface_create_from_arrays, &arrays, &how);
 }
 
-// Adds the triangles of one valve at all times to one surface. The distance to this joined surface is the least distance during
+// Adds the triangles of one valve at all times to one surface. The distance to the joined surface is the least distance during
 // the whole motion, so each valve is marked only once. If the band has an offset, a second joined surface has the rims at all
 // times.
 void add_zones(MovingValve &valve, const Edges &edges, const Case &all, std::vector<Zone> &zones) {
@@ -202,7 +202,7 @@ std::vector<double> lengths_at(const Grid &grid, const std::vector<Zone> &zones,
   const Stage stage("measuring the distances of the grid", options.quiet);
   const std::vector<double> xyz = grid.points();
   const auto mesh = create<Mesh>(riis_mesh_create, grid.n_points(), xyz.data(), xyz.data() + 1, xyz.data() + 2, 3);
-  // Most points of the grid are near the valves. Therefore the search in clusters is the fastest here.
+  // Most points of the grid are near the valves. The search in clusters is therefore the fastest.
   check(riis_mesh_prepare(mesh, options.mark_options.n_threads));
   const Marks marks = new_result();
   std::vector<double> lengths(static_cast<std::size_t>(grid.n_points()), zones[0].edges.largest);

@@ -133,7 +133,7 @@ State state_at(Measured &valve, double place, bool has_contacts) {
   return state;
 }
 
-// Returns the names, the ids and the disc of the closed state. All openings share these.
+// Returns the names and the ids of the leaflets, and the disc of the closed state. All openings share these values.
 States frame_of(const StatesOptions &options, Measured &valve) {
   const bool is_valve = valve.valve() != nullptr;
   if (is_valve) valve.move_to(0);

@@ -111,7 +111,7 @@ class FaceCheck {
   }
 
   // Joins the faces of one leaflet that share a side. For each face, returns whether one of its sides is open. If more than two
-  // faces share a side, the side joins none of them.
+  // faces share a side, the side joins none of the faces.
   std::vector<char> join_along_sides(const std::vector<std::int64_t> &faces, Pieces &pieces) const {
     std::vector<Side> sides;
     for (const std::int64_t face : faces)

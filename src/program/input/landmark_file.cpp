@@ -278,7 +278,7 @@ void read_slicer(const Json &root, LandmarkFile &file) {
       const Json &point = (*points)[k];
       const std::string at = where + ", control point " + std::to_string(k);
       if (!point.is_object()) refuse_file(path, at + " must be an object, not of type " + point.type_name());
-      // A closed curve is an annulus, whatever the names of its points are. An open curve is also an annulus, unless its points
+      // A closed curve is an annulus, whatever the names of its points are. An open curve is also an annulus if its points do not
       // have the names of landmarks.
       const std::string given = is_closed_curve ? "" : text_in(point, "label", at);
       const bool is_annulus = is_closed_curve || (is_curve && !is_landmark(given));
@@ -302,8 +302,8 @@ Axes fcsv_axes(const std::string &path, const std::string &value) {
   refuse_file(path, "CoordinateSystem is " + quoted(value) + "; it must be LPS, RAS, 0 for RAS or 1 for LPS");
 }
 
-// Reads an .fcsv file, which earlier versions of 3D Slicer wrote. Its lengths are in mm. A file .fcsv gives its axes as a name or
-// as a number.
+// Reads an .fcsv file, which earlier versions of 3D Slicer wrote. Its lengths are in mm. An .fcsv file gives its axes as a name
+// or as a number.
 void read_fcsv(const std::string &text, LandmarkFile &file) {
   const std::string &path = file.path;
   std::vector<std::string> columns = {"label", "x", "y", "z"};

@@ -78,7 +78,7 @@ struct Answer {
 
 // Reads the mesh, writes it to a .vtu file, and sends the result through the pipe.
 [[noreturn]] void read_as_child(const std::string &path, const std::string &passed, int answer, pid_t parent) {
-  // Readers print their own errors, which go nowhere here. The child process sends its message through the pipe.
+  // Readers print their own errors, which the child process drops. The child process sends its message through the pipe.
   const int nowhere = open("/dev/null", O_WRONLY);
   // The child process ends with its parent, and does not remove the parent's files.
   for (const int ending : UnbrokenWrite::signals)

@@ -81,7 +81,7 @@ const std::vector<std::string> &interpolation_names() {
 
 namespace {
 
-// The library has the same limits for a table.
+// The limits are those of the library's tables of openings.
 constexpr std::size_t most_keys = 1000000;
 constexpr double largest_key_time = 1e30;
 

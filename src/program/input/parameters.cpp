@@ -137,7 +137,7 @@ struct Part {
   std::vector<Row> rows;
 };
 
-// Returns the numbered part of a name, such as "bump_0" for "bump_0.open". Returns "" if the name has none.
+// Returns the numbered part of a name, such as "bump_0" for "bump_0.open". Returns "" for a name without a numbered part.
 std::string numbered_part(const std::string &name) {
   const std::size_t dot = name.find('.');
   const bool has_number = dot != std::string::npos && dot > 0 && name[dot - 1] >= '0' && name[dot - 1] <= '9';

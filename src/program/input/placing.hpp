@@ -110,7 +110,7 @@ void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const d
                     Reader reader);
 
 std::string place_report(const Placed &placed, Reader reader);
-// Returns the file of a placed valve. The second function writes a file of a placed valve with the valve's present parameters.
+// placed_file_of returns the file of a placed valve. with_parameters_of returns such a file with the valve's present parameters.
 std::string placed_file_of(const Placed &placed, const riis_valve *valve);
 std::string with_parameters_of(const std::string &placed_file, const riis_valve *valve);
 

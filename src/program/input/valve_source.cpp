@@ -228,7 +228,7 @@ struct LeafletName {
 };
 using LeafletNames = std::vector<LeafletName>;  // by leaflet_id
 
-// Returns the names of a kind's leaflets. A file of patches has none.
+// Returns the names of a kind's leaflets. A file of patches has no names of leaflets.
 LeafletNames names_of_kind(const std::string &kind) {
   static const LeafletNames coronary = {{"right", "right"}, {"left", "left"}, {"non_coronary", "non-coronary"}},
                             numbered = {{"cusp_0", "cusp 0"},

@@ -20,7 +20,7 @@ CrossingReport look_for_crossings(const ValveOptions &options, const riis_valve 
                                   const std::string &part);
 
 // Checks the openings 0, 0.5 and 1, as far as the valve can have them, and warns of a crossing. A default shape is not checked.
-// has_open_state tells whether the user chose the open state.
+// `has_open_state` tells whether the user chose the open state.
 std::optional<CrossingReport> check_shape(const ValveOptions &options, const riis_valve *valve, bool has_open_state,
                                           const std::string &part = "");
 

@@ -154,7 +154,7 @@ void MeshLeaks::add(Piece &piece, riis_marks *marks) {
 
 void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks, double half_thickness,
                     bool is_complete, std::vector<KeyedEdge> &to) const {
-  // Short edges may also leak if marks may be missing, or if distances are not measured to the triangles.
+  // Short edges may also leak if the search can miss nodes, or if distances are not measured to the triangles.
   const bool is_exact = is_complete && options_.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const std::int32_t n_threads = options_.mark_options.n_threads;
   Adjacency adjacency;

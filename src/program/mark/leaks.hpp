@@ -38,9 +38,9 @@ double closing_half_thickness(const riis_valve *valve, double half_thickness, co
 // Makes the surface of a valve with another half thickness.
 Surface with_half_thickness(const MarkOptions &options, const riis_valve *valve, double half_thickness);
 
-// Returns the length of a skirt that closes the leaks of a surface from a file, or 0 if no tried length closes them. With the
-// given half thickness there is no leak, and it is about as large as the gaps to the wall. `closes` tells whether a surface has
-// no leak. Returns 0 for a parametric valve, and for a surface that has a skirt.
+// Returns the length of a skirt that closes the leaks of a surface from a file, or 0 if no tried length closes them. The given
+// half thickness closes the leaks, and is about as large as the gaps to the wall. `closes` tells whether a surface has no leak.
+// Returns 0 for a parametric valve, and for a surface that has a skirt.
 double closing_skirt(const MarkOptions &options, const riis_surface *surface, double half_thickness,
                      const std::function<bool(const riis_surface *)> &closes);
 
@@ -95,7 +95,7 @@ class PassageCheck {
              Report &report);
 
  private:
-  // Of the nodes of all pieces, returns the node nearest to an end. The longest edge at this node may be in another piece.
+  // Of the nodes of all pieces, returns the node nearest to an end. The longest edge at the node may be in another piece.
   std::optional<PieceEnd> nearest(int end, bool has_ids) const;
   PassageReport find(const riis_surface *surface) const;
   double longest_edge_at(const riis_passage &found, const MeshCounts &counts) const;

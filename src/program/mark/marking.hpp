@@ -43,7 +43,7 @@ class Marking {
   std::vector<MovingValve> &valves() { return valves_; }
   Report &report() { return report_; }
   const std::vector<double> &times() const { return times_; }
-  // The next two functions may be called after judge(). n_marked is the number of marked nodes in all pieces.
+  // The next two functions may be called after judge(). `n_marked` is the number of marked nodes in all pieces.
   std::int64_t n_marked(std::size_t step, std::size_t valve) const { return view(n_marked_)[marked_at(step, valve)]; }
   bool has_marks() const;
   // Returns the nodes of the last piece that were within the distance limit at one of the times of a series.
@@ -118,7 +118,7 @@ class Marking {
 // otherwise. Throws a Refusal.
 ExitCode run_mark(const MarkOptions &options);
 
-// Marks a mesh that the caller has read. The function checks no options and prints no report. all.options.mesh must be the path
+// Marks a mesh that the caller has read. The function checks no options and prints no report. `all.options.mesh` must be the path
 // of the mesh.
 Report mark_case(Case &all, const MeshPieces &mesh);
 

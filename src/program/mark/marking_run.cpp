@@ -45,7 +45,7 @@ void check_one_time(const MarkOptions &options) {
   refuse_if(series.all_cells && !options.at_cells, "--all-cells");
 }
 
-// Refuses --first-passage unless the run has one valve, which can open.
+// Refuses --first-passage for several valves, and for a valve that cannot open.
 void check_first_passage(const Case &all) {
   if (!all.options.first_passage) return;
   if (!all.valves[0].options.surface.empty())
@@ -152,7 +152,7 @@ class MarkingRun {
   bool has_marks() const { return marking_.has_marks(); }
 
  private:
-  // A bad output is refused here, before the marking.
+  // A bad output is refused before the marking.
   void find_earlier() {
     if (!all_.is_series()) return;
     std::vector<std::string> parts;

@@ -21,7 +21,7 @@ riis_mark_options how_to_mark_again(const MarkOptions &options, double limit = R
 
 bool needs_adjacency(int32_t search);
 
-// K and K u_surface at every node. Each of these fields is a sum over the valves that have a resistance.
+// K and K u_surface at every node. Each of the two fields is a sum over the valves that have a resistance.
 class ResistanceSum {
  public:
   enum class WithVelocity { no, yes };
@@ -105,7 +105,7 @@ class FileNodes {
    public:
     explicit Lent(const FileNodes &nodes) : Lent(nodes, nodes.rows_) {}
     Lent(const FileNodes &nodes, const riis_csr &rows);
-    // This call leaves the last error message unchanged.
+    // The call leaves the library's last error message unchanged.
     ~Lent() {
       if (mesh_) riis_mesh_set_adjacency(mesh_, nullptr);
     }

@@ -59,7 +59,7 @@ class MeshPieces {
   MeshPieces(const MarkOptions &options, std::vector<std::string> files)
       : options_(options), files_(std::move(files)) {}
   virtual MeshFile read(std::int64_t piece) const;
-  // The pieces call this function after the first work with a piece.
+  // The function is called after the first work with a piece.
   virtual void finished(std::int64_t) const {}
 
  private:
@@ -140,7 +140,7 @@ struct MeshCounts {
 // Returns the sums over all ranks. Refuses a mesh without nodes, and a mesh in which only some pieces have global ids.
 MeshCounts sum_of(const MeshCounts &own, const MeshPieces &mesh);
 
-// Disjoint sets of things, which can be united. At the beginning, each thing is a set of its own.
+// Disjoint sets of things, which can be united. At the beginning, each set has one thing.
 template <class Thing>
 class JoinedSets {
  public:

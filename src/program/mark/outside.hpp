@@ -19,7 +19,7 @@ class LeafletsOutside {
  public:
   // Takes the surface at the valve's present position.
   explicit LeafletsOutside(const MovingValve &valve);
-  // Takes another surface, whose valve has these options.
+  // Takes another surface of a valve with the given options.
   LeafletsOutside(const MarkOptions &options, const riis_surface *surface, std::optional<double> opening);
   void add(const Piece &piece);
   std::optional<double> opening() const { return opening_; }

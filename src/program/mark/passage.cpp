@@ -27,7 +27,8 @@ std::string text_of(const double *point) { return numbers_text(point, 3, " "); }
 // reason.
 void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd> &nearest, const std::string &name,
                const Box &box, const std::string &why_none) {
-  // A point inside a cell is at most one edge length away from a node of the cell. The distance may be up to two edge lengths.
+  // A point inside a cell is at most one edge length away from a node of the cell. An end of the passage may be up to two edge
+  // lengths away from a node.
   constexpr double edges_away = 2;
   const LeakCheck &asked = *options.check_leaks;
   const double *const point = asked.point(end);
@@ -136,7 +137,7 @@ struct Link {
   PassageNode node;
 };
 
-// The place of an end of the passage in the mesh. If the end is within the limit, the node of the end.
+// The place of an end of the passage in the mesh. For an end within the limit, the place is the node of the end.
 struct PlacedEnd {
   std::int64_t end;
   Place place;

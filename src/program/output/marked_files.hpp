@@ -72,7 +72,7 @@ class SeriesLists {
   SeriesLists(const SeriesLists &) = delete;
   SeriesLists &operator=(const SeriesLists &) = delete;
 
-  // Calls `note`, which adds files to the lists. Meanwhile the thread does not write the lists. If `write` has thrown an
+  // Calls `note`, which adds files to the lists. During the call, the thread does not write the lists. If `write` has thrown an
   // exception in the thread, the call throws the exception again.
   void add(const std::function<void()> &note);
   // Ends the thread, and writes the lists for the last time.

@@ -343,8 +343,8 @@ namespace {
 // before the signal handlers are set.
 std::vector<std::string> held_locks;
 
-// A file of this process, and the folder that contains it. A signal that ends the process removes both. An empty name stands for
-// no file or no folder.
+// A file of this process, and the folder that contains it. A signal that ends the process removes the file and the folder. An
+// empty name stands for no file or no folder.
 char scratch_file[PATH_MAX], scratch_folder[PATH_MAX];
 
 void remove_held() {

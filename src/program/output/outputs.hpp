@@ -34,7 +34,8 @@ class TemporaryFolder {
 
 // For each output NAME there is an empty file .riis-NAME.lock beside the output, which this process locks by flock. When the
 // process ends for any reason, the kernel releases the lock. The destructor removes the lock file. The handlers of SIGINT,
-// SIGTERM and SIGHUP also remove it. A killed run leaves its lock file behind, and the next run uses the lock file again.
+// SIGTERM and SIGHUP also remove the lock file. A killed run leaves its lock file behind, and the next run uses the lock file
+// again.
 class OutputLocks {
  public:
   // Throws a Refusal if another run has locked one of these files. The paths must not be devices or pipes.

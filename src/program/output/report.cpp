@@ -26,7 +26,7 @@ std::string bytes_text(double n) {
 }
 
 bool has_slits(const riis_orifice &orifice) {
-  // An orifice consists of slits if its perimeter is less than that of a circle with a hundredth of its area.
+  // An orifice consists of slits if a circle with a hundredth of its area has a longer perimeter.
   const bool has_no_rim = orifice.perimeter * orifice.perimeter < 4 * pi * 0.01 * orifice.area;
   return has_no_rim && orifice.area > 1e-3 * orifice.outline_area && orifice.effective_area < 0.5 * orifice.area;
 }
@@ -171,7 +171,7 @@ nlohmann::ordered_json json_of_passage(const PassageReport &passage) {
 
 std::string after_blank(const std::string &unit) { return unit.empty() ? "" : " " + unit; }
 
-// Adds the lines about the flow to the table. If a measure is not set, it has no line.
+// Adds the lines about the flow to the table. A measure that is not set has no line.
 void add_flow(const ValveReport &valve, std::ostringstream &out) {
   const FlowReport &flow = valve.flow;
   if (flow.cells && flow.cells->n_edges > 0)

@@ -13,7 +13,7 @@ namespace riis::program {
 // The change of the opening from one step of --steps to the next. The valve opens in 50 steps.
 inline constexpr double opening_of_step = 0.02;
 
-// The median times of a step over all steps of --steps.
+// The median times of a step, from all steps of --steps.
 struct StepTimes {
   std::int32_t n_steps;
   std::int32_t search;      // RIIS_SEARCH_*

@@ -40,8 +40,8 @@ constexpr double end_edge_share = 0.35;
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
 // The first of two tries gets a share of the time.
 constexpr double first_share = 0.25;
-// In the second try, nodes are moved by at most a tiny share of the wall's size. The rounding errors of files in single precision
-// are as large.
+// In the second try, nodes are moved by at most a tiny share of the wall's size. The movement is as small as the rounding errors
+// of files in single precision.
 constexpr double moved_share = 1e-7;
 // Triangles that overlap by more than a tiny share of the wall's size count as a self-intersection.
 constexpr double least_crossing_share = 1e-5;
@@ -315,8 +315,8 @@ class PatientMesher {
   }
 
   // Runs gmsh on a .geo file. If gmsh wrote no mesh, refuses with gmsh's last error. In the message, `cure` follows gmsh's error.
-  // With a function change_input, gmsh first gets only a part of the time. If gmsh does not end in time, change_input is called,
-  // and gmsh runs again for the rest of the time.
+  // If change_input is given, gmsh first gets only a part of the time. If gmsh does not end in time, change_input is called, and
+  // gmsh runs again for the rest of the time.
   GmshMesh run_gmsh(double seconds, const std::string &dimension, const std::string &geo, const std::string &mesh,
                     const std::string &cure, const std::function<void()> &change_input = {}) {
     const std::string log = in_gmsh(fs::path(geo).stem().string() + ".log");
@@ -356,7 +356,7 @@ class PatientMesher {
                                ? options_.surface_seconds
                                : least_seconds + seconds_per_triangle * static_cast<double>(old_.n());
     write_text(in_gmsh("wall.msh"), text_of_wall(old_.points));
-    // In rare cases gmsh divides a clean surface without end. If the last digits of the nodes are changed, gmsh succeeds.
+    // In rare cases gmsh refines a clean surface and never stops. If the last digits of the nodes are changed, gmsh succeeds.
     surface_ = run_gmsh(seconds, "-2", in_gmsh("surface.geo"), in_gmsh("surface.msh"), cure_of_surface(),
                         [&] { write_text(in_gmsh("wall.msh"), text_of_wall(moved_points())); });
     name_patches();
@@ -534,7 +534,7 @@ class PatientMesher {
     }
   }
 
-  // Finds the cell of each boundary triangle, and makes the triangle face out of this cell.
+  // Finds the cell of each boundary triangle, and makes the triangle face outwards.
   void find_faces() {
     std::map<Corners, std::int64_t> group;
     const auto key = [](Corners corner) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the folder of riis patient. Out: the steps that fill this folder. Each step is a command of riis that the user could also
+// In: the folder of riis patient. Out: the steps that fill the folder. Each step is a command of riis that the user could also
 // type in the folder.
 #pragma once
 

@@ -23,8 +23,8 @@ constexpr double ball_radii[] = {4, 3, 2, 1.5, 1};
 // The places where a ball is tried, in millimetres: steps along the valve's axis, and along lines parallel to the axis.
 constexpr int most_along = 150, ring_step = 3, n_rings = 5, n_of_ring = 8;
 
-// Returns places on both sides of the centre, sorted by their distance from it. The places depend only on the placement. In two
-// meshes of a patient, pressures are therefore read at the same places.
+// Returns places on both sides of the centre, sorted by their distance from the centre. The places depend only on the placement.
+// In two meshes of a patient, pressures are therefore read at the same places.
 std::vector<double> places_by_distance(const Vector3 &centre, const Vector3 &flow, double millimetre) {
   struct Candidate {
     int along, ring, number;

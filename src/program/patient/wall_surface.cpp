@@ -73,8 +73,8 @@ class WallRepair {
           if (!std::isfinite(x)) refuse("vertex " + std::to_string(id) + " has a coordinate that is not a number");
   }
 
-  // Renumbers the vertices. Removes triangles with equal corners, and all but one of several equal triangles. Vertices that
-  // belong to no triangle are removed.
+  // Renumbers the vertices. Removes triangles with two equal corners, and keeps only one of several equal triangles. Vertices
+  // that belong to no triangle are removed.
   void renumber(const std::vector<std::int64_t> &number) {
     std::set<Corners> known;
     std::vector<Corners> kept;
@@ -367,7 +367,8 @@ class WallRepair {
     return true;
   }
 
-  // Replaces a side by the other diagonal of the quad that its two triangles form. Returns whether the triangles become higher.
+  // Replaces a side by the other diagonal of the quad that its two triangles form. Returns false if the new triangles would not
+  // be higher.
   bool flip_side(std::int64_t i, std::size_t k) {
     const Corners corner = view(corners())[i];
     const std::int64_t a = corner[k], b = corner[(k + 1) % 3], c = corner[(k + 2) % 3];

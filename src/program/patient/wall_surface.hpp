@@ -26,8 +26,8 @@ struct ClosedSurface {
   std::vector<std::string> remarks;  // what was changed, a line each
 };
 
-// Reads and repairs the surface. Vertices at equal places become one. The same surfaces are refused as by read_patient_wall
-// (flat_ends.hpp).
+// Reads and repairs the surface. Vertices at one place become one vertex. Refuses a surface that read_patient_wall
+// (flat_ends.hpp) would refuse.
 ClosedSurface read_closed_surface(const std::string &path);
 
 // Returns a point in the form X,Y,Z, as the user writes it after an option, with digits down to a thousandth of the size.

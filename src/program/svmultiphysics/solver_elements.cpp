@@ -29,7 +29,7 @@ std::array<Value, 4> tetrahedron_coordinates(const Coordinates &at) {
   return {{{at[0], {1, 0, 0}}, {at[1], {0, 1, 0}}, {at[2], {0, 0, 1}}, {1 - at[0] - at[1] - at[2], {-1, -1, -1}}}};
 }
 
-// Each middle node of a quadratic tetrahedron lies between these two corners.
+// The two corners beside each middle node of a quadratic tetrahedron.
 constexpr std::size_t edges_of_tetrahedron[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
 Value tetrahedron_shape(std::size_t n_nodes, std::size_t node, const Coordinates &at) {
@@ -130,7 +130,7 @@ std::vector<Coordinates> hexahedron_nodes(std::size_t n) {
 
 // ---- Points of integration ----
 
-// Returns four or fifteen points in a tetrahedron. The solver uses the same points in a tetrahedron.
+// Returns the solver's four or fifteen points of integration in a tetrahedron.
 std::vector<ReferencePoint> tetrahedron_gauss(std::size_t n_nodes) {
   if (n_nodes == 4) {
     const double t = (5 - std::sqrt(5.0)) / 20, s = 1 - 3 * t, w = 1.0 / 24;

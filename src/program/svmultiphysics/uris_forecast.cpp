@@ -140,7 +140,7 @@ class Forecaster {
     say("  before: " + text_of(before));
   }
 
-  // The expected drop over (R / eps) u. The drop is valid if the equations were solved.
+  // The ratio of the expected drop to (R / eps) u. The drop is valid if the equations were solved.
   struct Expected : ClosedDrop {
     double drop = 0, area = 0;
   };

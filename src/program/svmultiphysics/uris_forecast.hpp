@@ -23,7 +23,7 @@ UrisForecast forecast_of(const ExportOptions &options, const UrisMotion &motion,
 
 // Finds the drop across a closed valve as svMultiPhysics computes it (docs/export.md). uris_flow.py solves the equations in a
 // Python with NumPy and SciPy. The program contains the text of uris_flow.py.
-// In: the solver's delta in a mesh. Out: the drop over (R / eps) u.
+// In: the solver's delta in a mesh. Out: the ratio of the drop to (R / eps) u.
 //
 // The numbers of the solver's input on which the drop depends, in the solver's units.
 struct SolverFluid {

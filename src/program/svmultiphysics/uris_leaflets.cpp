@@ -143,8 +143,8 @@ void UrisLeaflets::part(const ExportOptions &options) {
   }
 }
 
-// Turns the triangles of the ring so that their normals point against the flow. The solver then counts the nodes inside the ring
-// as before the valve, if the nodes are upstream.
+// Turns the triangles of the ring so that their normals point against the flow. To the solver, upstream nodes inside the ring are
+// then before the valve.
 void UrisLeaflets::turn_ring(double opening) {
   const std::vector<double> xyz = vertices_at(opening);
   const auto middle_of = [&](const Corners &corners) {
@@ -189,7 +189,7 @@ void UrisLeaflets::add_box(const UrisMotion &motion) {
 namespace {
 
 // The solver widens its box by the factor solver_share. The bands in which the solver measures pressures end at end_of_bands half
-// thicknesses. The addition of 1e-6 keeps a node at the end of the bands inside the box.
+// thicknesses. With the factor 1 + 1e-6, nodes at the end of the bands are inside the box.
 constexpr double solver_share = 0.1, end_of_bands = 5 * (1 + 1e-6);
 
 Box box_of(const std::vector<Corners> &triangles, const std::vector<double> &xyz) {

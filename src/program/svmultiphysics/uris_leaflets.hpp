@@ -86,8 +86,9 @@ class FinerTriangles {
 // rounded coordinates is then exact, even in a box that is about ten times as large.
 double uris_grid(double largest);
 
-// Three triangles, one along each axis. The middle of each added triangle is also the middle of a triangle of the valve. The
-// solver therefore never finds the added triangle nearer. Two corners of each triangle lie outside the valve's box, at both ends.
+// Three triangles, one along each axis. The middle of each added triangle is also the middle of a triangle of the valve. To the
+// solver, an added triangle is therefore never nearer than the triangle of the valve. Two corners of each triangle lie outside
+// the valve's box, at both ends.
 class UrisBox {
  public:
   static constexpr std::int64_t n_nodes = 9;

@@ -52,7 +52,7 @@ std::string create_beside(const std::string &place, const struct stat *replaced)
   }
 }
 
-// Waits until the data is on the disk, because some file systems report a failed write only at that point.
+// Waits until the data is on the disk, because some file systems report a failed write only then.
 int synchronise(const std::string &path) {
   const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) return errno;
@@ -114,7 +114,7 @@ std::string ending_of(const std::string &path) {
 
 namespace {
 
-// A pointer of Git LFS is a small text file that begins with these words.
+// The first words of a pointer of Git LFS, which is a small text file.
 constexpr std::string_view lfs_pointer = "version https://git-lfs.github.com/spec/";
 constexpr off_t largest_lfs_pointer = 1024;
 

@@ -15,12 +15,11 @@
 namespace riis::vtk {
 namespace {
 
-// The path in a message may have this length. The core's message then has room for the reason.
+// The largest length of a path in a message. A message of the core then has room for the reason.
 constexpr std::size_t longest_path = 250;
 
 // Returns the part of VTK's message that helps a user. The message is "ERROR: In FILE, line N\nvtkClass (0xADDRESS):
 // message\n\n".
-// Only the last part of VTK's message helps a user.
 std::string message_of(const std::string &vtk_text) {
   const std::size_t object = vtk_text.find("): ");
   const std::string message = object == std::string::npos ? vtk_text : vtk_text.substr(object + 3);

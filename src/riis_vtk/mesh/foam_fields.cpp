@@ -34,7 +34,7 @@ bool ends_with(const std::string &text, const std::string &end) {
 }
 
 // OpenFOAM compares the dimensions of fields. OpenFOAM solves an incompressible fluid's momentum equation divided by the density,
-// so K is also divided by it.
+// so K is also divided by the density.
 const char *dimensions_of(const std::string &array) {
   if (ends_with(array, "K")) return "[0 0 -1 0 0 0 0]";
   if (ends_with(array, "K_u_surface")) return "[0 1 -2 0 0 0 0]";
@@ -42,7 +42,7 @@ const char *dimensions_of(const std::string &array) {
   return ends_with(array, "_velocity") ? "[0 1 -1 0 0 0 0]" : "[0 0 0 0 0 0 0]";
 }
 
-// If a patch has one of these types, fields must have the same type on the patch.
+// The types of patches on which a field must have the type of the patch.
 bool is_constraint(const std::string &type) {
   const char *const types[] = {"empty",
                                "wedge",

@@ -122,7 +122,7 @@ VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid);
 struct LongEdges {
   LongEdges(double longer_than, const double *box_lower, const double *box_upper)
       : least_square(longer_than * (1 - 1e-9) * (longer_than * (1 - 1e-9))), lower(box_lower), upper(box_upper) {}
-  // The length is compared before the box, because few edges of a fine mesh are long.
+  // The length is checked before the overlap of the boxes, because few edges of a fine mesh are long.
   bool has(const double *a, const double *b) const;
 
   double least_square;

@@ -36,7 +36,7 @@ Chosen chosen_nodes(vtkUnstructuredGrid *grid, std::int64_t n_ids, const std::in
   return chosen;
 }
 
-// Returns the cells that have at least one chosen node. All other nodes of these cells are added to the chosen nodes.
+// Returns the cells that have at least one chosen node. All nodes of the returned cells are added to the chosen nodes.
 std::vector<vtkIdType> cells_around(vtkUnstructuredGrid *grid, Chosen &chosen) {
   const Chosen wanted = chosen;
   std::vector<vtkIdType> cells;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the points that lie outside a mesh. First, the points inside each cell are found. For the points that remain, the faces
-// of the cells near them become a surface, and the core computes the points' distances from this surface.
+// Finds the points that lie outside a mesh. First, the points inside each cell are found. For the remaining points, the faces of
+// nearby cells become a surface. The core computes the points' distances from the surface.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>

@@ -317,7 +317,7 @@ Style::Style(const riis_vtk_picture_options &options)
       is_transparent(options.background[3] == 0),
       captions(options.captions),
       panels(options.panels) {
-  // Red, green and blue contribute these shares to the brightness of a colour on a screen.
+  // The shares of red, green and blue in the brightness of a colour on a screen.
   const bool is_bright = 0.2126 * background[0] + 0.7152 * background[1] + 0.0722 * background[2] > 0.4;
   const double of_ink = is_bright ? 0.2 : 0.85, of_line = is_bright ? 0.45 : 0.65;
   ink = {of_ink, of_ink, of_ink};

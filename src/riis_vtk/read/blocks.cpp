@@ -112,8 +112,8 @@ bool is_single(vtkUnstructuredGrid *grid) { return grid->GetPoints()->GetDataTyp
 
 // ---- .vtm ----
 
-// Returns the global ids of a block's nodes, or NULL if there are none. VTK's attribute, ParaView and Exodus use these names for
-// global ids.
+// Returns the global ids of a block's nodes, or NULL if there are none. VTK's attribute, ParaView and Exodus have different names
+// for global ids.
 vtkDataArray *global_ids_of(vtkUnstructuredGrid *grid) {
   vtkPointData *const data = grid->GetPointData();
   if (vtkDataArray *ids = data->GetGlobalIds()) return ids;

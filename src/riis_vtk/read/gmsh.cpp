@@ -131,7 +131,7 @@ class GmshFile {
       expect_end_of(section);
     }
     if (!tags_) fail_file(path_, "is truncated: it has no section $Nodes");
-    // gmsh writes this section even if the mesh has no elements.
+    // gmsh writes the section of elements even if the mesh has no elements.
     if (!has_elements_) fail_file(path_, "is truncated: it has no section $Elements");
     const std::int64_t n_copies = drop_copies();
     const auto grid = mesh_.grid(path_);

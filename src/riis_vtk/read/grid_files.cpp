@@ -106,7 +106,7 @@ void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
   }
 }
 
-// Checks the faces of a polyhedron. At the location of the cell, VTK's array of faces has the number of faces. The number is
+// Checks the faces of a polyhedron. In VTK's array of faces, the part of a cell begins with the number of faces. The number is
 // followed by the size and the points of each face.
 void check_polyhedron(const std::string &path, vtkIdType cell_id, vtkIdType location, vtkIdTypeArray *faces,
                       vtkIdType n_points) {

@@ -75,8 +75,8 @@ class XmlSizes {
  public:
   explicit XmlSizes(const std::string &path);
 
-  // Fails if an array has fewer values than the file states. The arrays are those of the pieces and of the field. The parser must
-  // have read the elements before this call.
+  // Fails if an array has fewer values than the file states. The arrays of the pieces and of the field are checked. The parser
+  // must have read the elements before this call.
   void check_pieces(vtkXMLDataParser *parser);
   // Fails if the file has fewer than n values for the array of an element. Also fails if the stated size of a binary block
   // exceeds the size of the file.

@@ -257,7 +257,7 @@ class Scan {
     }
   }
 
-  // Skips n values, which begin on the next line. n must not exceed the number of bits in the rest of the file.
+  // Skips n values, which begin on the next line. `n` must not exceed the number of bits in the rest of the file.
   void skip_values(std::int64_t n, const std::string &type) {
     line();
     if (type == "bit") return binary_ ? skip_bytes((n + 7) / 8) : skip_words(n, "int");
@@ -279,7 +279,7 @@ class Scan {
   }
 
   // Skips a block METADATA, whose keyword has already been read. The block ends with a blank line. However, the line with the
-  // name of a component may also be blank. VTK compares only the beginning of this keyword. For example, VTK reads INFORMATION8 1
+  // name of a component may also be blank. VTK compares only the beginning of the keyword. For example, VTK reads INFORMATION8 1
   // as 8 keys.
   void skip_metadata(std::int64_t n_components) {
     line();
@@ -318,7 +318,7 @@ class Scan {
         key = nullptr;
       } else if (const std::string lower = lower_case(keyword);
                  begins_with(lower, "information") || begins_with(lower, "component_names")) {
-        // Lines that begin with these words are refused, because VTK would take them for the beginning of another block.
+        // Lines with these beginnings are refused, because VTK would take them for the beginning of another block.
         refuse("has metadata with '", keyword.substr(0, 40), "' behind INFORMATION");
       }
     }
@@ -420,7 +420,7 @@ class Scan {
     const std::int64_t first = count();
     const std::int64_t second = count();
     if (version_ >= 5) {
-      // In version 5, the two numbers are the number of offsets and the number of corners.
+      // In version 5, a section of cells states the number of offsets and the number of corners.
       add_cells(std::max<std::int64_t>(first - 1, 0));
       if (first == 0) return;
       if (next() != "offsets") refuse("has ", name, " without OFFSETS");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads meshes of OpenFOAM: the files points, faces, owner and neighbour in a folder polyMesh. The files are text or binary, and
 // may be compressed by gzip. The format is described in OpenFOAM's user guide, "Mesh description" and "Basic input/output
-// format". VTK's reader of OpenFOAM returns coordinates in single precision. This reader keeps the doubles of the file. A cell
-// with the faces of a tetrahedron, pyramid, prism or hexahedron becomes this cell of VTK. All other cells become polyhedra.
+// format". VTK's reader of OpenFOAM returns coordinates in single precision. This reader keeps the doubles of the file. A
+// tetrahedron, pyramid, prism or hexahedron becomes the cell of VTK with this shape. All other cells become polyhedra.
 #include <vtk_zlib.h>
 
 #include <algorithm>
@@ -243,7 +243,7 @@ class FoamFile {
     skip_comments();
     if (!has_content && (in_->rest().empty() || (in_->rest()[0] != '(' && in_->rest()[0] != '{'))) return;
     if (!in_->rest().empty() && in_->rest()[0] == '{') {
-      // In OpenFOAM, only lists of labels have this form.
+      // In OpenFOAM, only lists of labels have one value in braces.
       if (is_binary_ || least_bytes != 2) in_->refuse("equal ", things, " in {} are not read");
       return read_equal(n, things, read_one);
     }

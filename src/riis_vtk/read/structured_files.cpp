@@ -147,8 +147,7 @@ bool is_single(vtkImageData *) { return false; }
 bool is_single(vtkRectilinearGrid *data) { return data->GetXCoordinates()->GetDataType() == VTK_FLOAT; }
 bool is_single(vtkStructuredGrid *data) { return data->GetPoints()->GetDataType() == VTK_FLOAT; }
 
-// Fails if the number of coordinates of an axis differs from the grid's number of nodes along it. VTK would believe the grid's
-// number of nodes.
+// Fails if an axis of a grid has more or fewer coordinates than nodes. VTK would trust the stated number of nodes.
 void check_axes(const std::string &path, vtkRectilinearGrid *data) {
   const Sizes n = sizes_of(data);
   vtkDataArray *const coordinates[3] = {data->GetXCoordinates(), data->GetYCoordinates(), data->GetZCoordinates()};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads XDMF: an .xdmf file describes a mesh, and its numbers are in this file, in HDF5 files or in plain binary files (xdmf.org,
 // "XDMF Model and Format"). The reader reads XDMF as FEniCS, dolfinx and meshio write it. The nodes of a cell are in VTK's order,
-// as they are in these programs.
+// as in FEniCS, dolfinx and meshio.
 #include <algorithm>
 #include <array>
 #include <cmath>
