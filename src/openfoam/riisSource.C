@@ -18,7 +18,7 @@ namespace {
 
 using Valves = std::vector<const fv::riisValve *>;
 
-// Returns the valves in whose dictionaries the pressure has this name.
+// Returns the valves whose dictionaries give the pressure this name.
 Valves valvesOf(const fvMesh &mesh, const word &pressure) {
   Valves valves;
   if (!mesh.foundObject<fv::options>(fv::options::typeName)) return valves;

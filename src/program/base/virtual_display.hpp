@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A virtual X display for pictures on a machine without a screen. The program Xvfb makes the display. Debian's package xvfb has
-// this program.
+// A virtual X display for pictures on a machine without a screen. The program Xvfb makes the display. Xvfb is in Debian's package
+// xvfb.
 #pragma once
 
 #include <sys/types.h>

@@ -150,7 +150,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
     made->footer(help_of(name));
     return made;
   };
-  // For each command with options, CLI11's object, and a call that turns the options into a request.
+  // For each command with options: CLI11's object, and a call that turns the options into a request.
   std::vector<std::pair<const CLI::App *, std::function<Request()>>> commands;
   const auto add = [&](CLI::App &in, const char *name, const char *what, auto declare, auto finish, auto options) {
     const Command command(named(in, name, what));

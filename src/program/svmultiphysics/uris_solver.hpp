@@ -87,7 +87,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
 
 // Returns the solver's distance at a point of element e, interpolated between the absolute distances at the element's nodes.
 // Quadratic shape functions have negative values at some points. At the border of the box, some nodes have the solver's large
-// number, and some interpolated distances become negative. The solver counts points with negative distances as in the band.
+// number, and some interpolated distances become negative. To the solver, points with negative distances are in the band.
 double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
                              const std::vector<double> &distances);
 // Returns the solver's delta at a point of element e: K / R.

@@ -71,7 +71,7 @@ Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, doubl
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);
 
-// Returns the planes at which the mapper of the mesh must cut. If the sight contains the whole mesh, there are no planes.
+// Returns the planes at which the mapper of the mesh must cut. If the whole mesh is visible, there are no planes.
 std::vector<vtkSmartPointer<vtkPlane>> cutting_planes(const View &view, const Sight &sight);
 
 // Returns dashed lines where the planes cut the boundary. The lines are nearer to the eye than everything else.

@@ -197,7 +197,7 @@ XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElemen
           std::min(bytes_.find('<', begin), size)};
 }
 
-// Returns the first n words. Fails if the text has fewer words.
+// Returns the first n words. Fails if the text has fewer than n words.
 std::vector<std::uint64_t> XmlSizes::words(const ArrayData &data, int size, bool is_big, std::uint64_t n) const {
   const auto byte = [&](std::uint64_t i) -> std::uint64_t {
     if (data.form == ArrayData::raw) return static_cast<unsigned char>(bytes_[data.begin + i]);
