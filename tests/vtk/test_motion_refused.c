@@ -259,7 +259,7 @@ TEST(test_bad_times_of_displacements) {
   expect_refused(riis_vtk_motion_read_displacements(path, "d", 2, times, NULL, NULL), RIIS_INVALID_ARGUMENT,
                  "motion is NULL");
   expect_refused(riis_vtk_motion_read_displacements(scratch_path("moved.stl"), "d", 2, times, NULL, &motion),
-                 RIIS_FILE_ERROR, "moved.stl: displacements are in a .vtp or .vtu file");
+                 RIIS_FILE_ERROR, "moved.stl: displacements must be in a .vtp or .vtu file");
   assert_null(motion);
 }
 

@@ -177,8 +177,9 @@ class CaseReader {
       return all_.options.prefix;
     }
     if (!is_prefix(name)) values.refuse("name", "\"" + name + "\" must be 1 to 64 letters, digits, _, - and .");
-    if (n_valves > 1 && name == all_.options.prefix) values.refuse("name", "\"" + name + "\" is the name of the sums");
-    if (!names_.insert(name).second) values.refuse("name", "\"" + name + "\" is the name of two valves");
+    if (n_valves > 1 && name == all_.options.prefix)
+      values.refuse("name", "\"" + name + "\" is already the name of the sums over all valves");
+    if (!names_.insert(name).second) values.refuse("name", "\"" + name + "\" is already the name of another valve");
     return name;
   }
 
@@ -357,7 +358,7 @@ CaseOpening case_opening(const CaseValues &valve, const std::function<std::strin
   }
   if (value.contains("times")) return {law_of_arrays({valve.path(), object, value, table_keys}), ""};
   if (value.contains("opening_start")) return {law_of_ramps({valve.path(), object, value, ramp_keys}), ""};
-  valve.refuse("opening", "it has none of file, times and opening_start");
+  valve.refuse("opening", "it must have file, times or opening_start");
 }
 
 namespace {

@@ -150,13 +150,12 @@ class Collector {
     for (const RoleWord &word : role_words) names.emplace_back(word.word);
     const std::string known = joined_by(names, ", ");
     names.insert(names.end(), {"nadir_right", "nadir_left", "nadir_non_coronary"});
-    refuse_file(
-        file_.path,
-        quoted(name) + " is not the name of a landmark" + did_you_mean(plain(name), names, "\"", "\"") +
-            "; there are " + known +
-            ", flow_from and flow_to; a nadir may name its cusp, as in nadir_left, a commissure its two, as in "
-            "commissure_left_right, and a point of the attachment its cusp and a number, as in attachment_left_2; "
-            "leaflets are called right, left and non_coronary, or anterior, septal and posterior, or cusp_0 to cusp_3");
+    refuse_file(file_.path, quoted(name) + " is not the name of a landmark" +
+                                did_you_mean(plain(name), names, "\"", "\"") + "; there are " + known +
+                                ", flow_from and flow_to; a nadir may name its cusp, as in nadir_left; a commissure "
+                                "may name its two cusps, as in commissure_left_right; a point of the attachment may "
+                                "name its cusp and a number, as in attachment_left_2; leaflets are called right, left "
+                                "and non_coronary, or anterior, septal and posterior, or cusp_0 to cusp_3");
   }
 
   LandmarkFile &file_;
@@ -248,7 +247,7 @@ Unit slicer_unit(const std::string &path, const Json &list, const std::string &w
 void read_slicer(const Json &root, LandmarkFile &file) {
   const std::string &path = file.path;
   const Json &lists = root["markups"];
-  if (!lists.is_array() || lists.empty()) refuse_file(path, "markups must be an array of one list of points or more");
+  if (!lists.is_array() || lists.empty()) refuse_file(path, "markups must be an array of at least one list of points");
   const auto text_in = [&](const Json &object, const char *key, const std::string &where) {
     const auto found = object.find(key);
     if (found == object.end() || !found->is_string()) refuse_file(path, where + " has no text " + quoted(key));

@@ -285,7 +285,7 @@ class PatientRun {
     const StepEnd end = steps_.run("crossings", with_valve({"check", "crossings"}, {"--stats", "logs/crossings.json"}));
     if (end.status == exit_warned)
       refuse_data(end.reason() + ". Look for a landmark near there that is not at its place" +
-                  (options_.warp_choice == no_warp ? "" : "; --warp none shows whether the warp does it"));
+                  (options_.warp_choice == no_warp ? "" : "; --warp none shows whether the warp is the cause"));
     if (!end.is_fine()) steps_.refuse("crossings", end, cure_of_missed_wall(end));
     show_warnings(end);
     const Json gap = stats_of("crossings")["gap"];
@@ -440,7 +440,7 @@ class PatientRun {
     const Disease *const disease = disease_named(options_.disease);
     std::string text = "the closed valve seals";
     if (closed["passage"]["state"] != "closed")
-      text = "the closed valve leaves a gap, as it is sick";
+      text = "the closed valve leaves a gap, because the valve is sick";
     else if (disease != nullptr && disease->opening == 0 && disease->area > 0)
       text +=
           ", because the band closes the gap of " + options_.disease + ", which a smaller --half-thickness leaves open";

@@ -667,11 +667,11 @@ std::string require_gmsh() {
   const ProgramEnd end = run_program({"gmsh", "--version"}, nullptr, [&](const std::string &line) { version = line; });
   if (end.error == ENOENT)
     refuse_data(
-        "gmsh: there is no such program in PATH, and meshes are made by it; on Debian and Ubuntu 'sudo apt-get "
-        "install gmsh' installs it");
+        "gmsh: there is no such program in PATH, but gmsh makes the mesh; on Debian and Ubuntu 'sudo apt-get install "
+        "gmsh' installs it");
   if (end.error != 0) refuse_data("gmsh: cannot be run: " + system_text(end.error));
   if (end.status != 0)
-    refuse_data("gmsh: it fails to tell its version" + (end.last_message.empty() ? "" : ": " + end.last_message));
+    refuse_data("gmsh: its option --version fails" + (end.last_message.empty() ? "" : ": " + end.last_message));
   return version.empty() ? end.last_message : version;
 }
 

@@ -249,7 +249,7 @@ class WallRepair {
           stack.push_back(next.triangle);
         } else if (known != wanted) {
           refuse("the surface has one side only, like a Moebius strip, as at " + at(made_.triangles.centre_of(here)) +
-                 ": it is not around blood; make it anew from the segmentation");
+                 ": it does not enclose the blood; make a new surface from the segmentation");
         }
       }
     }

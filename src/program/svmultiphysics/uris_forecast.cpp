@@ -65,9 +65,11 @@ class Forecaster {
       find_drop(motion.closing.back());
     } catch (const NoFlow &no_flow) {
       say("expected drop: not computed, because " + no_flow.reason);
-      warn("the drop across the closed valve was not computed, nor whether the leaflets separate two sides of " +
-           options_.mesh + ", because " + no_flow.reason +
-           "; it needs NumPy and SciPy (Debian: python3-scipy), and RIIS_PYTHON names the Python that has them");
+      warn(
+          "the drop across the closed valve was not computed, and it is not known whether the leaflets separate two "
+          "sides of " +
+          options_.mesh + ", because " + no_flow.reason +
+          "; it needs NumPy and SciPy (Debian: python3-scipy), and RIIS_PYTHON names the Python that has them");
     }
     const std::size_t n = motion.opening.size() + motion.closing.size();
     StepProgress progress("reading frames as the solver does", n, options_.quiet);
@@ -126,7 +128,7 @@ class Forecaster {
     say("each marking of the closed valve measures " +
         shown(static_cast<double>(distances.n_in_box) * static_cast<double>(n_triangles)) + " distances, from " +
         counted(distances.n_in_box, "node") + " of its box to every triangle");
-    say("it opens once the pressure before it exceeds the pressure behind it");
+    say("the valve opens when the pressure before it exceeds the pressure behind it");
     say("  before: " + text_of(before));
     say("  behind: " + text_of(behind));
   }
@@ -136,7 +138,7 @@ class Forecaster {
     if (before.n_nodes == 0)
       refuse_motion("close", "no node of the solver's box is before the open leaflets at a distance of " +
                                  in_mesh(half_thickness_) + " or more, where the solver takes the mean flow");
-    say("it closes once the mean flow before the open leaflets reverses");
+    say("the valve closes when the mean flow before the open leaflets reverses");
     say("  before: " + text_of(before));
   }
 

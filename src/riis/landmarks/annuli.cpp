@@ -528,7 +528,7 @@ KindOfLandmarks tricuspid_landmarks(const Valve &valve, const Landmarks &landmar
   const Order order = order_around(landmarks, leaflets, up, outline.middle);
   if (!landmarks.has_flow() && names_fit(landmarks, leaflets, -up, outline.middle))
     fail(RIIS_INVALID_ARGUMENT,
-         "landmarks.flow is 0 0 0: one named commissure does not show the direction of flow; name two of them");
+         "landmarks.flow is 0 0 0: one named commissure does not show the direction of flow; name two commissures");
   const auto at = [&](std::size_t k) { return landmarks.at(order.commissure[k]); };
   Laps laps(landmarks.list.size());
   laps[order.commissure[0]] = LinearValue{0, {{SaddleModel::flat_ratio, -0.5}}};

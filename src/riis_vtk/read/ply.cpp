@@ -57,7 +57,7 @@ class PlyFile {
     const std::vector<PlyElement> elements = read_header();
     for (const PlyElement &element : elements) read_element(element);
     if (in_.is_binary ? !in_.rest().empty() : !in_.word().empty())
-      in_.refuse("the file holds more than its header claims");
+      in_.refuse("the file holds more data than its header states");
     const auto grid = mesh_.grid(path_);
     for (const auto &array : arrays_) grid->GetCellData()->AddArray(array);
     return grid;
@@ -96,7 +96,7 @@ class PlyFile {
         if (elements.empty()) in_.refuse("a property comes before the first element");
         elements.back().properties.push_back(property_of(line));
       } else if (keyword != "end_header" && keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-        in_.refuse("the keyword '", keyword.substr(0, 40), "' is not one of a header");
+        in_.refuse("the keyword '", keyword.substr(0, 40), "' does not belong to a header");
       }
       in_.skip(in_.rest().size() - rest.size());
       if (keyword == "end_header") break;
@@ -234,7 +234,7 @@ class PlyFile {
   void expect_end_of_line() const {
     if (in_.is_binary) return;
     std::string_view rest = in_.rest(), line = take_line(rest);
-    if (!take_word(line).empty()) in_.refuse("a line has other numbers than its element claims");
+    if (!take_word(line).empty()) in_.refuse("a line has more or fewer numbers than its element states");
   }
 
   const std::string &path_;

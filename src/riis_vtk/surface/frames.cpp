@@ -294,7 +294,7 @@ void append_frames(Frames &frames, const Frames &other) {
 Frames frames_of_displacements(const std::string &path, const std::string &prefix, const std::vector<double> *times,
                                const LeafletArray &leaflets, const CaughtOutput &caught) {
   const std::string ending = ending_of(path);
-  if (ending != "vtp" && ending != "vtu") fail_file(path, "displacements are in a .vtp or .vtu file");
+  if (ending != "vtp" && ending != "vtu") fail_file(path, "displacements must be in a .vtp or .vtu file");
   const vtkSmartPointer<vtkPointSet> data = read_surface_data(path, caught);
   const std::vector<Displacement> displacements = displacements_of(path, data, prefix);
   const std::int64_t n = view(displacements).size();

@@ -150,7 +150,7 @@ RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_s
     require(motion, "motion");
     if (!(time_step > 0 && is_time(time_step))) refuse_argument("time_step is ", time_step, "; it must be above 0");
     *motion = naming(path, [&] {
-      if (ending_of(path) != "dat") fail_file(path, "frames of svMultiPhysics are in a .dat file");
+      if (ending_of(path) != "dat") fail_file(path, "frames of svMultiPhysics must be in a .dat file");
       return motion_of(frames_of_text(path, time_step, LeafletArray(leaflets), caught), {path});
     });
   });
