@@ -15,8 +15,8 @@
 namespace riis::program {
 namespace {
 
-// The words for leaflets: of a valve with three cusps, of a tricuspid valve, and of a valve with any number of cusps. A longer
-// word, such as non_coronary, stands before a word with which it begins, such as non.
+// The words for leaflets: of a valve with three cusps, of a tricuspid valve, and of a valve with any number of cusps. In the
+// list, non_coronary stands before non, because the first fitting word counts.
 struct LeafletWord {
   const char *word;
   std::int32_t leaflet_id;

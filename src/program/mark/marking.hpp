@@ -46,7 +46,7 @@ class Marking {
   // The next two functions may be called after judge(). `n_marked` is the number of marked nodes in all pieces.
   std::int64_t n_marked(std::size_t step, std::size_t valve) const { return view(n_marked_)[marked_at(step, valve)]; }
   bool has_marks() const;
-  // Returns the nodes of the last piece that were within the distance limit at one of the times of a series.
+  // Returns the nodes of the last piece to which the valves came near at some time of a series.
   const std::vector<std::int64_t> &near_nodes() const { return near_; }
   // Returns the box around all surfaces at all times. A movie needs this box.
   const Box &swept() const { return swept_; }

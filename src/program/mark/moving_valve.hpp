@@ -25,8 +25,8 @@ class MovingValve {
 
   // Moves the surface to a time. If an earlier time is given, the surface also gets its mean velocities since that time.
   void move_to(double time, std::optional<double> since = std::nullopt);
-  // Marks the nodes and computes `fields`, a sum of constants RIIS_FIELD_*. Velocities are known only if the last move had an
-  // earlier time.
+  // Marks the nodes and computes `fields`, a sum of constants RIIS_FIELD_*. Velocities are known only if the last call of move_to
+  // had the argument `since`.
   void mark(FileNodes &nodes, int32_t fields);
   // Forgets the marks of the last call. With the old marks, a search in another mesh would begin at wrong nodes.
   void forget_marks() { result_ = new_result(); }

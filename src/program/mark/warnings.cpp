@@ -295,8 +295,8 @@ std::string place_text(const ValveOptions &options, const double *point, double 
 
 namespace {
 
-// Below a small share of the outline's area, area differences come from the coarseness of the triangles. The area that the bands
-// leave is mostly 0, so its error is smaller.
+// Areas count only above a small share of the outline's area, because the triangles are coarse. The area that the bands leave is
+// mostly 0, so its error is smaller.
 constexpr double least_share = 1e-3, least_share_left = 1e-5;
 // The width of the gap is found by halving, with a small share of the bridge between the bands as its error.
 constexpr int n_halvings = 10;

@@ -38,7 +38,7 @@ class TemporaryFolder {
 // again.
 class OutputLocks {
  public:
-  // Throws a Refusal if another run has locked one of these files. The paths must not be devices or pipes.
+  // Throws a Refusal if another run has locked one of the outputs. The paths must not be devices or pipes.
   explicit OutputLocks(const std::vector<std::string> &paths);
   ~OutputLocks();
   OutputLocks(OutputLocks &&other) noexcept = default;
@@ -88,7 +88,7 @@ class UnbrokenWrite {
 std::filesystem::path place_of(const std::string &path);
 std::filesystem::path folder_of(const std::filesystem::path &place);
 
-// Throws a Refusal if the output is one of these files. In the message, `what` describes the files.
+// Throws a Refusal if an output is one of the given files. In the message, `what` describes the files.
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options);
 
 // Returns whether an output is a file that can be replaced. On stdout, in a device or in a pipe, a later text cannot replace an

@@ -38,7 +38,7 @@ constexpr double end_edge_share = 0.35;
 // The time in seconds that gmsh has: a fixed time, and an additional time for each triangle. If gmsh cannot remesh a surface, it
 // may run for hours.
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
-// The first of two tries gets a share of the time.
+// If gmsh may be run twice, the share of the time for the first run.
 constexpr double first_share = 0.25;
 // In the second try, nodes are moved by at most a tiny share of the wall's size. The movement is as small as the rounding errors
 // of files in single precision.
