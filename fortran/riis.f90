@@ -155,7 +155,7 @@ module riis
   end interface riis_set_log
 
   abstract interface
-    !> Receives messages, on any thread that calls the library. It must not call the library.
+    !> Receives the library's messages, on any thread that calls the library. The procedure must not call the library.
     subroutine riis_log_procedure(message, level)
       import :: int32
       implicit none
@@ -166,7 +166,7 @@ module riis
 
 contains
 
-  ! The length of a function's result may come from a pure function, which may call only pure functions. So this interface
+  ! The length of a function's result may come from a pure function, which may call only pure functions. The interface therefore
   ! declares the C function pure.
   pure function error_length() result(length)
     integer :: length
@@ -206,8 +206,8 @@ contains
     length = riis_c_text_length(version_text())
   end function version_length
 
-  !> Returns the message of the calling thread's last error, which names the argument and its value. '' if there was none. A call
-  !! that succeeds does not change it.
+  !> Returns the message of the calling thread's last error, which names the argument and its value. Returns '' if there was no
+  !! error. A call that succeeds does not change the message.
   function riis_error_message() result(text)
     character(len=error_length()) :: text                   !< A copy.
     text = riis_c_text(riis_last_error())
@@ -241,8 +241,8 @@ contains
     end if
   end subroutine set_log
 
-  ! The log function that the library calls. It turns the message into a Fortran string. The empty name keeps it out of the
-  ! names that a host's own procedures may have.
+  ! The log function that the library calls. The function turns the message into a Fortran string. Its C name is empty, so that it
+  ! cannot collide with a procedure of the caller's program.
   subroutine pass_message(user_data, level, message) bind(c, name='')
     type(c_ptr), value :: user_data
     integer(c_int32_t), value :: level

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> Calls of riis_c whose structs are filled from plain arguments, for module riis. Arrays are contiguous. Users do not need this
-!! module: `use riis` does not give these names.
+!> For module riis, calls of riis_c whose structs are filled from plain arguments. Arrays are contiguous. Users do not need this
+!! module, and `use riis` does not give its names.
 module riis_calls
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64

@@ -10,7 +10,8 @@ module riis_crossing
   private
   public :: riis_crossings, riis_crossing_list, riis_find_crossings
 
-  !> Pairs of triangles that cross, from %get_list. The crossings own the arrays, which count from 1. Lengths are in mesh units.
+  !> Pairs of triangles that cross, from %get_list. The object of the crossings owns the arrays, which count from 1. Lengths are
+  !! in mesh units.
   type :: riis_crossing_list
     integer(int64) :: n_pairs = 0                           !< The number of pairs. Without pairs, ids are -1, and all other
                                                             !! components except seconds are 0.
@@ -26,8 +27,8 @@ module riis_crossing
     real(c_double) :: seconds = 0                           !< Wall time of riis_find_crossings.
   end type riis_crossing_list
 
-  !> The pairs that riis_find_crossings found. They are empty before that call and after %destroy. Call %destroy, since nothing
-  !! else frees them.
+  !> The pairs that riis_find_crossings found. There are no pairs before riis_find_crossings and after %destroy. Call %destroy,
+  !! because nothing else frees the memory.
   type :: riis_crossings
     private
     type(c_ptr) :: handle = c_null_ptr
@@ -51,10 +52,10 @@ module riis_crossing
 
 contains
 
-  !> Finds every pair of the surface's triangles that go through each other. A pair's depth is its penetration depth: the length
-  !! of the shortest translation of one triangle after which the two only touch. Triangles that touch or lie in one plane have
-  !! depth zero. Triangles of one leaflet that share a vertex do not count as a pair. %get_list of the crossings gives the pairs.
-  !! Errors: RIIS_INVALID_ARGUMENT naming depth or n_threads; the crossings are then as they were.
+  !> Finds every pair of the surface's triangles that go through each other. The depth of a pair is the length of the shortest
+  !! translation of one triangle after which the two triangles only touch. Triangles that touch or lie in one plane have depth
+  !! zero. Triangles of one leaflet that share a vertex do not count as a pair. %get_list of the crossings gives the pairs.
+  !! Errors: RIIS_INVALID_ARGUMENT naming depth or n_threads; the crossings are then unchanged.
   subroutine find_crossings(surface, crossings, depth, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< Must be created.
     type(riis_crossings), intent(inout) :: crossings        !< Empty, or from an earlier call; replaced, but not on an error.
@@ -78,8 +79,8 @@ contains
     call finish(code, status)
   end subroutine find_crossings
 
-  !> Gives the pairs from the last call of riis_find_crossings, ascending, without a copy. They are valid until the next
-  !! riis_find_crossings with these crossings or their destruction. Do not write to them. On an error all sizes are 0.
+  !> Gives the pairs from the last call of riis_find_crossings, in ascending order, without a copy. The pairs are valid until the
+  !! crossings are found again or destroyed. Do not write to the arrays of the pairs. On an error all sizes are 0.
   subroutine crossings_get_list(this, list, status)
     class(riis_crossings), intent(in) :: this               !< From riis_find_crossings.
     type(riis_crossing_list), intent(inout) :: list         !< Every component is set.
@@ -112,14 +113,14 @@ contains
     is_created = c_associated(this%handle)
   end function crossings_is_created
 
-  !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
+  !> Returns the C handle, for calls of module riis_c. The handle belongs to this variable, so do not destroy the handle.
   function crossings_c_handle(this) result(handle)
     class(riis_crossings), intent(in) :: this               !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for empty ones.
     handle = this%handle
   end function crossings_c_handle
 
-  !> Frees the memory of the crossings, which are then empty and can be used again. Nothing happens to empty ones.
+  !> Frees the memory of the crossings, which are then empty and can be used again. Nothing happens to empty crossings.
   subroutine crossings_destroy(this)
     class(riis_crossings), intent(inout) :: this            !< May be empty.
     call riis_crossings_destroy(this%handle)

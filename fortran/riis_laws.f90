@@ -25,8 +25,8 @@ module riis_laws
   ! NaN stands for a number that has no default, or that is not known yet.
   real(c_double), parameter :: no_value = transfer(int(z'7FF8000000000000', int64), 0._c_double)
 
-  !> An opening by times. Example: every second, a mitral valve begins to open at 0.45 s and to close at 0.95 s, and both take
-  !! 0.05 s. The ramps are of fifth degree: neither the rate nor its derivative jumps.
+  !> An opening that follows from the times of opening and closing. Example: every second, a mitral valve begins to open at 0.45 s
+  !! and to close at 0.95 s, and both take 0.05 s. The ramps are of fifth degree: neither the rate nor its derivative jumps.
   type :: riis_opening_times
     real(c_double) :: opening_start = no_value   !< When the valve begins to open. This and the next three components have no
                                                  !! default.
@@ -52,7 +52,7 @@ module riis_laws
     real(c_double) :: dwell_time = 0          !< The least time between changes of phase, >= 0.
   end type riis_opening_switch
 
-  !> The state of a switch. It begins as a closed valve at time 0.
+  !> The state of a switch. At time 0, the state is a closed valve.
   type :: riis_opening_switch_state
     real(c_double) :: time = 0                   !< The time of this state.
     real(c_double) :: opening = 0                !< The opening at that time.
@@ -81,7 +81,7 @@ module riis_laws
     real(c_double) :: angle_max = 75             !< Degrees, above angle_min, at most 90: the open angle.
   end type riis_opening_angle
 
-  !> The state of the angle law. It begins with a closed valve at rest, at time 0. Its angle 0 means angle_min.
+  !> The state of the angle law. At time 0, the state is a closed valve at rest. The angle 0 in this state means angle_min.
   type :: riis_opening_angle_state
     real(c_double) :: time = 0                   !< The time of this state.
     real(c_double) :: opening = 0                !< The opening at that time.
@@ -164,7 +164,7 @@ contains
     call finish(code, status)
   end subroutine from_times
 
-  !> Advances a switch to a time. The phase changes at the end of the step in which its condition is met, so the opening is
+  !> Advances a switch to a time. The phase changes at the end of the step in which its condition is met. The opening is thus
   !! accurate to first order in the time step. Errors: RIIS_INVALID_ARGUMENT naming the argument or component and its value.
   subroutine advance_switch(law, state, time, pressure_difference, flow, status)
     type(riis_opening_switch), intent(in) :: law            !< The law.
@@ -201,10 +201,10 @@ contains
     call finish(code, status)
   end subroutine advance_switch
 
-  !> Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, which makes the angle
-  !! accurate to second order in the time step. If the state has no earlier values of both, the present ones are used for the
-  !! whole step. Errors: RIIS_INVALID_ARGUMENT naming the argument or component and its value; RIIS_LIMIT_EXCEEDED for a step so
-  !! long that it would need more than a million inner steps.
+  !> Advances the angle law to a time. Pressure difference and flow are taken as linear over the step. The angle is thus accurate
+  !! to second order in the time step. If the state has no earlier pressure difference and flow, the present values are used for
+  !! the whole step. Errors: RIIS_INVALID_ARGUMENT naming the argument or component and its value; RIIS_LIMIT_EXCEEDED for a step
+  !! that needs more than a million inner steps.
   subroutine advance_angle(law, state, time, pressure_difference, flow, status)
     type(riis_opening_angle), intent(in) :: law             !< The law.
     type(riis_opening_angle_state), intent(inout) :: state  !< Its state, which is advanced to the time. Unchanged on an error.

@@ -12,7 +12,7 @@ module riis_leaking
   private
   public :: riis_leaks, riis_leak_list, riis_find_leaks
 
-  !> Edges that leak, from %get_list. The leaks own the arrays, which count from 1. Lengths are in mesh units.
+  !> Edges that leak, from %get_list. The object of the leaks owns the arrays, which count from 1. Lengths are in mesh units.
   type :: riis_leak_list
     integer(int64) :: n_edges = 0                           !< The number of edges. Without edges, node ids are -1, and other
                                                             !! components except seconds are 0.
@@ -27,8 +27,8 @@ module riis_leaking
     real(c_double) :: seconds = 0                           !< Wall time of riis_find_leaks.
   end type riis_leak_list
 
-  !> The edges that riis_find_leaks found. They are empty before that call and after %destroy. Call %destroy, since nothing else
-  !! frees them.
+  !> The edges that riis_find_leaks found. There are no edges before riis_find_leaks and after %destroy. Call %destroy, because
+  !! nothing else frees the memory.
   type :: riis_leaks
     private
     type(c_ptr) :: handle = c_null_ptr
@@ -54,11 +54,10 @@ module riis_leaking
 
 contains
 
-  !> Finds every edge of the mesh's adjacency that leaks: it crosses the surface between two unmarked nodes. Edges that are at
-  !! most two half thicknesses long do not leak, with an offset o at most 2 (1 - |o|) half thicknesses. Gaps of the surface itself
-  !! are not found. %get_list of the leaks gives the edges.
-  !! Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the marks do not come from a marking with this mesh and
-  !! half thickness. The leaks are then as they were.
+  !> Finds every edge of the mesh's adjacency that leaks, which crosses the surface between two unmarked nodes. Edges of at most
+  !! two half thicknesses do not leak. With an offset o, the limit is 2 (1 - |o|) half thicknesses. Gaps of the surface itself are
+  !! not found. %get_list of the leaks gives the edges. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the
+  !! marks do not come from a marking with this mesh and half thickness. The leaks are then unchanged.
   subroutine find_leaks_logical(surface, mesh, marks, leaks, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< The surface of the marking.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
@@ -108,7 +107,7 @@ contains
     call finish(code, status)
   end subroutine find_leaks_int32
 
-  ! The common part of all specific procedures. It does nothing after an error.
+  ! The common part of all specific procedures. The procedure does nothing after an error.
   subroutine find(surface, mesh, marks, leaks, mask, n_threads, code)
     class(riis_surface), intent(in) :: surface
     class(riis_mesh), intent(in) :: mesh
@@ -135,8 +134,8 @@ contains
     if (code /= RIIS_OK .and. was_empty) call riis_leaks_destroy(leaks%handle) ! the leaks were empty before the call and stay so
   end subroutine find
 
-  !> Gives the edges from the last call of riis_find_leaks, ascending, without a copy. They are valid until the next
-  !! riis_find_leaks with these leaks or their destruction. Do not write to them. On an error all sizes are 0.
+  !> Gives the edges from the last call of riis_find_leaks, in ascending order, without a copy. The edges are valid until the
+  !! leaks are found again or destroyed. Do not write to the arrays of the edges. On an error all sizes are 0.
   subroutine leaks_get_list(this, list, status)
     class(riis_leaks), intent(in) :: this                   !< From riis_find_leaks.
     type(riis_leak_list), intent(inout) :: list             !< Every component is set.
@@ -167,14 +166,14 @@ contains
     is_created = c_associated(this%handle)
   end function leaks_is_created
 
-  !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
+  !> Returns the C handle, for calls of module riis_c. The handle belongs to this variable, so do not destroy the handle.
   function leaks_c_handle(this) result(handle)
     class(riis_leaks), intent(in) :: this                   !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for empty ones.
     handle = this%handle
   end function leaks_c_handle
 
-  !> Frees the memory of the leaks, which are then empty and can be used again. Nothing happens to empty ones.
+  !> Frees the memory of the leaks, which are then empty and can be used again. Nothing happens to empty leaks.
   subroutine leaks_destroy(this)
     class(riis_leaks), intent(inout) :: this                !< May be empty.
     call riis_leaks_destroy(this%handle)

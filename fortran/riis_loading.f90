@@ -22,8 +22,8 @@ module riis_loading
 
 contains
 
-  !> Adds the sums over nodes of tissue that riis_loads_add_forces needs. Ranks pass their own nodes, and add their sums by a
-  !! reduction. Errors: RIIS_INVALID_ARGUMENT naming the argument, or the edge, node or weight, counted from 0.
+  !> Adds the sums over nodes of tissue that riis_loads_add_forces needs. Each rank passes its nodes, and the ranks add their sums
+  !! by a reduction. Errors: RIIS_INVALID_ARGUMENT naming the argument, or the edge, node or weight, counted from 0.
   subroutine add_sums(xyz, radius, edges, sums, edge_leaflet_id, weight, n_threads, status)
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_nodes): the nodes, in the frame of the edges.
     real(c_double), intent(in) :: radius                    !< Mesh units: nodes nearer than this to a leaflet's edges get its
@@ -46,9 +46,9 @@ contains
     call finish(code, status)
   end subroutine add_sums
 
-  !> Adds the forces of the leaflets at nodes of tissue. For each leaflet their sum is leaflet_force and their moment is
-  !! leaflet_moment. Errors: as for riis_loads_add_sums; RIIS_INVALID_ARGUMENT also for a leaflet with fewer than three nodes
-  !! within the radius, and for one whose nodes lie nearly on a line.
+  !> Adds the forces of the leaflets at nodes of tissue. For each leaflet, the sum of the forces is leaflet_force, and their
+  !! moment is leaflet_moment. Errors: as for riis_loads_add_sums; RIIS_INVALID_ARGUMENT also for a leaflet with fewer than three
+  !! nodes within the radius, and for a leaflet whose nodes lie nearly on a line.
   subroutine add_forces(xyz, radius, edges, leaflet_force, leaflet_moment, sums, node_force, about, edge_leaflet_id, weight, &
       n_threads, status)
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_nodes), as for riis_loads_add_sums.

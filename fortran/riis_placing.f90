@@ -18,10 +18,10 @@ module riis_placing
 
 contains
 
-  !> Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement. The valve's own values are the template:
-  !! lengths that no landmark bears on keep their proportions. The components of the placement are the arguments of the surface
-  !! with these names. Errors: RIIS_INVALID_ARGUMENT naming landmarks that are missing, in one place, collinear, mirrored, or too
-  !! large or small for a heart valve at this scale, and landmarks that contradict the fitted mitral valve (riis.h);
+  !> Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement. The valve's values are the template:
+  !! lengths that depend on no landmark keep their proportions. The surface has arguments with the names of the components of the
+  !! placement. Errors: RIIS_INVALID_ARGUMENT naming landmarks that are missing, in one place, collinear, mirrored, or too large
+  !! or small for a heart valve at this scale, and landmarks that contradict the fitted mitral valve (riis.h);
   !! RIIS_INVALID_PARAMETER for a valve from patches and for sizes that do not fit together.
   subroutine place(valve, xyz, role, scale, placement, leaflet_id, flow, noise, held, residual, standard_error, &
       size_state, places, status)

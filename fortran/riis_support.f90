@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
 !> The common part of the modules behind `riis`: errors, the addresses of the caller's arrays, integers of either kind. Users do
-!! not need this module: `use riis` does not give these names.
+!! not need this module, and `use riis` does not give its names.
 module riis_support
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_intptr_t, c_null_char, c_ptr, c_associated, &
     c_loc, c_null_ptr, c_sizeof
@@ -37,7 +37,7 @@ module riis_support
   end interface get_integer
 
   !> Converts a mask to bytes: 1 for .true. and for numbers other than 0. If the mask is absent, the bytes stay unallocated. As an
-  !! actual argument they then count as absent also.
+  !! actual argument, unallocated bytes also count as absent.
   interface get_mask
     module procedure get_mask_logical
     module procedure get_mask_int32
@@ -50,8 +50,8 @@ module riis_support
   end interface text_of
 
   interface
-    !> Records the message as the calling thread's last error, so that riis_last_error also returns errors of this layer. The
-    !! function is declared in src/common/component.h.
+    !> Records the message as the calling thread's last error, so that riis_last_error also returns errors of the Fortran
+    !! procedures. The function is declared in src/common/component.h.
     function riis_component_error(status, text) result(same) bind(c, name='riis_component_error')
       import :: c_char, riis_status
       implicit none
@@ -63,7 +63,7 @@ module riis_support
 
 contains
 
-  !> Ends every public procedure. Gives the status if the argument is present; otherwise an error stops the program.
+  !> Ends every public procedure. If the argument is present, it gets the status; otherwise an error stops the program.
   subroutine finish(code, status)
     integer(riis_status), intent(in) :: code                !< The result of the procedure.
     integer(riis_status), intent(out), optional :: status   !< The caller's argument.
@@ -147,7 +147,7 @@ contains
     c_text(len(c_text):) = c_null_char
   end subroutine end_for_c
 
-  !> Fills the faces of a surface, except vertex_ids. It does nothing after an error.
+  !> Fills the faces of a surface, except vertex_ids. The procedure does nothing after an error.
   subroutine get_faces(n_vertices, n_corners, n_faces, vertex_id_bits, leaflet_id, index_base, arrays, code)
     integer(int64), intent(in) :: n_vertices                !< The number of vertices.
     integer, intent(in) :: n_corners                        !< The first extent of vertex_ids.
@@ -174,7 +174,7 @@ contains
     if (size(leaflet_id, kind=int64) > 0) arrays%leaflet_id = c_loc(leaflet_id)
   end subroutine get_faces
 
-  !> Sets the skirt of a surface. The number of vertices must be set before. It does nothing after an error.
+  !> Sets the skirt of a surface. The number of vertices must already be set. The procedure does nothing after an error.
   subroutine set_skirt(skirt_length, attached, skirt_lengths, arrays, code)
     real(c_double), intent(in), optional :: skirt_length    !< Default 0.
     integer(int8), intent(in), contiguous, optional, target :: attached(:) !< (n_vertices).
@@ -264,7 +264,7 @@ contains
     end if
   end subroutine get_stride
 
-  !> Takes xyz(3, n). It may be a whole array or a section with a positive stride.
+  !> Takes xyz(3, n). The argument may be a whole array or a section with a positive stride.
   subroutine points_of_matrix(xyz, name, points, code)
     real(c_double), intent(in), target :: xyz(:, :)         !< The coordinates, (3, n).
     character(len=*), intent(in) :: name                    !< The argument's name.
@@ -284,7 +284,7 @@ contains
     if (points%n > 1) call get_stride(address_of(c_loc(xyz(1, 2))) - address_of(points%x), name, points%stride, code)
   end subroutine points_of_matrix
 
-  !> Takes x(n), y(n) and z(n). They may be whole arrays or sections with the same positive stride.
+  !> Takes x(n), y(n) and z(n). The arguments may be whole arrays, or sections with one positive stride.
   subroutine points_of_vectors(x, y, z, points, code, prefix)
     real(c_double), intent(in), target :: x(:)              !< (n).
     real(c_double), intent(in), target :: y(:)              !< (n).

@@ -11,8 +11,8 @@ module riis_valves
   private
   public :: riis_valve, riis_parameter_info, riis_valve_patches
 
-  !> Pointers to the curves and patches of a valve, by riis_valve%get_patches. The valve owns the arrays, which are valid until it
-  !! changes.
+  !> Pointers to the curves and patches of a valve, by riis_valve%get_patches. The valve owns the arrays, which are valid until
+  !! the valve changes.
   type :: riis_valve_patches
     integer(int64), pointer, contiguous :: first_piece(:) => null() !< (n_curves + 1): the pieces of curve i, counted from 0, are
                                                                  !! first_piece(i) to first_piece(i + 1) - 1, counted from 0.
@@ -40,9 +40,9 @@ module riis_valves
     real(c_double) :: other_factor = 0               !< The value of other_name over the parameter's value: 1, 2, or 0 if none.
   end type riis_parameter_info
 
-  !> A parametric valve: its kind and its parameters' values. It is empty before %create or %create_from_patches and after
-  !! %destroy. Call %destroy, since nothing else frees it. Any number of threads may read it at once. One thread may write it
-  !! while no other reads it.
+  !> A parametric valve: its kind and its parameters' values. The valve is empty before %create or %create_from_patches and after
+  !! %destroy. Call %destroy, because nothing else frees the memory. Any number of threads may read a valve at once. One thread
+  !! may write a valve while no other thread reads it.
   type :: riis_valve
     private
     type(c_ptr) :: handle = c_null_ptr
@@ -99,11 +99,11 @@ contains
     call finish(code, status)
   end subroutine valve_copy
 
-  !> Makes a valve, such as a prosthesis, from Coons patches, each given by its four boundary curves. Its parameters are 'opening'
-  !! and 'skirt_length'. The sides v = 0 and v = 1 run from the side u = 0 to the side u = 1. The sides u = 0 and u = 1 run from v
-  !! = 0 to v = 1. Corners must meet to 1e-9 of the valve's size. Normals point along S_u x S_v. All arrays are read during
-  !! the call only, and sections that are not contiguous are copied. Errors: RIIS_INVALID_ARGUMENT for sizes that do not match,
-  !! RIIS_INVALID_PARAMETER naming the curve or patch and its value.
+  !> Makes a valve, such as a prosthesis, from Coons patches, each given by its four boundary curves. The valve has the parameters
+  !! 'opening' and 'skirt_length'. The sides v = 0 and v = 1 run from the side u = 0 to the side u = 1. The sides u = 0 and u = 1
+  !! run from v = 0 to v = 1. Corners must meet to 1e-9 of the valve's size. Normals point along S_u x S_v. All arrays are read
+  !! during the call only, and sections that are not contiguous are copied. Errors: RIIS_INVALID_ARGUMENT for sizes that do not
+  !! match, RIIS_INVALID_PARAMETER naming the curve or patch and its value.
   subroutine valve_from_patches_int32(this, degree, control, curve_id, reversed, leaflet_id, index_base, status)
     class(riis_valve), intent(inout) :: this                     !< Must be empty.
     integer(int32), intent(in), contiguous, target :: degree(:)  !< (n_curves): the degrees of the Bezier curves, 1, 2 or 3.
@@ -148,7 +148,7 @@ contains
     call finish(code, status)
   end subroutine valve_from_patches_int32
 
-  !> Implements %create_from_patches for integer(int64). These arrays are copied.
+  !> Implements %create_from_patches for integer(int64). The arrays of these integers are copied.
   subroutine valve_from_patches_int64(this, degree, control, curve_id, reversed, leaflet_id, index_base, status)
     class(riis_valve), intent(inout) :: this                     !< Must be empty.
     integer(int64), intent(in) :: degree(:)                      !< (n_curves).
@@ -288,8 +288,8 @@ contains
     call finish(code, status)
   end subroutine valve_unset
 
-  !> Returns whether a parameter was set. .false.: it has its default or follows its rule, or there was an error. A name that
-  !! stands for all three cusps cannot be used.
+  !> Returns whether a parameter was set. .false. means that the parameter has its default or follows its rule, or that there was
+  !! an error. A name that stands for all three cusps cannot be used.
   function valve_is_set(this, name, status) result(is_set)
     class(riis_valve), intent(in) :: this                   !< Must be created.
     character(len=*), intent(in) :: name                    !< As in %get. Trailing blanks do not matter.
@@ -306,9 +306,9 @@ contains
     call finish(code, status)
   end function valve_is_set
 
-  !> Gives the valve an open state: its own state is at 'opening' 0, and the other valve's state at 'opening' 1. Between them,
-  !! control points are interpolated. Errors: RIIS_INVALID_PARAMETER for a valve of another kind or with other patches; the valve
-  !! is then unchanged.
+  !> Gives the valve an open state: its own state is at 'opening' 0, and the other valve's state at 'opening' 1. At other
+  !! openings, control points are interpolated. Errors: RIIS_INVALID_PARAMETER for a valve of another kind or with other patches;
+  !! the valve is then unchanged.
   subroutine valve_set_open_state(this, open, status)
     class(riis_valve), intent(inout) :: this                !< Must be created.
     class(riis_valve), intent(in) :: open                   !< Must be created. It is copied, so it may be destroyed.
@@ -321,8 +321,9 @@ contains
   end subroutine valve_set_open_state
 
   !> Warps the valve: its curves are mapped at every opening, before the placement. The valve copies the warps. For an annulus
-  !! that moves, call this in each step, for two valves in turn, and pass both to riis_surface%update_moving. Without arguments it
-  !! removes the warp. Errors: RIIS_INVALID_ARGUMENT for open without closed; RIIS_INVALID_PARAMETER for a bileaflet valve.
+  !! that moves, call this procedure in each step, for two valves in turn, and pass both to riis_surface%update_moving. Without
+  !! arguments, the procedure removes the warp. Errors: RIIS_INVALID_ARGUMENT for open without closed; RIIS_INVALID_PARAMETER for
+  !! a bileaflet valve.
   subroutine valve_set_warp(this, closed, open, status)
     class(riis_valve), intent(inout) :: this                !< Must be created.
     class(riis_warp), intent(in), optional :: closed        !< The warp at opening 0. Must be created.
@@ -390,7 +391,7 @@ contains
     call valve_parameter_int64(this, int(number, int64), info, status)
   end subroutine valve_parameter_int32
 
-  !> Does the same.
+  !> Does the same as for integer(int32).
   subroutine valve_parameter_int64(this, number, info, status)
     class(riis_valve), intent(in) :: this                   !< Must be created.
     integer(int64), intent(in) :: number                    !< From 1 to %n_parameters().
@@ -426,14 +427,14 @@ contains
     is_created = c_associated(this%handle)
   end function valve_is_created
 
-  !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
+  !> Returns the C handle, for calls of module riis_c. The handle belongs to this variable, so do not destroy the handle.
   function valve_c_handle(this) result(handle)
     class(riis_valve), intent(in) :: this                   !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function valve_c_handle
 
-  !> Frees the memory of the valve, which is then empty and can be created again. Nothing happens to an empty one.
+  !> Frees the memory of the valve, which is then empty and can be created again. Nothing happens to an empty valve.
   subroutine valve_destroy(this)
     class(riis_valve), intent(inout) :: this                !< May be empty.
     call riis_valve_destroy(this%handle)

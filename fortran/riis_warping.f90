@@ -9,9 +9,10 @@ module riis_warping
   private
   public :: riis_warp
 
-  !> A smooth map of space that takes landmarks on a valve to landmarks in a patient. Its matrix is factored once, so new targets
-  !! in each time step cost little. It is empty before %create and after %destroy. Call %destroy, since nothing else frees it. Any
-  !! number of threads may read it at once. One thread may write it while no other reads it.
+  !> A smooth map of space that takes landmarks on a valve to landmarks in a patient. The matrix of the warp is factored once, so
+  !! new targets in each time step cost little. The warp is empty before %create and after %destroy. Call %destroy, because
+  !! nothing else frees the memory. Any number of threads may read a warp at once. One thread may write a warp while no other
+  !! thread reads it.
   type :: riis_warp
     private
     type(c_ptr) :: handle = c_null_ptr
@@ -30,10 +31,10 @@ module riis_warping
 
 contains
 
-  !> Makes a warp from landmarks on the valve at rest. Until %set_targets, it is the identity. Without a placement, landmarks are
-  !! in the valve's own coordinates. Otherwise they are in the mesh's: give the placement of the surface. Errors:
-  !! RIIS_INVALID_ARGUMENT naming the landmark, counted from 0. Two landmarks in one place are refused, and so are landmarks on a
-  !! line.
+  !> Makes a warp from landmarks on the valve at rest. Until %set_targets, the warp is the identity. Without a placement,
+  !! landmarks are in the valve's own coordinates. With a placement, which must be the placement of the surface, landmarks are in
+  !! the mesh's coordinates. Errors: RIIS_INVALID_ARGUMENT naming the landmark, counted from 0. Two landmarks in one place are
+  !! refused, and so are landmarks on a line.
   subroutine warp_create(this, sources, noise, scale, rotation_axis, rotation_angle, translation, status)
     class(riis_warp), intent(inout) :: this                 !< Must be empty.
     real(c_double), intent(in), contiguous, target :: sources(:, :) !< (3, n): 3 to 1000 landmarks.
@@ -91,7 +92,7 @@ contains
     if (code == RIIS_OK) code = describe_points(size(xyz, 2, int64), xyz, points)
   end subroutine get_points
 
-  !> Takes the landmarks to these places. The same targets give the same bits, even after other targets. Errors:
+  !> Takes the landmarks to the given places. The same targets give the same bits, even after other targets. Errors:
   !! RIIS_INVALID_ARGUMENT naming the landmark; RIIS_INVALID_PARAMETER for a warp that folds, with the place and the determinant.
   subroutine warp_set_targets(this, targets, status)
     class(riis_warp), intent(inout) :: this                 !< Must be created.
@@ -170,14 +171,14 @@ contains
     is_created = c_associated(this%handle)
   end function warp_is_created
 
-  !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
+  !> Returns the C handle, for calls of module riis_c. The handle belongs to this variable, so do not destroy the handle.
   function warp_c_handle(this) result(handle)
     class(riis_warp), intent(in) :: this                    !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function warp_c_handle
 
-  !> Frees the memory of the warp, which is then empty and can be created again. Valves that have it keep their copies.
+  !> Frees the memory of the warp, which is then empty and can be created again. Valves with this warp keep their copies.
   subroutine warp_destroy(this)
     class(riis_warp), intent(inout) :: this                 !< May be empty.
     call riis_warp_destroy(this%handle)

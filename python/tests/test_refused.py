@@ -270,7 +270,7 @@ REFUSED = {
                                    lambda o: riis.mark(o.surface, o.mesh, fields="velocity side normal")),
     "uv of arrays": (Argument, "^fields is 'uv', with 'uv', but the surface is from arrays", lambda o: riis.mark(
         riis.Surface.from_arrays(o.triangle, o.faces), o.mesh, fields="uv")),
-    "fields of samples": (Argument, "^fields is 'rim', but .* sampling.* no fields but 'point', 'normal' and 'patch_id'",
+    "fields of samples": (Argument, "^fields is 'rim', but .* sampling.* only the fields 'point', 'normal' and 'patch_id'",
                           lambda o: riis.mark(o.sampled, o.mesh, fields="rim")),
     "clusters of samples": (Argument, "^search is 'clusters'", lambda o: riis.mark(o.sampled, o.mesh, search="clusters")),
     "samples of arrays": (Argument, "^measure is 'sampling', .* it must be 'triangles'$",

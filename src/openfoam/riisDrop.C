@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Estimates the drop across the closed valve in this mesh, and finds the factor of K for `calibrate yes`.
 //
-// A closed leaflet should drop (R / eps) u, with u = flow / area of the leaflets. The solver interpolates 1/A to faces, which
-// favours the cell with less resistance, so the drop differs. Here the closed valve has a pressure of 1 upstream and 0
-// downstream. The solver's own equation of p is solved with the schemes of the case: laplacian(1/A, p) = 0. The flow from one
-// side to the other gives the drop. The pressure is given at a distance from the band (endsOf). The flow is steady, so A is K /
-// rho, without rho / dt. A contains neither convection nor viscosity, which are small compared with K.
+// A closed leaflet should have the pressure drop (R / eps) u, with u = flow / area of the leaflets. The drop in the mesh differs,
+// because the solver interpolates 1/A to faces, which favours the cell with less resistance. The estimate gives the blood a
+// pressure of 1 upstream of the closed valve and 0 downstream. Then it solves the solver's own equation of p with the schemes of
+// the case: laplacian(1/A, p) = 0. The drop follows from the flow between the two sides. The two pressures are given at a
+// distance from the band (endsOf). The flow is steady, so A is K / rho and has no term rho / dt. A contains neither convection
+// nor viscosity, because they are small compared with K.
 #include "boundBox.H"
 #include "fvScalarMatrix.H"
 #include "fvmLaplacian.H"
@@ -25,8 +26,9 @@ namespace {
 constexpr scalar openShare = 1e-5;  // the resistance of blood outside the band, divided by the largest K
 constexpr scalar leastShare = 0.2;  // calibration refuses a closed valve that drops less of (R / eps) u
 
-// Returns -1 for each cell upstream of the closed band, and 1 for each cell downstream. Cells in the band, and in pockets that it
-// encloses, get 0. All entries are 0 if the band does not part the blood. `middle` is the distance by which the band steps aside.
+// Returns -1 for each cell upstream of the closed band, and 1 for each cell downstream. Cells in the band get 0, and so do
+// pockets that the band encloses. If the band does not separate the blood into two sides, all entries are 0. `middle` is the
+// distance between the middle of the band and the leaflets.
 labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list &marked, scalar middle) {
   labelList band(mesh.nCells(), 0), bandBeyond;
   forAll(K, cell) band[cell] = K[cell] > 0;
@@ -37,13 +39,13 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
     const bool beyond = face < mesh.nInternalFaces() ? band[neighbour[face]] : bandBeyond[face - mesh.nInternalFaces()];
     blocked[face] = band[owner[face]] || beyond;
   }
-  // Each cell of the band becomes a separate region. The other regions are open blood or pockets.
+  // Each cell of the band becomes a separate region. The other regions consist of open blood or of pockets.
   const regionSplit region(mesh, blocked, List<labelPair>(), true);
   labelList regionBeyond;
   syncTools::swapBoundaryCellList(mesh, region, regionBeyond);
 
-  // A face between the band and another region lies on one side of the middle of the band. The area of such a face votes for this
-  // side.
+  // A face between the band and another region lies on one side of the middle of the band. With its area, the face votes for its
+  // side of the band.
   scalarField votes(region.nRegions(), 0), all(region.nRegions(), 0), volume(region.nRegions(), 0);
   labelList entry(mesh.nCells(), -1);
   for (int64_t i = 0; i < marked.n_nodes; ++i) {
@@ -76,8 +78,8 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
   addOverRanks(all);
   addOverRanks(volume);
 
-  // The two sides are the largest regions that lie clearly on one side. Together they contain most of the blood, because pockets
-  // are small.
+  // The two sides are the largest regions whose votes are clearly for one side. Together the two regions contain most of the
+  // blood, because pockets are small.
   label up = -1, down = -1;
   forAll(volume, i) {
     if (votes[i] < -0.5 * all[i] && (up < 0 || volume[i] > volume[up])) up = i;
@@ -89,10 +91,10 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
   return side;
 }
 
-// Chooses the cells of both sides that keep the pressure 1 or 0. More than four cells lie between these cells and the band, or
-// fewer if the mesh ends sooner. On edges that are not orthogonal to faces, the solver corrects the flow by the gradient in the
-// cells. Beside the band this gradient includes the gradient of the band, so the pressure of these cells must be free to balance
-// it.
+// On both sides, chooses the cells that keep the pressure 1 or 0. Between the chosen cells and the band there are more than four
+// cells, or fewer if the mesh ends sooner. If an edge between cell centres is not orthogonal to its face, the solver corrects the
+// flow by the gradient in the cells. Beside the band, the correction includes the gradient in the band. The pressure beside the
+// band must therefore be free to balance the correction.
 boolList endsOf(const fvMesh &mesh, const scalarField &K, const labelList &side) {
   constexpr label most = 4;
   labelList layer(mesh.nCells(), most + 1), beyond;
@@ -123,17 +125,18 @@ boolList endsOf(const fvMesh &mesh, const scalarField &K, const labelList &side)
   return isEnd;
 }
 
-// Returns this rank's part of the closed area (docs/theory/measures.md, "Closed area"). Triangles are cut into parts with edges
-// below a quarter of the half thickness. The middle of a part tells whether it lies in this rank's cells. From the middle, eight
-// points along the normal stand for equal shares of the integral of K across the band. If another leaflet is nearer to a point,
-// this share belongs to that leaflet. Leaflets that touch therefore count once. The leaflet leftOut does not count.
+// Returns the part of the closed area that lies in this rank's cells (docs/theory/measures.md, "Closed area"). Triangles are cut
+// into parts whose edges are below a quarter of the half thickness. If the middle of a part lies in this rank's cells, the part
+// counts. On the normal through the middle, eight points stand for equal shares of the integral of K across the band. If another
+// leaflet is nearer to a point, the point's share belongs to the other leaflet. Leaflets that touch thus count only once. The
+// leaflet with the id leftOut does not count.
 template <class Check>
 scalar closedArea(const polyMesh &mesh, const riis_surface *surface, scalar halfThickness, int32_t leftOut,
                   int32_t nThreads, const Check &check) {
   struct Part {
     point a, b, c;
   };
-  // The places x, in half thicknesses, at which the integral x + sin(pi x) / pi is 1/8, 3/8, 5/8 and 7/8.
+  // The distances x, in half thicknesses, for which x + sin(pi x) / pi is 1/8, 3/8, 5/8 and 7/8.
   constexpr scalar places[] = {0.0627, 0.1933, 0.3441, 0.5629};
   constexpr scalar share = 1.0 / 8;
   (void)mesh.tetBasePtIs();  // all ranks must make these points together
@@ -200,7 +203,7 @@ scalar closedArea(const polyMesh &mesh, const riis_surface *surface, scalar half
   return area;
 }
 
-// Returns the area of all leaflets without the leaflet leftOut.
+// Returns the area of all leaflets except the leaflet leftOut.
 template <class Check>
 scalar areaOf(const riis_surface *surface, int32_t leftOut, const Check &check) {
   int64_t n = 0;
@@ -214,21 +217,21 @@ scalar areaOf(const riis_surface *surface, int32_t leftOut, const Check &check) 
   return area;
 }
 
-// Tells whether the case has a scheme of this name or a default.
+// Returns whether the case has a scheme with this name, or a default.
 bool hasScheme(const dictionary &schemes, const word &name) {
   return schemes.found(name) || (schemes.found("default") && word(schemes.lookup("default")) != "none");
 }
 
 }  // namespace
 
-// Returns the flow from the upstream to the downstream side at a difference of 1 m2/s2 of the kinematic pressure, m3/s.
+// Returns the flow in m3/s from the upstream to the downstream side. The difference of the kinematic pressure is 1 m2/s2.
 scalar riisValve::conductance(const scalarField &K, const labelList &side, const boolList &isEnd) const {
   const word step = mesh_.time().timeName();
   volScalarField rAU(IOobject("(1|A(" + UName_ + "))", step, mesh_, IOobject::NO_READ, IOobject::NO_WRITE, false),
                      mesh_, dimensionedScalar(dimTime, Zero));
   rAU.primitiveFieldRef() = rho_.value() / max(K, openShare * gMax(K));
   rAU.correctBoundaryConditions();
-  // The field has the solver's name of p, so that the case's schemes for p apply. It is not registered.
+  // The field has the solver's name of p, so that it is solved by the case's schemes for p. The field is not registered.
   volScalarField p(IOobject(pName_, step, mesh_, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh_,
                    dimensionedScalar(sqr(dimVelocity), Zero), zeroGradientFvPatchScalarField::typeName);
   DynamicList<label> fixed;
@@ -260,14 +263,14 @@ scalar riisValve::conductance(const scalarField &K, const labelList &side, const
       if (mag(flow - before) < 5e-4 * mag(flow)) break;  // corrections for edges that are not orthogonal to faces
     }
     equation.setValues(fixed, pressures);
-    // fvMatrix::solve would leave its residuals among those of the solver's own p.
+    // fvMatrix::solve is not used, because it would add its residuals to those of the solver's own p.
     scalarField &diagonal = equation.diag();
     forAll(equation.internalCoeffs(), patch) {
       const labelUList &cells = mesh_.boundary()[patch].faceCells();
       forAll(cells, i) diagonal[cells[i]] += equation.internalCoeffs()[patch][i];
     }
-    // setValues clears the coefficients between a fixed cell and other ranks. A cell without a neighbour on its own rank then has
-    // no diagonal.
+    // setValues removes the coefficients between a fixed cell and the cells of other ranks. A cell whose neighbours are all on
+    // other ranks thus loses its diagonal coefficient.
     forAll(fixed, i) {
       const label cell = fixed[i];
       if (diagonal[cell] != 0) continue;
@@ -282,7 +285,8 @@ scalar riisValve::conductance(const scalarField &K, const labelList &side, const
   return flow;
 }
 
-// Logs the drop of the closed valve over (R / eps) u. With `calibrate yes` it also finds the factor of K that makes this ratio 1.
+// Logs the drop of the closed valve divided by (R / eps) u. With `calibrate yes`, also finds the factor of K with which the drop
+// is (R / eps) u.
 void riisValve::estimateDrop() {
   estimated_ = true;
   factor_ = 1;
@@ -319,13 +323,14 @@ void riisValve::estimateDrop() {
   scalar area = returnReduce(closedArea(mesh_, surface_.get(), halfThickness_, housing, placement_.n_threads, check),
                              sumOp<scalar>());
   if (placement_.offset != 0) {
-    // Blood passes the middle of the band, which has another area than the leaflets. The library's ideal leak has this area.
+    // The middle of the band, through which blood passes, has another area than the leaflets. The library's ideal leak uses the
+    // area of the band's middle.
     double leak = 0;
     check(riis_surface_get_leak(surface_.get(), &resistance_, 1, &leak));
     area *= leak * resistance_.R / halfThickness_ / areaOf(surface_.get(), housing, check);
   }
 
-  // A flow of 1 should drop R / (eps area). It drops rho / conductance.
+  // A flow of 1 should have the drop R / (eps area). In the mesh, a flow of 1 has the drop rho / conductance.
   const auto share = [&](scalar factor) {
     return rho_.value() / conductance(scalarField(factor * K), side, isEnd) / (resistance_.R / (halfThickness_ * area));
   };

@@ -23,8 +23,8 @@ constexpr scalar leastGap = 1e-6;  // if the points' width is below about 1e-3 o
 
 using Matrix = std::array<std::array<scalar, 4>, 4>;
 
-// Finds eigenvalues and eigenvectors of a symmetric matrix by Jacobi's rotations. The matrix becomes diagonal. The columns of
-// vectors become the eigenvectors.
+// Finds the eigenvalues and eigenvectors of a symmetric matrix by Jacobi's rotations. Afterwards the matrix is diagonal. The
+// columns of `vectors` are the eigenvectors.
 void diagonalise(Matrix &a, Matrix &vectors) {
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) vectors[i][j] = i == j;
@@ -63,7 +63,7 @@ void diagonalise(Matrix &a, Matrix &vectors) {
 }  // namespace
 
 // B. Horn, "Closed-form solution of absolute orientation using unit quaternions", J. Opt. Soc. Am. A 4 (1987): the rotation is
-// the eigenvector of the largest eigenvalue of a matrix of 4 x 4.
+// the eigenvector of a matrix of 4 x 4 that belongs to the largest eigenvalue.
 riisRigid::riisRigid(const pointField &atRest, const pointField &now, scalar &gap) {
   gap = 0;
   const label n = atRest.size();
@@ -149,7 +149,8 @@ riisFollow::riisFollow(const fvMesh &mesh, const dictionary &dict) : mesh_(mesh)
   fit(atRest_);  // refuses points that do not fix a rotation
 }
 
-// Returns all ranks' points on the first rank, sorted by order_ if it is set. Other ranks get an empty field.
+// Returns the points of all ranks on the first rank. If order_ is set, the points are sorted by order_. Other ranks get an empty
+// field.
 pointField riisFollow::gathered(const pointField &points) const {
   List<pointField> parts(Pstream::nProcs());
   parts[Pstream::myProcNo()] = pointField(points, local_);
@@ -171,7 +172,7 @@ pointField pointsAtRest(const fvMesh &mesh) {
   return points;
 }
 
-// Takes points of faces. The points are in the order of their coordinates at rest, and points with the same coordinates are one
+// Takes the points of faces. The points are sorted by their coordinates at rest. Points with equal coordinates count as one
 // point.
 void riisFollow::readFaces(const labelList &points, const string &place) {
   local_ = points;
@@ -193,7 +194,7 @@ void riisFollow::readFaces(const labelList &points, const string &place) {
   name_ = Foam::name(atRest_.size()) + " points" + place;
 }
 
-// Takes points by their labels in the whole mesh. The points are in the order of the list.
+// Takes points by their labels in the undecomposed mesh. The points have the order of the list.
 void riisFollow::readLabels(const dictionary &dict) {
   const labelList wanted(dict.get<labelList>("points"));
   name_ = Foam::name(wanted.size()) + " points";
@@ -253,8 +254,8 @@ void riisFollow::chooseNearest(const pointField &places, const dictionary &dict)
     }
   }
   giveToAll(chosen);
-  // Each rank keeps its chosen points. The new places of these points in the list of all ranks' points follow from the number on
-  // each rank.
+  // Each rank keeps the points that were chosen on it. The numbers of points on the ranks give the points' new places in the list
+  // of all ranks' points.
   labelList sizes(Pstream::nProcs(), 0);
   sizes[Pstream::myProcNo()] = local_.size();
   Pstream::gatherList(sizes);

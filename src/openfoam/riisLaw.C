@@ -93,7 +93,7 @@ riisValve::Sensor riisValve::sensor(const dictionary &dict) const {
   return found;
 }
 
-// Gives the law its state at the start of the run. If `found` is true, the state comes from an earlier run.
+// Gives the law its state at the beginning of the run. If `found` is true, the state comes from an earlier run.
 void riisValve::restartLaw(bool found) {
   const scalar start = mesh_.time().value();
   switch (law_) {
@@ -108,7 +108,7 @@ void riisValve::restartLaw(bool found) {
         switchState_.rate = state_.get<scalar>("rate");
         switchState_.progress = state_.get<scalar>("progress");
         switchState_.phase = state_.get<label>("phase");
-        // The file lacks the keys pressureDifference, flow and turnTime if the switch had no state yet.
+        // If the switch had no state yet, the keys pressureDifference, flow and turnTime are missing in the file.
         state_.readIfPresent("pressureDifference", switchState_.pressure_difference);
         state_.readIfPresent("flow", switchState_.flow);
         state_.readIfPresent("turnTime", switchState_.turn_time);
@@ -178,7 +178,7 @@ scalar riisValve::openingAt(scalar time, Ostream &report) {
   if (law_ == Law::time) opening = timeLaw_.at(time, check);
   if (hasSensors()) {
     const scalar difference = meanPressure(upstream_) - meanPressure(downstream_), volume = flow(flowPatch_);
-    // A restart rounds OpenFOAM's time, but not the time in the state.
+    // A restart rounds OpenFOAM's time. The time in the state is not rounded.
     const scalar dt = mesh_.time().deltaTValue();
     const scalar exact = (law_ == Law::pressure ? switchState_.time : angleState_.time) + dt;
     if (mag(exact - time) < 1e-6 * dt) time = exact;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines a linear solver for the pressure. This solver gives a volume source to cells that the band of a moving valve seals off.
+// Defines a linear solver for the pressure. The solver adds a volume source in cells that the band of a moving valve seals off.
 //
-// The band imposes the velocity of the leaflets. On the mesh this velocity has divergence for three reasons: it points through
-// walls, leaflets stretch, and it jumps between leaflets. If all faces of a cell are resisted, blood can pass them only under a
-// very large pressure. The solver riisSource adds a source to the right-hand side of the pressure equation, and then calls the
-// linearSolver of its dictionary. README.md shows how to switch the source on, and riisNetSource.H describes the source.
+// The band imposes the velocity of the leaflets. In the mesh, the divergence of the leaflets' velocity is not 0. The velocity
+// points through walls, leaflets stretch, and the velocity jumps between leaflets. If all faces of a cell are resisted, only a
+// very large pressure could drive blood through them. Therefore riisSource adds a source to the right-hand side of the pressure
+// equation, and then calls the linearSolver of its dictionary. README.md says how to switch the source on, and riisNetSource.H
+// describes the source.
 #include "addToRunTimeSelectionTable.H"
 #include "fvOptions.H"
 #include "lduMatrix.H"
@@ -17,7 +18,7 @@ namespace {
 
 using Valves = std::vector<const fv::riisValve *>;
 
-// Returns the valves whose dictionary has this name of the pressure.
+// Returns the valves whose dictionaries give the pressure this name.
 Valves valvesOf(const fvMesh &mesh, const word &pressure) {
   Valves valves;
   if (!mesh.foundObject<fv::options>(fv::options::typeName)) return valves;
@@ -75,8 +76,8 @@ class riisSource : public lduMatrix::solver {
     const scalarField &volumes =
         mesh->lookupObjectRef<riisStoredSource>(key).ofThisStep(*mesh, bands, hasReference, takesBack);
 
-    // The equation laplacian(rAU, p) = div(HbyA) - S has a negative diagonal in OpenFOAM, and -S V on the right-hand side. If a
-    // solver uses the other sign of the equation, the diagonal is positive, and the right-hand side has +S V.
+    // In OpenFOAM, the equation laplacian(rAU, p) = div(HbyA) - S has a negative diagonal, and -S V on its right-hand side. If a
+    // solver uses the opposite sign, the diagonal is positive, and the right-hand side has +S V.
     const scalar sign = gSum(matrix_.diag()) < 0 ? -1 : 1;
     dictionary controls(controlDict_);
     controls.set("solver", name);

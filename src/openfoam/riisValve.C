@@ -24,7 +24,7 @@ bool riisState::writeData(Ostream &os) const {
   return good;
 }
 
-// Writes text, because OpenFOAM cannot read the lists of a binary dictionary.
+// The list is written as text, because OpenFOAM cannot read the lists of a binary dictionary.
 #if OPENFOAM < 2006
 bool riisState::writeObject(IOstream::streamFormat, IOstream::versionNumber version,
                             IOstream::compressionType compression, const bool valid) const {
@@ -68,7 +68,8 @@ void riisValve::copyValve() {
 }
 
 void riisValve::readAll() {
-  // If the entry has a subdictionary for the keys, OpenFOAM reads the keys from it. Keys beside the part would do nothing.
+  // If the entry has a subdictionary for the keys, OpenFOAM reads the keys only from there. Keys beside the subdictionary would
+  // have no effect.
   const word part = modelType_ + "Coeffs";
   if (dict_.found(part)) {
     refuseOthers(dict_, {"type", "active", "libs", "selectionMode", "fields", part.c_str()});
@@ -110,7 +111,7 @@ void riisValve::readAll() {
   halfThickness_ = dimensionedScalar("halfThickness", dimLength, coeffs_).value();
   placementAtRest_.half_thickness = halfThickness_;
   placementAtRest_.offset = coeffs_.getOrDefault<scalar>("offset", 0);
-  // By default the library uses one thread in each rank, as the solver does.
+  // By default, the library uses one thread in each rank, because the solver does so.
   placementAtRest_.n_threads = coeffs_.getOrDefault<label>("nThreads", 1);
   readWarp(coeffs_.subOrEmptyDict("warp"));
   readSkirt(coeffs_.subOrEmptyDict("skirt"));
@@ -126,8 +127,8 @@ void riisValve::readAll() {
   if (resistance_.rim == RIIS_RIM_CUT) markOptions_.fields |= RIIS_FIELD_RIM;
 }
 
-// Reads the keys that choose cells and fields in other options. Here the leaflets choose the cells, so only one value makes
-// sense.
+// Reads the keys by which other options choose cells and fields. The leaflets choose the cells, so each key accepts only one
+// value.
 void riisValve::readFields(const dictionary &dict) const {
   const word mode = dict.getOrDefault<word>("selectionMode", "all");
   if (mode != "all") {
@@ -141,7 +142,7 @@ void riisValve::readFields(const dictionary &dict) const {
   }
 }
 
-// Reads the landmarks of a warp. Sources lie on the valve, and targets are their places in the mesh at rest.
+// Reads the landmarks of a warp. The sources lie on the valve. The targets are the sources' places in the mesh at rest.
 void riisValve::readWarp(const dictionary &dict) {
   warp_.reset();
   warpMoves_ = dict.found("follow");
@@ -167,7 +168,7 @@ void riisValve::readWarp(const dictionary &dict) {
   setWarp(targetsAtRest_, &dict);
 }
 
-// Returns the faces of a patch of the mesh at rest as triangles. All ranks get the faces of all ranks.
+// Returns the faces of a patch as triangles, in the mesh at rest. All ranks get the faces of all ranks.
 riisPtr<riis_surface> riisValve::wallAtRest(const dictionary &dict) const {
   const word name = dict.get<word>("patch");
   const label at = mesh_.boundaryMesh().findPatchID(name);
@@ -210,8 +211,8 @@ riisPtr<riis_surface> riisValve::wallAtRest(const dictionary &dict) const {
       [&](riis_surface **to) { check(riis_surface_create_from_arrays(&arrays, &options, to), dict); });
 }
 
-// Gives the valve a skirt that ends at a patch of the mesh at rest. Refuses a wall that is farther away than `longest` at an
-// opening, because the attachment may move as the valve opens.
+// Gives the valve a skirt, which ends at a patch of the mesh at rest. Refuses a wall that is farther away than `longest` at any
+// opening, because the attachment may move when the valve opens.
 void riisValve::readSkirt(const dictionary &dict) {
   if (dict.empty()) return;
   refuseOthers(dict, {"patch", "longest"});
@@ -255,7 +256,7 @@ riis_points riisValve::pointsOf(const pointField &list) const {
   return points;
 }
 
-// Warps the valve, so that its landmarks come to these places.
+// Warps the valve so that its landmarks come to the given places.
 void riisValve::setWarp(const pointField &targets, const dictionary *dict) {
   const riis_points points = pointsOf(targets);
   const auto checked = [&](riis_status status) { dict ? check(status, *dict) : check(status); };
@@ -263,8 +264,8 @@ void riisValve::setWarp(const pointField &targets, const dictionary *dict) {
   checked(riis_valve_set_warp(valve_.get(), warp_.get(), nullptr));
 }
 
-// Moves the placement to the present points of the mesh. A warp that follows points gets the part of the points' motion that is
-// not rigid.
+// Moves the placement of the valve with the points of the mesh. A warp that follows points gets the part of the points' motion
+// that is not rigid.
 void riisValve::follow() {
   placement_ = placementAtRest_;
   if (!follow_) return;
@@ -273,7 +274,7 @@ void riisValve::follow() {
   if (warpMoves_) setWarp(follow_->deformed(targetsAtRest_), nullptr);
 }
 
-// Continues from the state in the folder of the start time. A run that starts for the first time has no such state.
+// Continues from the state in the folder of the start time. If the run starts for the first time, there is no state.
 void riisValve::restart() {
   const bool found = state_.found("kind");
   if (returnReduce(found, orOp<bool>()) != returnReduce(found, andOp<bool>())) {
@@ -327,7 +328,7 @@ dictionary riisValve::parameters() const {
     if (!strcmp(parameter.name, "opening")) continue;
     scalarList values(label(parameter.n_values));
     check(riis_valve_get(valve_.get(), parameter.name, values.size(), values.data()));
-    // OpenFOAM would write a list with six digits only.
+    // OpenFOAM itself would write a list with only six digits.
     tokenList tokens(values.size() + 2);
     tokens.first() = token(token::BEGIN_LIST);
     forAll(values, c) tokens[c + 1] = token(values[c]);
@@ -390,8 +391,8 @@ void riisValve::forces(const volVectorField &U, const vector &about, vectorField
   addOverRanks(moment);
 }
 
-// Moves the valve to its position at the end of the step, marks the cells, and computes K. The marking happens once in a step, so
-// all outer correctors of the step use the same K.
+// Moves the valve to its position at the end of the step, marks the cells, and computes K. The cells are marked once in a step,
+// so that all outer correctors of the step use the same K.
 void riisValve::mark() {
   const Time &time = mesh_.time();
   const riis_surface_options placementBefore = placement_;
@@ -435,7 +436,7 @@ void riisValve::mark() {
   if (writeLeaflets_ && time.writeTime() && Pstream::master()) writeLeaflets();
 }
 
-// Writes the leaflets for ParaView, with their velocity.
+// Writes the leaflets with their velocity for ParaView.
 void riisValve::writeLeaflets() const {
   const fileName folder = mesh_.time().globalPath() / "postProcessing" / name_ / mesh_.time().timeName();
   mkDir(folder);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defines riisValveTable, a function object that writes a table of a valve: postProcessing/NAME/TIME/riisValve.dat.
 //
-// A row has the opening, the pressure difference, the flow and its volumes, the areas, and the largest speed at the band. It also
-// has the force and moment of the flow on each leaflet. README.md lists keys and columns. Volumes grow in each time step, so the
-// interval of writing does not change the volumes. Volumes also continue after a restart.
+// A row of the table has the opening, the pressure difference, the flow and its volumes, the areas, and the largest speed at the
+// band. A row also has the force and the moment of the flow on each leaflet. README.md lists keys and columns. The volumes are
+// summed in every time step, so they do not depend on the interval of writing. After a restart, the volumes continue.
 #include "addToRunTimeSelectionTable.H"
 #include "fvMeshFunctionObject.H"
 #include "fvOptions.H"
@@ -95,7 +95,7 @@ bool riisValveTable::read(const dictionary &dict) {
   return true;
 }
 
-// Finds the valve. Without sensors of its own, the table takes the sensors of the valve's law.
+// Finds the valve. If the table has no sensors of its own, it uses the sensors of the valve's law.
 void riisValveTable::find() {
   if (!mesh_.foundObject<fv::options>(fv::options::typeName)) return;
   const fv::optionList &options = mesh_.lookupObject<fv::options>(fv::options::typeName);
@@ -127,14 +127,14 @@ void riisValveTable::readSensors() {
   flowPatch_ = valve_->flowPatch(from("flowPatch"));
 }
 
-// Adds the flow of each time step to the volumes of the beat.
+// Adds the flow of a time step to the volumes of the beat.
 bool riisValveTable::execute() {
   if (!valve_) find();
   if (!valve_ || timeIndex_ == mesh_.time().timeIndex()) return true;
   timeIndex_ = mesh_.time().timeIndex();
   if (mesh_.changing()) readSensors();
   const scalar dt = mesh_.time().deltaTValue();
-  // A step belongs to the beat of its middle, so the rounding of the time does not matter.
+  // A step belongs to the beat that contains the middle of the step. The rounding of the time thus does not matter.
   const label beat = period_ > 0 ? label(std::floor((mesh_.time().value() - dt / 2) / period_)) : 0;
   if (beat != beat_) forward_ = backward_ = 0;
   beat_ = beat;
@@ -165,7 +165,7 @@ void riisValveTable::writeNames(label nLeaflets) {
   file() << endl;
 }
 
-// Returns the largest speed of the cells in the band and of their neighbours on the same rank.
+// Returns the largest speed in the cells of the band, and in their neighbours on the same rank.
 scalar riisValveTable::fastest(const volVectorField &U) const {
   const scalarField &K = valve_->K().primitiveField();
   scalar speed = 0;

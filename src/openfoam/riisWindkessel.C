@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines riisWindkessel, a boundary condition for the pressure at an outlet: the vessels behind it, as two resistances and a
-// compliance.
+// Defines riisWindkessel, a boundary condition for the pressure at an outlet. The condition models the vessels behind the outlet
+// by two resistances and a compliance.
 //
 //   p = p_c + Rp Q,   C dp_c/dt = Q - (p_c - p_v) / Rd
 //
 // Q is the flow out of the domain through the patch, and p_c is the pressure of the compliance C. Rp and Rd are the proximal and
-// distal resistances, and p_v is the pressure behind them. p_c advances by backward Euler. Each pressure equation of a step uses
-// the latest Q, and begins with p_c of the last step. At a face with backflow, p is the total pressure, because a static pressure
-// would let returning blood gain speed without bounds.
+// the distal resistance, and p_v is the pressure behind both. p_c advances by backward Euler. Each pressure equation of a step
+// uses the latest Q, and starts from p_c of the last step. At a face with backflow, p is the total pressure. With a static
+// pressure, returning blood would gain speed without bounds.
 #include "addToRunTimeSelectionTable.H"
 #include "fixedValueFvPatchFields.H"
 #include "riisValve.H"
@@ -85,7 +85,7 @@ class riisWindkesselFvPatchScalarField : public fixedValueFvPatchScalarField {
     fixedValueFvPatchScalarField::updateCoeffs();
   }
 
-  // Writes the pressure with all digits, so that a restart continues with the same bits.
+  // Writes the pressure with all digits, so that a restart has the same bits.
   void write(Ostream &os) const override {
     fvPatchScalarField::write(os);
     const int digits = os.precision(17);
@@ -102,7 +102,7 @@ class riisWindkesselFvPatchScalarField : public fixedValueFvPatchScalarField {
   }
 
  private:
-  // Returns the pressure in Pa of one unit of the field, which may be kinematic.
+  // Returns the pressure in Pa that one unit of the field stands for. The field may be kinematic.
   scalar unit() const { return internalField().dimensions() == dimPressure ? 1 : vessels_.rho; }
 };
 

@@ -21,7 +21,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyDa
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
-# State files hold the number of a kind, so a new kind comes last.
+# State files store the number of a kind, so a new kind must be the last.
 KINDS = (
     "aortic", "trileaflet", "coapting", "mitral", "bileaflet", "bicuspid", "quadricuspid", "mitral_coapting", "tricuspid",
 )  # fmt: skip
@@ -30,7 +30,7 @@ MOTIONS = ("fixed opening", "heartbeat by four times", "cycle from a table")
 INTERPOLATIONS = ("linear", "cubic")
 FIELDS = ("normal", "side", "point", "velocity")
 
-# The sizes that the panel always shows. All others are advanced properties.
+# The panel always shows these sizes. All other sizes are advanced properties.
 FIRST_SIZES = {
     "aortic": ("root_radius", "leaflet_height", "bending_height"),
     "trileaflet": ("root_radius", "leaflet_radius_out", "leaflet_height"),
@@ -364,7 +364,7 @@ class _HeartValve(_Kept):
             surface = riis.Surface(self.valve(self.values["Opening"]), **options)
         else:
             time = float(out.Get(Pipeline.UPDATE_TIME_STEP())) if out.Has(Pipeline.UPDATE_TIME_STEP()) else float(times[0])
-            # The velocity is the mean over a thousandth of a step.
+            # The velocity is the mean velocity over a thousandth of a step.
             dt = 1e-3 * float(times[1] - times[0])
             now, before = self.valve(law(time)), self.valve(law(time - dt))
             surface = riis.Surface(now, **options)

@@ -293,10 +293,10 @@ TEST(test_refused_cases) {
                       "\"half_thickness_\": 1,");
   expect_case_refused("valve 0: \"oppening\" is unknown, did you mean \"opening\"?",
                       "{\"valve\": \"mitral\", \"oppening\": 1}", "");
-  expect_case_refused("valves: it must be an array of one valve or more", "", "");
-  expect_case_refused("valve 1: name: each of several valves needs one",
+  expect_case_refused("valves: it must be an array of at least one valve", "", "");
+  expect_case_refused("valve 1: name: it is missing, and each of several valves needs a name",
                       "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"valve\": \"mitral\"}", "");
-  expect_case_refused("name: \"a\" is the name of two valves",
+  expect_case_refused("name: \"a\" is already the name of another valve",
                       "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"name\": \"a\", \"valve\": \"mitral\"}", "");
   expect_case_refused("name: \"a b\" must be 1 to 64 letters", "{\"name\": \"a b\", \"valve\": \"mitral\"}", "");
   expect_case_refused("valve: either it or \"surface\" must be given", "{\"name\": \"a\"}", "");
@@ -312,8 +312,8 @@ TEST(test_refused_cases) {
                       "{\"valve\": \"mitral\", \"opening\": {\"times\": [0, 0], \"openings\": [0, 1]}}", "");
   expect_case_refused("opening: closing_start: it is missing",
                       "{\"valve\": \"mitral\", \"opening\": {\"opening_start\": 0, \"opening_duration\": 1}}", "");
-  expect_case_refused("opening: it has none of file, times and opening_start",
-                      "{\"valve\": \"mitral\", \"opening\": {}}", "");
+  expect_case_refused("opening: it must have file, times or opening_start", "{\"valve\": \"mitral\", \"opening\": {}}",
+                      "");
   expect_case_refused(
       "interpolation: \"spline\" is none of linear, cubic",
       "{\"valve\": \"mitral\", \"opening\": {\"times\": [0], \"openings\": [0], \"interpolation\": \"spline\"}}", "");

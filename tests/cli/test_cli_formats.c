@@ -263,11 +263,11 @@ TEST(test_foam) {
               "mark", box, "--cells", "--resistance", "2", "--output", time);
   RUN_REFUSED(2, "--k-unit has no effect on the fields of OpenFOAM, whose K has the unit 1/s", "mark", box, "--cells",
               "--resistance", "2", "--density", "1060", "--k-unit", "1/s", "--output", time);
-  RUN_REFUSED(2, "--density has no effect: only K in the fields of a case of OpenFOAM is divided by it", "mark", box,
-              "--cells", "--resistance", "2", "--density", "1060", "--output", scratch_path("out.vtu"));
+  RUN_REFUSED(2, "--density has no effect: it divides K only in the fields of an OpenFOAM case", "mark", box, "--cells",
+              "--resistance", "2", "--density", "1060", "--output", scratch_path("out.vtu"));
   RUN_REFUSED(2, "box/7 takes fields of cells: write --cells", "mark", box, "--output", time);
   RUN_REFUSED(2, "--cells: --picture shows marks of nodes", "mark", box, "--cells", "--picture", "a.png");
-  RUN_REFUSED(2, "--cells: --steps times marks of nodes", "mark", box, "--cells", "--steps", "3");
+  RUN_REFUSED(2, "--cells: --steps marks nodes, not centres", "mark", box, "--cells", "--steps", "3");
   RUN_REFUSED(1, "box/7: is a time of a case, and the mesh was not read from this case", "mark", scratch_path("in.vtu"),
               "--half-thickness", "0.3", "--cells", "--output", time);
   RUN_REFUSED(2, "cell 0 is a vtkTriangle; centres are those of linear volume cells and polyhedra", "mark",

@@ -201,8 +201,9 @@ TEST(test_refusals) {
   REFUSED(2, "--from is 2; it must be from 0 to 1", "--area", "1", "--from", "2");
   REFUSED(2, "--to is 0.2; it must be above the start of the range, 0.3", "--area", "1", "--from", "0.3", "--to",
           "0.2");
-  REFUSED(2, "an opening has no effect: --solve opening finds it", "--area", "1", "--opening", "0.5");
-  REFUSED(2, "an opening has no effect: --solve opening finds it", "--area", "1", "--set", "opening=0.5");
+  REFUSED(2, "an opening has no effect, because --solve opening finds the opening", "--area", "1", "--opening", "0.5");
+  REFUSED(2, "an opening has no effect, because --solve opening finds the opening", "--area", "1", "--set",
+          "opening=0.5");
   REFUSED(1, "'radus' is not a parameter of the bileaflet valve; did you mean 'radius'?", "--area", "1", "--solve",
           "radus");
   RUN_REFUSED(1, "parameter 'translation' has 3 values, not 1", "from-area", "--area", "1", "--valve", "trileaflet",
@@ -248,7 +249,8 @@ TEST(test_turns) {
   run_program("from-area", "--area", "10.7", "--valve", "mitral", "--solve", "leaflet_inward_angle", "--from", "100",
               "--to", "176", "--tolerance", "0.3", "--strict", NULL);
   assert_int_equal(program_exit_code, 4);
-  if (!strstr(program_err, "the area does not only grow or only fall: it turns at leaflet_inward_angle 1"))
+  if (!strstr(program_err,
+              "the area grows in a part of the range and falls in another: it turns at leaflet_inward_angle 1"))
     fail_msg("no turn in: %s", program_err);
   expect_said("reached   area 10.7");
 }

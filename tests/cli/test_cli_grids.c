@@ -155,8 +155,8 @@ TEST(test_refused) {
   assert_int_equal(shim_write_grid(scratch_path("grid.vti"), SHIM_RAW, &grid), 1);
   static const char *const searches[2] = {"neighbor", "paper"};
   for (int i = 0; i < 2; ++i)
-    RUN_REFUSED(2, "grid.vti is a grid, whose nodes are not stored, so no search walks from one to the next", "mark",
-                scratch_path("grid.vti"), "--search", searches[i]);
+    RUN_REFUSED(2, "grid.vti is a grid, whose nodes are not stored, so this search cannot walk from node to node",
+                "mark", scratch_path("grid.vti"), "--search", searches[i]);
   RUN_REFUSED(1, "grid.pvti: a mesh must be a .vtu, .vtk, .vti", "mark", scratch_path("grid.pvti"));
   shim_grid thin = grid;
   thin.n[2] = 1;

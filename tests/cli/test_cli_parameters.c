@@ -385,7 +385,7 @@ TEST(test_named_sizes) {
   /* A case file also accepts the surgeon's names. */
   const char *const parameters[] = {"\"annulus\": 2.4", "\"annulus\": -2.4", "\"annulus\": 2.4, \"root_radius\": 1.2"};
   const char *const texts[] = {"", "parameter 'annulus' is -2.4; it must be from 2e-09",
-                               "annulus and root_radius are given, but they are names of one size"};
+                               "annulus and root_radius are given, but both are names of one size"};
   for (int i = 0; i < 3; ++i) {
     char json[256];
     snprintf(json, sizeof json,
@@ -402,11 +402,12 @@ TEST(test_named_sizes) {
     const char *kind, *json, *text;
   } refused[] = {
       {"trileaflet", "{\"annulus\": 2.5, \"root_radius\": 1.25}",
-       "p.json: annulus and root_radius are given, but they are names of one size; give one"},
+       "p.json: annulus and root_radius are given, but both are names of one size; give only one of them"},
       {"aortic", "{\"right\": {\"leaflet_radius_out\": 1.3}, \"right.stj\": 2.6}",
-       "p.json: right.leaflet_radius_out and right.stj are given, but they are names of one size; give one"},
+       "p.json: right.leaflet_radius_out and right.stj are given, but both are names of one size; give only one of "
+       "them"},
       {"aortic", "{\"stj\": 2.6, \"leaflet_radius_out\": 1.3}",
-       "p.json: stj and leaflet_radius_out are given, but they are names of one size; give one"},
+       "p.json: stj and leaflet_radius_out are given, but both are names of one size; give only one of them"},
       {"mitral", "{\"annulus\": 3.5}",
        "p.json: 'annulus' is not a parameter of the mitral valve: its annulus is not round; set AP_diameter and "
        "ALPM_diameter"},

@@ -463,7 +463,7 @@ TEST(vtk_reads_and_writes_pieces) {
   run_program("mark", scratch_path("full.pvtu"), "--half-thickness", "0.8", "--quiet", "--output",
               scratch_path("full_out.pvtu"), NULL);
   assert_int_equal(program_exit_code, 1);
-  assert_non_null(strstr(program_err, "points are inside one piece, and another piece has them without a cell"));
+  assert_non_null(strstr(program_err, "points are inside one piece, and in another piece they have no cell"));
   assert_false(scratch_exists("full_out.pvtu"));
   plain_free(&box);
 }
@@ -527,8 +527,9 @@ TEST(functions_of_dolfinx_are_refused) {
       assert_int_equal(program_exit_code, 0);
       assert_true(json_number(program_out, "n_nodes") == 7);
     } else {
-      RUN_REFUSED(1, "; ranks of dolfinx write a function's nodes with other last digits: use VTKFile.write_mesh\n",
-                  "mark", scratch_path("u000000.pvtu"), "--allow-none");
+      RUN_REFUSED(
+          1, "; on each rank, dolfinx writes the nodes of a function with other last digits: use VTKFile.write_mesh\n",
+          "mark", scratch_path("u000000.pvtu"), "--allow-none");
     }
   }
 }

@@ -159,7 +159,7 @@ TEST(closed_curve_is_an_annulus) {
   /* Eight points do not determine all sizes. */
   RUN_FINE("place", scratch_path("a.json"), "--valve", "mitral");
   assert_non_null(strstr(program_out, "\nThe landmarks do not determine "));
-  assert_non_null(strstr(program_out, "Their values in the table are guesses, drawn to the proportions of the kind."));
+  assert_non_null(strstr(program_out, "Their values in the table are guesses from the usual proportions of the kind."));
   assert_non_null(strstr(program_out, "Add landmarks, or give known sizes in cm, as by --set "));
   /* In an open curve, labels that are no landmarks are points of the annulus, and others keep their meaning. */
   m = snprintf(curve, sizeof curve,
@@ -439,11 +439,11 @@ TEST(files_are_refused_by_name) {
   refuse_text("a.fcsv", "# CoordinateSystem = 1\n", "holds no landmarks");
   refuse_text("a.csv", "# unit = mm\nnadir,1,2,3\n", "states no axes: a line such as # axes = LPS is missing");
   refuse_text("a.csv", "# unit = mm\n# axes = LPI\nnadir,1,2,3\n",
-              "the axes are \"LPI\"; they must be LPS, RAS or mesh; mesh stands for those");
+              "the axes are \"LPI\"; they must be LPS, RAS or mesh; mesh stands for the axes");
   refuse_text("a.csv", "# axes = LPS\nnadir,1,2,3\n", "states no unit: a line such as # unit = mm is missing");
   refuse_text("a.csv", "nadir,1,2,3\n",
               "a line such as # unit = mm is missing; it must be m, cm or mm; and states no axes: a line "
-              "such as # axes = LPS is missing; they must be LPS, RAS or mesh; mesh stands for those");
+              "such as # axes = LPS is missing; they must be LPS, RAS or mesh; mesh stands for the axes");
   refuse_text("a.json", "{\"landmarks\": {}}",
               "unit: it is missing; it must be m, cm or mm; and the axes are missing; they must");
   refuse_text("a.csv", "# unit = inch\n# axes = LPS\nnadir,1,2,3\n", "the unit is \"inch\"; it must be m, cm or mm");
@@ -678,7 +678,7 @@ TEST(sizes_that_do_not_go_together_are_named) {
               "a.json: the landmarks give root_radius 1.1, commissure_radius 1.05, commissure_height 1.4, and then "
               "coaptation_height is 2; it must be from 0.02 to 0.9 times effective_height",
               "place", path, "--valve", "coapting", "--set", "coaptation_height=2");
-  assert_non_null(strstr(program_err, "--set gives sizes that landmarks do not tell, in centimetres"));
+  assert_non_null(strstr(program_err, "--set sets sizes that do not follow from landmarks, in centimetres"));
   RUN_REFUSED(1, "and then effective_height is 1.39; it must be from 0.1 to 0.97 times commissure_height", "place",
               path, "--valve", "coapting", "--set", "effective_height=1.39");
   RUN_FINE("place", path, "--valve", "coapting", "--set", "coaptation_height=0.2", "--output", "-");

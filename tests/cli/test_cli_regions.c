@@ -96,7 +96,7 @@ TEST(test_touching_domains_are_told) {
   char *both = stats_of("both.vtk", NULL, NULL);
   assert_non_null(strstr(program_err,
                          "both.vtk has the regions 3 and 7 of the cell array domain, and they touch: "
-                         "--cells-where domain=3 takes only the cells of one\n"));
+                         "--cells-where domain=3 takes only the cells of one region\n"));
   assert_true(json_has_text(both, "state", "\"open\"")); /* through the wall */
   free(both);
   run_program("mark", scratch_path("both.vtk"), SHEET, "--strict", "--quiet", "--stats", scratch_path("stats.json"),

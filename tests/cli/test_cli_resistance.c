@@ -141,8 +141,8 @@ TEST(test_refused_units) {
 #define REFUSED(text, ...) RUN_REFUSED(2, text, "mark", mesh, "--unit", "cm", __VA_ARGS__)
   REFUSED("--resistance: 'kg/m3' is not a unit of a resistance, such as kg/(m s)", "--resistance", "1 kg/m3");
   REFUSED(
-      "--resistance: 'g/(cm2 s)' is not a unit of a resistance, such as kg/(m s); it is one of R/eps: multiply by the "
-      "half thickness",
+      "--resistance: 'g/(cm2 s)' is not a unit of a resistance, such as kg/(m s); it is a unit of R/eps: multiply the "
+      "number by the half thickness",
       "--resistance", "1e5 g/(cm2 s)");
   const char *const malformed[] = {"furlong", "kg/(m s", "kg/(m s))", "kg//", "kg^", "kg/(m s^-)", "()", "kg/m 0"};
   for (size_t i = 0; i < sizeof malformed / sizeof *malformed; ++i) {

@@ -239,7 +239,7 @@ TEST(arrays_of_the_attachment) {
            "--half-thickness", "0.05", "--output", out);
   assert_int_equal(arrays_of(out, &file).n_faces, 2 + 2 * 4);
   riis_vtk_surface_destroy(&file);
-  RUN_REFUSED(1, "point array riis_attached must hold one number a point", "surface", "--surface",
+  RUN_REFUSED(1, "point array riis_attached must hold one number for each point", "surface", "--surface",
               write_square("VECTORS riis_attached double\n1 1 1 1 1 1 1 1 1 1 1 1"), "--skirt", "0.1", "--output", out);
   RUN_REFUSED(1, "the point array riis_attached: no open edge leads from vertex 0 to another attached vertex",
               "surface", "--surface", write_square("SCALARS riis_attached int 1\nLOOKUP_TABLE default\n1 0 1 0"),

@@ -349,7 +349,7 @@ static void run_flat_triangle(const char *sides) {
   assert_int_equal(table.n_rows, 1);
   CHECK_NEAR(cell(0, "leaflet_0_area"), 1, 1e-12);
   CHECK_NEAR(cell(0, "orifice_area"), 0, 1e-9);
-  expect_said("opening 0 alone, because it has no state to open to\n");
+  expect_said("only opening 0, because it has no open state\n");
   expect_said("; the outline of the attachment has 1\n");
 }
 
@@ -484,8 +484,8 @@ TEST(test_skirts_and_files) {
   RUN_REFUSED(1, "the wall is not within --skirt, 0.1", "states", csv, "--valve", "trileaflet", "--skirt", "0.1",
               "--wall", wall);
   write_wall("millimetres.stl", 10);
-  RUN_REFUSED(1, "with its lengths times 0.1 the wall would be: save it in the mesh's unit", "states", csv, "--valve",
-              "trileaflet", "--skirt", "2", "--wall", scratch_path("millimetres.stl"));
+  RUN_REFUSED(1, "with its lengths times 0.1 the wall would be: save the wall in the mesh's unit", "states", csv,
+              "--valve", "trileaflet", "--skirt", "2", "--wall", scratch_path("millimetres.stl"));
   RUN_REFUSED(1, "none.stl", "states", csv, "--skirt", "1", "--wall", scratch_path("none.stl"));
   RUN_REFUSED(2, "is also the file of --wall", "states", wall, "--valve", "trileaflet", "--skirt", "2", "--wall", wall);
   scratch_write_text("case.json", "{\"valves\": [{\"valve\": \"trileaflet\", \"wall\": \"wall.stl\"}]}");

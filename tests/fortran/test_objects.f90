@@ -238,14 +238,14 @@ contains
     call valve%get('radius', value)
     call check(same(value, 1.25d0), 'the radius of a bileaflet valve is half of annulus')
     call valve%set('effective_height', 1d0, status)
-    call check_refused(status, RIIS_INVALID_PARAMETER, 'only cusps have it')
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'only cusps have an effective height')
     call valve%destroy()
     call valve%create('aortic')
     call valve%set('leaflet_angle', 60d0)
     call valve%get('non_coronary.rotation', rotation)
     call check(all(same(rotation, [0d0, 0d0, -120d0])), 'cusps turn until they meet')
     is_set = valve%is_set('stj', status)
-    call check_refused(status, RIIS_INVALID_PARAMETER, 'exists for each leaflet separately: name one, as in ''right.stj''')
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'exists for each leaflet separately: name a leaflet, as in ''right.stj''')
     call valve%destroy()
   end subroutine test_named_sizes
 

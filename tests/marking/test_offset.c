@@ -511,7 +511,8 @@ TEST(refusals) {
   options.offset = NAN;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.offset is nan", riis_surface_create(valve, &options, &surface));
   options.offset = 0.5, options.measure = RIIS_MEASURE_SAMPLING;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.offset is 0.5, but options.measure is 1, which knows no side",
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT,
+                "options.offset is 0.5, but options.measure is 1, which does not tell the sides of a surface apart",
                 riis_surface_create(valve, &options, &surface));
   options.measure = RIIS_MEASURE_TRIANGLES;
   /* Two triangles that share an edge: the second one runs along it in the same direction. */

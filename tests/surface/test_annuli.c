@@ -199,10 +199,11 @@ TEST(contradictions_are_refused) {
   /* One horn is far above the annulus, or one above and the other below. The largest residual is then beside the horn. */
   REFUSED(
       "the axis of the fitted valve is at |degrees to the annulus' normal; it must be at most 20; the horns' heights "
-      "make it lean: landmark 16 (anterior_horn) is |above and landmark |the annulus' sides|look for a horn",
+      "make the valve lean: landmark 16 (anterior_horn) is |above and landmark |the annulus' sides|look for a horn",
       m.xyz[16][2] += 25);
   REFUSED(
-      "the horns' heights make it lean: landmark 16 (anterior_horn) is |above and landmark 17 (posterior_horn) is "
+      "the horns' heights make the valve lean: landmark 16 (anterior_horn) is |above and landmark 17 (posterior_horn) "
+      "is "
       "|below",
       (m.xyz[16][2] += 18, mark(&m, &s, RIIS_LANDMARK_POSTERIOR_HORN, 270, 0), m.xyz[17][2] -= 18));
   /* The points between the horns are far from the annulus. */

@@ -419,7 +419,7 @@ TEST(searches_are_refused) {
   REFUSED(RIIS_INVALID_PARAMETER, "'root_radus' is not a parameter of the trileaflet valve; did you mean 'root_radius'",
           valve, "root_radus", 1, &search);
   REFUSED(RIIS_INVALID_PARAMETER, "parameter 'translation' has 3 values, not 1", valve, "translation", 1, &search);
-  REFUSED(RIIS_INVALID_PARAMETER, "parameter 'leaflet_angle' exists for each leaflet separately: name one",
+  REFUSED(RIIS_INVALID_PARAMETER, "parameter 'leaflet_angle' exists for each leaflet separately: name a leaflet",
           new_valve("aortic"), "leaflet_angle", 1, &search);
   REFUSED(RIIS_INVALID_PARAMETER, "root_height does not change the area, which is ", new_valve("aortic"), "root_height",
           1, &search);

@@ -1168,7 +1168,7 @@ TEST(test_refused_sectors_and_saddles) {
   REFUSED("tricuspid", right, "has the commissure 2 times; the tricuspid valve needs 3", p.n = 14);
   REFUSED("tricuspid", right, "has the annulus 3 times; the tricuspid valve needs 4 or more",
           for (int i = 0; i < 9; ++i) p.role[i] = RIIS_LANDMARK_COMMISSURE);
-  REFUSED("tricuspid", right, "does not say which commissure|name the leaflets of two",
+  REFUSED("tricuspid", right, "does not say between which|name the leaflets of two",
           for (int i = 12; i < 15; ++i) p.leaflet_id[i][0] = p.leaflet_id[i][1] = -1);
   REFUSED("tricuspid", right, "landmarks.flow is 0 0 0: one named commissure",
           (p.leaflet_id[12][0] = p.leaflet_id[12][1] = p.leaflet_id[13][0] = p.leaflet_id[13][1] = -1, p.flow[2] = 0));

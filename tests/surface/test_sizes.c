@@ -441,7 +441,7 @@ TEST(names_of_all_cusps) {
     CHECK_SAME(value_of(valve, names[k]), k < 2 ? 2.8 : 1.4);
   }
   CHECK_REFUSED(RIIS_INVALID_PARAMETER,
-                "parameter 'stj' exists for each leaflet separately: name one, as in 'right.stj'",
+                "parameter 'stj' exists for each leaflet separately: name a leaflet, as in 'right.stj'",
                 riis_valve_get(valve, "stj", 1, &value));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "parameter 'rotation' exists for each|as in 'right.rotation'",
                 riis_valve_is_set(valve, "rotation", &found));
@@ -463,7 +463,7 @@ TEST(absent_names_are_refused) {
       {"bileaflet", "effective_height",
        "'effective_height' is not a parameter of the bileaflet valve: only cusps have it"},
       {"patches", "annulus",
-       "'annulus' is not a parameter of the patches valve: the control points of its curves are its sizes"},
+       "'annulus' is not a parameter of the patches valve: the control points of its curves determine its size"},
       {"patches", "stj", "'stj' is not a parameter of the patches valve: the control points"},
       {"patches", "effective_height", "'effective_height' is not a parameter of the patches valve: the control points"},
       {"aortic", "right.annulus", "'right.annulus' is not a parameter of the aortic valve"},

@@ -396,7 +396,8 @@ TEST(test_gmsh_groups) {
    * twice in one group, where both stay. */
   sprintf(end, "%s3 4 2 2 1 1 2 3 4\n4 4 2 2 1 2 3 4 5\n5 4 2 3 1 2 1 3 4\n6 4 2 1 1 2 3 4 5\n$EndElements\n", once);
   scratch_write_text("twice.msh", text);
-  rewrite("twice.msh", "twice.vtu", "3 elements of further physical groups are the cells of the first ones");
+  rewrite("twice.msh", "twice.vtu",
+          "3 elements of further physical groups are the same cells as those of the first groups");
   int64_t n_points = 0, n_cells = 0;
   assert_int_equal(shim_read_points(scratch_path("twice.vtu"), &n_points, &n_cells, NULL, NULL), 1);
   assert_int_equal(n_points, 5);

@@ -123,7 +123,7 @@ TEST(test_arrays) {
                  "quads.vtu: has no cell array soul; there are: riis_leaflet, body, below, two");
   expect_refused(riis_vtk_surface_read(path, "below", &surface), RIIS_FILE_ERROR, "cell array below: cell 1 has -8");
   expect_refused(riis_vtk_surface_read(path, "two", &surface), RIIS_FILE_ERROR,
-                 "cell array two must hold one number a cell");
+                 "cell array two must hold one number for each cell");
   expect_refused(riis_vtk_surface_read("missing.vtu", "body", &surface), RIIS_FILE_ERROR, "missing.vtu");
   expect_refused(riis_vtk_surface_read(NULL, "body", &surface), RIIS_INVALID_ARGUMENT, "path is NULL");
   expect_refused(riis_vtk_surface_read(path, "body", NULL), RIIS_INVALID_ARGUMENT, "surface is NULL");

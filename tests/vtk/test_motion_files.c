@@ -378,7 +378,7 @@ TEST(test_frames_are_refused) {
   expect_refused(riis_vtk_motion_read_frames(scratch_path("bad_open.dat"), 0, NULL, &motion), RIIS_INVALID_ARGUMENT,
                  "time_step is 0; it must be above 0");
   expect_refused(riis_vtk_motion_read_frames(scratch_path("bad.vtp"), 1, NULL, &motion), RIIS_FILE_ERROR,
-                 "frames of svMultiPhysics are in a .dat file");
+                 "frames of svMultiPhysics must be in a .dat file");
 }
 
 /* Corners in .stl files may come together during the motion, but must not separate. */

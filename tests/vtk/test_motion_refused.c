@@ -73,9 +73,9 @@ TEST(test_bad_data_sets) {
                {DATA_SET("1.1e30", "a.vtp"), "DataSet 0 has the timestep '1.1e30', which is no number"},
                {DATA_SET("1e999", "a.vtp"), "DataSet 0 has the timestep '1e999', which is no number"},
                {DATA_SET("0", "a.vtp") DATA_SET("0.5", "a.vtp") DATA_SET("0.25", "a.vtp"),
-                "DataSet 2 has the timestep 0.25, which is not above that of the DataSet before, 0.5"},
+                "DataSet 2 has the timestep 0.25, which is not above the timestep before it, 0.5"},
                {DATA_SET("0", "a.vtp") "<DataSet timestep=\"0\" part=\"1\" file=\"a.vtp\"/>",
-                "DataSet 1 has the timestep 0, which is not above that of the DataSet before, 0"}};
+                "DataSet 1 has the timestep 0, which is not above the timestep before it, 0"}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
     char text[1024];
     snprintf(text, sizeof text, COLLECTION("%s"), cases[i].data_sets);
@@ -177,7 +177,7 @@ TEST(test_bad_lists) {
   REFUSED("paths is NULL", 2, NULL, equal);
   REFUSED("paths[1] is NULL", 2, hole, equal);
   REFUSED("times is NULL", 2, paths, NULL);
-  REFUSED("times[2] is 0.5; it must be above the one before, 0.5", 3, paths, equal);
+  REFUSED("times[2] is 0.5; it must be above the time before it, 0.5", 3, paths, equal);
   REFUSED("times[1] is nan; it must be finite and at most 1e30 in magnitude", 2, paths, odd);
   REFUSED("times[1] is 2e+30; it must be finite and at most 1e30 in magnitude", 2, paths, large);
 #undef REFUSED
@@ -240,7 +240,7 @@ TEST(test_bad_times_of_displacements) {
   expect_displacements(two, TIME_VALUE("1", "0"), 0, RIIS_FILE_ERROR,
                        "field array TimeValue has 1 numbers, for 2 point arrays d_*");
   expect_displacements(two, TIME_VALUE("2", "1 1"), 0, RIIS_FILE_ERROR,
-                       "value 1 of field array TimeValue is 1, which is not above the one before, 1");
+                       "value 1 of field array TimeValue is 1, which is not above the value before it, 1");
   expect_displacements(two, TIME_VALUE("2", "nan 1"), 0, RIIS_FILE_ERROR,
                        "value 0 of field array TimeValue is nan; it must be finite and at most 1e30 in magnitude");
   const sheet_extras extras = {two, NULL};
@@ -254,12 +254,12 @@ TEST(test_bad_times_of_displacements) {
   REFUSED("prefix is \"\"", path, "", 2, times);
   REFUSED("times is NULL", path, "d", 2, NULL);
   REFUSED("n_times is 0; it must be from 1 to 1000000", path, "d", 0, times);
-  REFUSED("times[1] is 0; it must be above the one before, 1", path, "d", 2, descending);
+  REFUSED("times[1] is 0; it must be above the time before it, 1", path, "d", 2, descending);
 #undef REFUSED
   expect_refused(riis_vtk_motion_read_displacements(path, "d", 2, times, NULL, NULL), RIIS_INVALID_ARGUMENT,
                  "motion is NULL");
   expect_refused(riis_vtk_motion_read_displacements(scratch_path("moved.stl"), "d", 2, times, NULL, &motion),
-                 RIIS_FILE_ERROR, "moved.stl: displacements are in a .vtp or .vtu file");
+                 RIIS_FILE_ERROR, "moved.stl: displacements must be in a .vtp or .vtu file");
   assert_null(motion);
 }
 

@@ -506,10 +506,10 @@ TEST(test_broken_leaflets) {
   write_polydata(
       "wide.vtp", "NumberOfPolys=\"2\"", two, "",
       "<DataArray type=\"Int32\" Name=\"riis_leaflet\" NumberOfComponents=\"2\" format=\"ascii\">0 0 1 1</DataArray>");
-  expect_file_error("wide.vtp", "riis_leaflet must hold one number a cell");
+  expect_file_error("wide.vtp", "riis_leaflet must hold one number for each cell");
   write_polydata("words.vtp", "NumberOfPolys=\"2\"", two, "",
                  "<Array type=\"String\" Name=\"riis_leaflet\" format=\"ascii\">97 0 98 0</Array>");
-  expect_file_error("words.vtp", "riis_leaflet must hold one number a cell");
+  expect_file_error("words.vtp", "riis_leaflet must hold one number for each cell");
 }
 
 TEST(test_truncated_stl) {

@@ -325,9 +325,10 @@ TEST(test_messages) {
   expect_file_error("j.obj", OBJ_START, "j.obj: holds no faces");
   expect_file_error("k.obj", OBJ_START "v nan 0 0\nf 1 2 3\n", "x of node 3 is nan");
   expect_file_error("a.ply", PLY_START "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "a.ply: cell 0 names point 3 of 3");
-  expect_file_error("b.ply", PLY_START "0 0 0\n1 0 0\n0 1\n3 0 1 2\n", "line 13: a line has other numbers than");
+  expect_file_error("b.ply", PLY_START "0 0 0\n1 0 0\n0 1\n3 0 1 2\n",
+                    "line 13: a line has more or fewer numbers than");
   expect_file_error("c.ply", PLY_START "0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "line 13: face 0 has 2 corners");
-  expect_file_error("d.ply", PLY_START "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n7\n", "holds more than its header claims");
+  expect_file_error("d.ply", PLY_START "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n7\n", "holds more data than its header states");
   expect_file_error("e.ply", "ply\nformat ascii 1.0\nelement vertex 900\nproperty float x\nend_header\n0\n",
                     "claims 900 elements vertex, but only 2 bytes follow");
   expect_file_error("f.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n0\n",

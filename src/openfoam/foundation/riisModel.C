@@ -2,9 +2,10 @@
 // Defines riisValve for the Foundation's OpenFOAM, as an fvModel. The model adds a heart valve to the momentum equation, and a
 // volume source to the equation of p.
 //
-// The model moves the valve by a law in time, and marks the cells once in a step. The model adds K (U - U_valve) / rho to the
+// The model moves the valve by a law in time, and marks the cells once in each step. The model adds K (U - U_valve) / rho to the
 // equation of a solver with kinematic pressure, such as the module incompressibleFluid. The source comes from ../riisNetSource.H.
-// The solver takes it by fvModels().sourceProxy(p), so no solver of matrices is needed here. ../../README.md lists the entries.
+// The solver gets the source by fvModels().sourceProxy(p), so that no linear solver is needed here. ../../README.md lists the
+// entries.
 #include "addToRunTimeSelectionTable.H"
 #include "fvMatrices.H"
 #include "fvModel.H"
@@ -55,7 +56,7 @@ class riisModel : public fvModel {
   using fvModel::addSup;
   void addSup(const volVectorField &U, fvMatrix<vector> &eqn) const override;
   void addSup(fvMatrix<scalar> &eqn) const override;
-  // Refuse equations that are multiplied by a density or by the fraction of a phase.
+  // Equations that are multiplied by a density or by the fraction of a phase are refused.
   void addSup(const volScalarField &rho, const volVectorField &U, fvMatrix<vector> &eqn) const override;
   void addSup(const volScalarField &alpha, const volScalarField &rho, const volVectorField &U,
               fvMatrix<vector> &eqn) const override;
@@ -69,7 +70,7 @@ class riisModel : public fvModel {
   void topoChange(const polyTopoChangeMap &) override { meshChanged_ = true; }
   void mapMesh(const polyMeshMap &) override { meshChanged_ = true; }
   void distribute(const polyDistributionMap &) override { meshChanged_ = true; }
-  // Reads the dictionary again if its file changes during the run. The valve keeps its opening.
+  // Reads the dictionary again after its file has changed during the run. The valve keeps its opening.
   bool read(const dictionary &dict) override;
 };
 
@@ -96,8 +97,7 @@ riisModel::riisModel(const word &name, const word &modelType, const fvMesh &mesh
 }
 
 void riisModel::readAll(const dictionary &whole) {
-  // OpenFOAM reads the keys from a part of the entry, if the entry has such a part. If the entry has a subdictionary for the
-  // keys, OpenFOAM reads the keys from it.
+  // If the entry has a subdictionary for the keys, OpenFOAM reads the keys only from there.
   const word part = type() + "Coeffs";
   if (whole.found(part)) refuseOthers(whole, {"type", "libs", part.c_str()});
   const dictionary &dict = whole.optionalSubDict(part);
@@ -151,8 +151,8 @@ void riisModel::printForce() const {
        << " N" << endl;
 }
 
-// Moves the valve to its position at the end of the step, marks the cells, and computes K. The marking happens once in a step, so
-// all outer correctors of the step use the same K.
+// Moves the valve to its position at the end of the step, marks the cells, and computes K. The cells are marked once in a step,
+// so that all outer correctors of the step use the same K.
 void riisModel::correct() {
   const Time &time = mesh().time();
   if (timeIndex_ == time.timeIndex()) return;
@@ -193,7 +193,7 @@ void riisModel::addSup(const volVectorField &U, fvMatrix<vector> &eqn) const {
   if (withVelocity_) eqn += KU_ / rho;
 }
 
-// Gives the solver's equation of p the volume source. One source serves all valves, so the first valve gives this source.
+// Adds the volume source to the solver's equation of p. One source serves all valves, so only the first valve adds it.
 void riisModel::addSup(fvMatrix<scalar> &eqn) const {
   if (!mesh().conformal()) {
     FatalErrorInFunction << "valve " << name() << " at time " << timeName(mesh())

@@ -10,7 +10,7 @@
 namespace riis::program {
 namespace {
 
-// The samples of a surface whose triangles are coarse. Each triangle has at least one point.
+// The number of samples of a surface with coarse triangles. Each triangle has at least one sample.
 constexpr double n_wanted = 20'000;
 
 double area_of(const double *a, const double *b, const double *c) {
@@ -18,8 +18,9 @@ double area_of(const double *a, const double *b, const double *c) {
   return 0.5 * hypotenuse(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]);
 }
 
-// Points that fill a triangle with the corners (0, 0), (1, 0) and (0, 1) evenly, one after the other (Roberts's sequence). With
-// one fixed place in each part of a triangle, points would form rows. A wall along a row would then cut off too many or too few.
+// Points that fill a triangle evenly, one after the other (Roberts's sequence). The corners of the triangle are (0, 0), (1, 0)
+// and (0, 1). With one fixed point in each part of the triangle, the points would form rows. A wall along a row would cut off too
+// many or too few points.
 class Places {
  public:
   struct Place {
@@ -35,7 +36,7 @@ class Places {
   double u_ = 0.5, v_ = 0.5;
 };
 
-// Calls visit(u, v) with a point in each of the n * n equal parts of this triangle.
+// Calls visit(u, v) with one point in each of the n * n equal parts of the triangle.
 template <class Visit>
 void for_each_part(std::int64_t n, Places &places, const Visit &visit) {
   const auto size = static_cast<double>(n);

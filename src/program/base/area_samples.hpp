@@ -9,7 +9,7 @@
 
 namespace riis::program {
 
-// The largest share of the leaflets' area outside a mesh that needs no warning.
+// A run warns if more than a small share of the leaflets' area is outside the mesh.
 inline constexpr double most_outside = 0.02;
 
 struct AreaSamples {
@@ -18,7 +18,7 @@ struct AreaSamples {
   std::vector<std::int32_t> leaflet;
 };
 
-// Leaves out the skirt and the housing. Each triangle is cut into equal triangles, with a point in each.
+// Samples the leaflets, but not the skirt and the housing. Each triangle is cut into equal triangles, with a point in each.
 AreaSamples area_samples(const riis_surface *surface);
 
 }  // namespace riis::program

@@ -22,7 +22,8 @@ using Motion = Handle<riis_vtk_motion, riis_vtk_motion_destroy>;
 using Film = Handle<riis_vtk_film, riis_vtk_film_destroy>;
 using SurfaceFile = Handle<riis_vtk_surface, riis_vtk_surface_destroy>;
 
-// Makes an object by a call of the library whose last argument receives it. `subject` begins refusals, as in check.
+// Calls a function of the library whose last argument receives a new object, and returns the object. Refusals begin with
+// `subject`, as in check.
 template <class Object, class Call, class... Arguments>
 Object create_for(const std::string &subject, const Call &call, const Arguments &...arguments) {
   Object object;
@@ -34,7 +35,7 @@ Object create(const Call &call, const Arguments &...arguments) {
   return create_for<Object>("", call, arguments...);
 }
 
-// The functions below return the content of handles as structs.
+// The functions below copy the content of a handle into a struct.
 inline riis_triangles triangles_of(const riis_surface *surface) {
   return get<riis_triangles>(riis_surface_get_triangles, surface);
 }
@@ -49,7 +50,7 @@ inline riis_mark_list list_of(const riis_marks *marks, int32_t which) {
 }
 inline riis_mark_stats stats_of(const riis_marks *marks) { return get<riis_mark_stats>(riis_marks_get_stats, marks); }
 
-// Returns the parameters of a valve, and the values of one of them.
+// all_parameters returns the parameters of a valve, and values_of returns the values of a parameter.
 inline std::vector<riis_parameter> all_parameters(const riis_valve *valve) {
   std::int64_t n = 0;
   check(riis_valve_get_n_parameters(valve, &n));
@@ -62,7 +63,7 @@ inline std::vector<double> values_of(const riis_valve *valve, const riis_paramet
   check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
   return values;
 }
-// Returns whether all parameters but the named ones have their default values.
+// Returns whether all parameters of a valve have their default values. The parameters in `others` do not count.
 inline bool has_default_values(const riis_valve *valve, const std::set<std::string> &others) {
   const std::vector<riis_parameter> all = all_parameters(valve);
   return std::all_of(all.begin(), all.end(), [&](const riis_parameter &parameter) {
@@ -71,7 +72,7 @@ inline bool has_default_values(const riis_valve *valve, const std::set<std::stri
   });
 }
 
-// Returns points that borrow their coordinates, (3, n).
+// Returns points whose coordinates stay in the given array (3, n).
 inline riis_points points_of(const std::vector<double> &xyz) {
   auto points = defaults<riis_points>();
   points.n_points = view(xyz).size() / 3;
@@ -81,7 +82,7 @@ inline riis_points points_of(const std::vector<double> &xyz) {
   points.stride = 3;
   return points;
 }
-// Returns the distances of points, (3, n), to a surface.
+// Returns the distances of points to a surface. The points are an array (3, n).
 inline std::vector<double> distances_to(const riis_surface *surface, const std::vector<double> &xyz) {
   const riis_points points = points_of(xyz);
   std::vector<double> made(xyz.size() / 3);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of each command as the user gave them. Only the options' form is checked here. The library checks the values.
+// The options of each command, as the user gave them. The program checks only the form of an option, and the library checks its
+// value. The library checks the values.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -17,7 +18,7 @@
 
 namespace riis::program {
 
-// The options for the surface and its placement. Every command has some or all of them.
+// The options of a surface and its placement. Every command has some or all of these options.
 struct ValveOptions {
   std::string valve = "aortic";            // a kind, or a .json file; unused if there is a surface
   std::string disease;                     // the name of a disease, whose kind is then `valve`; "": none
@@ -40,18 +41,20 @@ struct ValveOptions {
   std::optional<Unit> placed_unit;         // unit of the file of a placed valve
   bool takes_placed_unit = false;          // the user named no unit, so `unit` is that of the placed valve
   bool has_doubted_unit = false;  // the sizes contradict `unit`, so no text names this unit for the mesh's lengths
-  // Whether the user gave the values as numbers. A case and the checks of the command line set these members.
+  // True if the user gave the values as numbers. The reader of a case and the checks of the command line set these members.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
   std::int32_t n_threads = 0;  // 0: the library chooses by the amount of work
   bool quiet = false;
   bool strict = false;  // a warning changes the exit status
 };
 
-// The names of searches and of distances. A name's position is the value of its RIIS_SEARCH_* or RIIS_MEASURE_*.
+// The names of searches and of distances. A name's position in the list is the value of its constant RIIS_SEARCH_* or
+// RIIS_MEASURE_*.
 inline const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
 inline const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 
-// The names of the views that pictures and movies accept. A name's position is the value of its RIIS_VTK_VIEW_*.
+// The names of the views that pictures and movies accept. A name's position in the list is the value of its constant
+// RIIS_VTK_VIEW_*.
 inline const std::vector<std::string> view_names = {"side",       "top",       "oblique",       "three",
                                                     "valve-side", "valve-top", "valve-oblique", "valve-three"};
 
@@ -60,7 +63,8 @@ struct Picture {
   std::int32_t view;
 };
 
-// The names of captions and panels. A name's position is the value of its RIIS_VTK_CAPTIONS_* or RIIS_VTK_PANELS_*.
+// The names of captions and panels. A name's position in the list is the value of its constant RIIS_VTK_CAPTIONS_* or
+// RIIS_VTK_PANELS_*.
 inline const std::vector<std::string> caption_names = {"all", "scale", "none"};
 inline const std::vector<std::string> panel_names = {"both", "valve", "marks"};
 
@@ -69,7 +73,7 @@ struct PictureSize {
   static constexpr std::int32_t least = 64, most = 8192;  // the range that riis_vtk accepts
 };
 
-// How all pictures of a run and its movie look.
+// How the pictures and the movie of a run look.
 struct PictureStyle {
   std::optional<PictureSize> size;                  // not set if the user gave none
   std::array<double, 4> background = {1, 1, 1, 1};  // red, green, blue and opacity
@@ -77,7 +81,7 @@ struct PictureStyle {
   std::int32_t panels = RIIS_VTK_PANELS_BOTH;
 };
 
-// The options of a series in time, and of a case of several valves.
+// The options for a series in time, and for a case with several valves.
 struct SeriesOptions {
   std::string case_file;      // "" if the command line describes the only valve
   std::vector<double> times;  // ascending; empty if there is no series
@@ -99,7 +103,7 @@ struct LeakCheck {
   ExitCode exit_code = exit_wrong_usage;
 };
 
-// The options of riis mark. riis surface and riis check use some of them. riis surface has no mesh.
+// The options of riis mark. The commands riis surface and riis check use some of these options. riis surface has no mesh.
 struct MarkOptions : ValveOptions {
   std::string mesh;  // "" if there is none
   std::vector<std::string>
@@ -108,7 +112,8 @@ struct MarkOptions : ValveOptions {
   bool at_cells = false;   // whether the centres of cells are marked
   riis_mark_options mark_options = defaults<riis_mark_options>();
   double far_distance = RIIS_FAR_DISTANCE;
-  // R for an array of K, and for OpenFOAM the density by which it is divided. The drop is for the ideal leak.
+  // The resistance R, from which the array of K follows, and the density by which OpenFOAM's K is divided. The drop is the
+  // pressure drop for the ideal leak.
   std::optional<Amount> given_resistance, given_drop, density;
   std::optional<std::string> chosen_K_unit;
   std::optional<double> resistance;           // R in the units of the mesh
@@ -166,8 +171,8 @@ struct TimeSpan {
   double start, stop;
 };
 
-// How riis export gives the ring of a bileaflet valve to the solver: as a face beside the leaflets, or not at all. The solver's
-// scaffold is left out, because its K is added to that of the leaflets (docs/export.md).
+// How riis export passes the ring of a bileaflet valve to the solver: as a face beside the leaflets, or not at all. The ring is
+// not passed as the solver's scaffold, because the solver adds a scaffold's K to that of the leaflets (docs/export.md).
 enum UrisRing : std::int32_t { ring_face, no_ring };
 
 // The options of riis export.
@@ -175,7 +180,7 @@ struct ExportOptions : ValveOptions {
   std::string folder;
   std::string mesh;  // the mesh of the solver's run, for a forecast; "": none
   double time_step = 0;
-  // The density and the viscosity are for the forecast. By default they are blood's.
+  // The density and the viscosity serve the forecast. By default, both have the values of blood.
   std::optional<Amount> given_resistance, given_density, given_viscosity;
   double resistance = 0, density = 0, viscosity = 0;  // in the solver's units, g, cm and s
   double to_solver = 1;  // the factor from the mesh's unit of length to the solver's, which is cm
@@ -189,7 +194,7 @@ struct ExportOptions : ValveOptions {
   std::int32_t ring = ring_face;                       // a UrisRing
 };
 
-// Whether riis place writes a warp to the landmarks, which may be smoothed by their noise.
+// Whether riis place writes a warp to the landmarks. The landmarks' noise may smooth the warp.
 enum LandmarkWarp : std::int32_t { no_warp, exact_warp, smoothed_warp };
 
 // The options of riis place.
@@ -203,7 +208,8 @@ struct PlaceOptions : ValveOptions {
   std::string output, foam_output, c_output, fortran_output;  // "" if not wanted, "-" for stdout
 };
 
-// The options of riis patient. `wall` is the file of the wall. Points, and lengths without a unit, have the wall's unit.
+// The options of riis patient. `wall` is the file of the wall. Points are in the wall's unit. Lengths without a unit are also in
+// the wall's unit.
 struct PatientOptions : ValveOptions {
   std::string landmarks, folder;             // a file, and the folder for the results
   bool has_valve = false;                    // whether the user named the kind
@@ -226,19 +232,19 @@ struct ParamsOptions : ValveOptions {
   bool describe = false;  // print a table instead of JSON
 };
 
-// Returns the names of RIIS_TRIANGULATION_*. The position of each name is the value that it stands for.
+// Returns the names of the constants RIIS_TRIANGULATION_*. A name's position in the list is the value of its constant.
 const std::vector<std::string> &triangulation_names();
 
-// Derives the scale from the units. Also derives the half thickness, unless the user gave one.
+// Computes the scale from the units, and also the half thickness if the user gave none.
 void apply_units(ValveOptions &options);
 
-// Derives R, and the unit of K in the output, from the unit of the mesh. Refuses what does not fit it.
+// Computes R, and the unit of K in the output, from the unit of the mesh. Refuses options that contradict the unit.
 void apply_amounts(MarkOptions &options);
 
 // Returns whether the user gave the valve's opening by --opening or --set.
 bool sets_opening(const ValveOptions &options);
 
-// Returns whether the name can begin the names of arrays.
+// Returns whether `name` may be the beginning of arrays' names.
 bool is_prefix(const std::string &name);
 
 }  // namespace riis::program

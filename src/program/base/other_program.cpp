@@ -22,7 +22,7 @@ namespace riis::program {
 
 namespace {
 
-// The file descriptors of a program that is started.
+// The file descriptors that a started program gets.
 class Files {
  public:
   Files() {
@@ -35,7 +35,7 @@ class Files {
   void read_nothing() { posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0); }
   void pass(int from, int to) { posix_spawn_file_actions_adddup2(&actions_, from, to); }
 
-  // Starts the words as a program. Returns 0, or the error of a program that could not be run.
+  // Starts the program whose name is the first word. Returns 0, or the error if the program could not be started.
   int start(const std::vector<std::string> &words, pid_t &process) const {
     std::vector<char *> arguments;
     for (const std::string &word : words) arguments.push_back(const_cast<char *>(word.c_str()));
@@ -47,7 +47,7 @@ class Files {
   posix_spawn_file_actions_t actions_;
 };
 
-// Waits for the end of a program. Returns the exit status, or -1 if a signal ended the program.
+// Waits until a program ends. Returns the exit status, or -1 if a signal ended the program.
 int status_of(pid_t process) {
   int status = 0;
   while (waitpid(process, &status, 0) < 0)
@@ -55,7 +55,7 @@ int status_of(pid_t process) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-// Calls `read` with each line of a file that is not empty.
+// Calls `read` with each line of a file. Empty lines are left out.
 void read_lines(std::FILE *file, const std::function<void(const std::string &)> &read) {
   std::string line;
   for (int c = std::fgetc(file); c != EOF || !line.empty(); c = std::fgetc(file)) {
@@ -95,7 +95,8 @@ ProgramEnd run_program(const std::vector<std::string> &words, std::FILE *input,
   std::rewind(messages.get());
   read_lines(messages.get(), [&end](const std::string &line) { end.messages.push_back(line); });
   if (!end.messages.empty()) end.last_message = end.messages.back();
-  // POSIX also lets posix_spawnp start a process that cannot run the program and then ends with this status.
+  // POSIX lets posix_spawnp succeed even if the program cannot be run. A process that cannot run the program ends with the status
+  // not_run.
   constexpr int not_run = 127;
   if (end.status == not_run && end.messages.empty()) end.error = ENOENT;
   return end;

@@ -13,7 +13,7 @@ namespace riis::program {
 struct CloseFile {
   void operator()(std::FILE *file) const { std::fclose(file); }
 };
-// A file without a name. Its closing removes the file.
+// A file without a name. When the file is closed, the system removes it.
 using TemporaryFile = std::unique_ptr<std::FILE, CloseFile>;
 // Returns NULL, and sets errno, if the file cannot be made.
 TemporaryFile temporary_file();
@@ -24,8 +24,9 @@ struct ProgramEnd {
   std::string last_message{};           // the last line on its stderr
   std::vector<std::string> messages{};  // all these lines
 };
-// Runs the words as a program and waits for its end. A first word without a slash is looked for in PATH. The program reads
-// `input` from the file's position, or nothing if `input` is NULL. `read` gets each line of the output.
+// Runs the program whose name is the first word, and waits until the program ends. A name without a slash is looked for in PATH.
+// The program reads the file `input` from its present position, or nothing if `input` is NULL. `read` gets each line of the
+// output.
 ProgramEnd run_program(
     const std::vector<std::string> &words, std::FILE *input = nullptr,
     const std::function<void(const std::string &)> &read = [](const std::string &) {});
@@ -36,8 +37,8 @@ std::string program_on_path(const std::string &name);
 // Returns the Python that the program starts: `python3`, or the value of the environment variable RIIS_PYTHON.
 std::string python_of_user();
 
-// Implements `riis view`: replaces this process by `python3 -m riis view` with the same words. Returns only by a Refusal, which
-// says how to install a missing Python package riis.
+// Implements `riis view`: this process becomes `python3 -m riis view` with the words of the command line. The function only
+// returns by a Refusal, which says how to install a missing Python package riis.
 [[noreturn]] void run_view(int argc, char **argv);
 
 }  // namespace riis::program

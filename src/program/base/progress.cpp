@@ -61,7 +61,7 @@ void StepProgress::begin(std::size_t step) {
   has_line_ = true;
   const double left = std::chrono::duration<double>(now - begin_).count() / static_cast<double>(step) *
                       static_cast<double>(n_steps_ - step);
-  // The blanks at the end overwrite the rest of a longer previous line.
+  // Blanks at the end of the line overwrite the rest of a longer previous line.
   std::cerr << (is_terminal_ ? "\r" : "") << "riis: " << what_ << ": step " << step + 1 << " of " << n_steps_ << ", "
             << static_cast<long long>(left + 0.5) << " s left" << (is_terminal_ ? "   " : "\n") << std::flush;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stages of a run. Each is timed. A stage that takes longer than a second prints a line on the terminal. In a log, where each
-// line stays, a stage is silent for half a minute.
+// The stages of a run. Each stage is timed. A stage that takes longer than a second prints a line on the terminal. In a log,
+// where each line stays, a stage is silent for half a minute.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@
 
 namespace riis::program {
 
-// The time for which a stage prints nothing. This time depends on whether stderr is a terminal or a log.
+// The time for which a stage prints nothing. The time is longer in a log than on a terminal.
 struct Silence {
   std::chrono::milliseconds on_terminal{1000}, in_log{30000};
 
@@ -21,7 +21,7 @@ struct Silence {
 
 class Stage {
  public:
-  // Prints `what`, such as "reading mesh.vtu", on stderr after the silence. Prints nothing if `quiet`.
+  // Prints `what`, such as "reading mesh.vtu", on stderr if the stage is longer than the silence. Prints nothing if `quiet`.
   Stage(const std::string &what, bool quiet, Silence silence = {});
   ~Stage();
   Stage(const Stage &) = delete;
@@ -37,7 +37,7 @@ class Stage {
   std::thread watcher_;
 };
 
-// Counts the steps of a long stage: on the terminal in one line, in a log by a line after each silence.
+// Counts the steps of a long stage. A terminal shows the count in one line, and a log gets a new line after each silence.
 class StepProgress {
  public:
   // Prints `what`, such as "writing", before "step 12 of 81". Prints nothing if `quiet`.

@@ -19,7 +19,7 @@ struct Product {
   double si = 1;
   int mass = 0, length = 0, time = 0;
 
-  // Multiplies by the power of another product.
+  // Multiplies this product of units by a power of another product.
   void multiply(const Product &by, int power) {
     for (int i = 0; i < std::abs(power); ++i) power > 0 ? si *= by.si : si /= by.si;
     mass += power * by.mass;
@@ -51,7 +51,8 @@ constexpr std::array<Symbol, 17> symbols = {{{"kg", {1, 1, 0, 0}},
                                              {"cP", {1e-3, 1, -1, -1}},
                                              {"1", {1, 0, 0, 0}}}};
 
-// Reads units: symbols with exponents, joined by blanks, dots, * and /, with brackets. A slash divides by the next factor only.
+// Reads a unit: symbols with exponents, joined by blanks, dots, * and /, and perhaps in brackets. A slash divides only by the
+// factor that follows it.
 class UnitReader {
  public:
   UnitReader(const std::string &text, const std::string &subject) : text_(text), subject_(subject) {}
@@ -134,18 +135,18 @@ void append(const std::string &symbol, int exponent, std::string &text, int &n) 
 double parse_unit_of(const std::string &text, const std::string &subject, const Quantity &quantity) {
   const Product unit = UnitReader(text, subject).read();
   if (unit.mass == quantity.mass && unit.length == quantity.length && unit.time == quantity.time) return unit.si;
-  // R / eps, which some codes call R, has one more length below.
+  // Some codes call R / eps the resistance. The unit of R / eps has one more length in the denominator.
   const bool is_over_length =
       unit.mass != 0 && unit.mass == quantity.mass && unit.length == quantity.length - 1 && unit.time == quantity.time;
   refuse_usage(subject + ": '" + text + "' is not a unit of " + quantity.words + ", such as " + quantity.si +
-               (is_over_length ? "; it is one of R/eps: multiply by the half thickness" : ""));
+               (is_over_length ? "; it is a unit of R/eps: multiply the number by the half thickness" : ""));
 }
 
 Amount parse_amount(const std::string &text, const std::string &subject, const Quantity &quantity) {
   Amount amount;
   amount.text = text;
   amount.subject = subject;
-  // A number has no letter but e, before the digits of its exponent. Words such as inf have no unit.
+  // The only letter in a number is the e before its exponent. Words such as inf have no unit.
   std::size_t end = 0;
   const auto is_digit = [&](std::size_t at) {
     return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at]));

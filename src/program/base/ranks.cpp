@@ -15,7 +15,8 @@ namespace {
 
 int own_rank = 0, number = 1;
 
-// An element of some bytes. Counts of elements are smaller than counts of bytes, so they stay below MPI's limit of 2^31.
+// An MPI type for an element of several bytes. A message has fewer elements than bytes, so the number of elements stays below
+// MPI's limit of 2^31.
 class ElementType {
  public:
   explicit ElementType(std::size_t size) {
@@ -31,7 +32,7 @@ class ElementType {
   MPI_Datatype type_ = MPI_DATATYPE_NULL;
 };
 
-// The numbers of elements for MPI, and the position of each rank's first element.
+// The number of elements of each rank, and the position of each rank's first element, as MPI takes them.
 struct Counts {
   explicit Counts(std::size_t n) : n_of(n), first(n) {}
   void add_up() { std::exclusive_scan(n_of.begin(), n_of.end(), first.begin(), 0); }
@@ -115,7 +116,7 @@ void agree(const Refusal *failure) {
   if (failure) throw AgreedRefusal{*failure};
 }
 
-// With a single rank, gather and exchange return their argument and do not call this function.
+// Is not called with a single rank, because gather and exchange then return their argument.
 std::vector<std::byte> gather_bytes(const void *own, std::size_t n_bytes, std::size_t) {
   std::vector<std::byte> all(n_bytes);
   if (n_bytes > 0) std::memcpy(all.data(), own, n_bytes);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The processes of a run. There is one process, unless the program was built with MPI and started by mpirun. With mpirun, every
-// process, a rank, takes its share of a mesh's pieces. Only ranks.cpp calls MPI.
+// The processes of a run. There is one process if the program was built without MPI or started without mpirun. With mpirun there
+// are several processes, the ranks, and every rank takes its share of a mesh's pieces. Only ranks.cpp calls MPI.
 
-// The ranks call the same exchanges in the same order. Each exchange begins with an agreement that no rank has failed. A rank
-// that fails outside an exchange makes one more agreement, at the end of the program. This agreement meets the next agreement of
-// the other ranks. All ranks end with the message of the lowest failed rank, and none waits forever.
+// All ranks call the exchanges in the same order. Each exchange begins with an agreement, in which all ranks learn whether one of
+// them has failed. A rank that fails outside an exchange makes one more agreement, at the end of the program. The other ranks
+// learn of the failure in their next agreement. All ranks then end with the message of the lowest failed rank, so no rank waits
+// forever.
 #pragma once
 
 #include <cstddef>
@@ -28,11 +29,11 @@ class Session {
 
 int rank();
 int n_ranks();
-// Only the first rank prints, and writes the files that all ranks share.
+// Only the first rank prints, and it writes the files that all ranks share.
 inline bool is_first() { return rank() == 0; }
 
-// While an object of this type lives, the first rank works alone: it exchanges and agrees only with itself. The other ranks
-// meanwhile wait in the agreement at the end of the program.
+// While an object of this type lives, the first rank works alone. The first rank's exchanges and agreements then have no partner.
+// The other ranks wait in the agreement at the end of the program.
 class Alone {
  public:
   Alone();
@@ -44,7 +45,7 @@ class Alone {
   [[maybe_unused]] int n_ranks_;  // used with MPI
 };
 
-// A failure that all ranks know.
+// A failure that all ranks know of.
 struct AgreedRefusal {
   Refusal refusal;
 };
@@ -52,13 +53,13 @@ struct AgreedRefusal {
 // Throws an AgreedRefusal on all ranks if one of them passes a failure.
 void agree(const Refusal *failure = nullptr);
 
-// Bytes of all ranks in the order of ranks.
+// Returns the bytes that all ranks passed, in the order of the ranks.
 std::vector<std::byte> gather_bytes(const void *own, std::size_t n_bytes, std::size_t element_size);
-// Sends element i of the outer list to rank i. Returns the data that all ranks sent to this rank.
+// Sends the i-th part of `sent` to rank i. Returns the parts that all ranks sent to this rank.
 std::vector<std::byte> exchange_bytes(const void *sent, const std::vector<std::size_t> &n_for_rank,
                                       std::size_t element_size);
 
-// Returns the elements of all ranks, in the order of ranks, on each rank.
+// Returns the elements of all ranks, in the order of the ranks. Every rank gets all elements.
 template <class T>
 std::vector<T> gather(const std::vector<T> &own) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -68,13 +69,13 @@ std::vector<T> gather(const std::vector<T> &own) {
   return {begin, begin + bytes.size() / sizeof(T)};
 }
 
-// Returns the sum over all ranks.
+// Returns the sum of the numbers that all ranks passed.
 inline std::int64_t sum(std::int64_t own) {
   const std::vector<std::int64_t> all = gather(std::vector<std::int64_t>{own});
   return std::accumulate(all.begin(), all.end(), std::int64_t{0});
 }
 
-// Moves each element to a rank. rank_of(element) names the rank. Returns the elements that came to this rank.
+// Sends each element to the rank that rank_of(element) names. Returns the elements that were sent to this rank.
 template <class T, class RankOf>
 std::vector<T> exchange(std::vector<T> own, const RankOf &rank_of) {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Refusal is an exit code and one line for stderr. The program throws a Refusal to give up. The Python package makes an
-// exception of its status and text.
+// A Refusal is an exit code and one line for stderr. The program throws a Refusal to give up. The Python package raises an
+// exception with a Refusal's status and text.
 #pragma once
 
 #include <riis/riis.h>
@@ -21,8 +21,8 @@ struct Refusal {
 [[noreturn]] inline void refuse_data(const std::string &text) { throw Refusal{exit_bad_data, text}; }
 [[noreturn]] inline void refuse_usage(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
 
-// Returns the library's message. A struct field at the beginning of a message becomes the command-line option that sets the
-// field.
+// Returns the library's message. If the message begins with the name of a struct's field, the command-line option of this field
+// replaces the name.
 inline std::string with_option_named(const std::string &text) {
   static const std::pair<std::string, std::string> options[] = {{"options.scale ", "--scale "},
                                                                 {"options.rotation_axis ", "--rotate: the axis "},
@@ -54,9 +54,9 @@ inline std::string with_option_named(const std::string &text) {
   return text;
 }
 
-// Throws a Refusal with the library's own message, unless status is RIIS_OK. Faults of files, arrays and parameters are bad
-// data. A refused argument is wrong usage, because it comes from an option that is out of range. Messages without `subject`, such
-// as a file's name, then begin with `subject`.
+// Throws a Refusal with the library's message if the status is not RIIS_OK. Faults of files, arrays and parameters count as bad
+// data. A refused argument counts as wrong usage, because it comes from an option that is out of range. If the message does not
+// begin with `subject`, such as a file's name, then `subject` is put before it.
 inline void check(riis_status status, const std::string &subject = "") {
   if (status == RIIS_OK) return;
   const bool data = status == RIIS_INVALID_SURFACE || status == RIIS_INVALID_MESH || status == RIIS_INVALID_PARAMETER ||

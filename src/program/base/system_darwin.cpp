@@ -47,7 +47,7 @@ void end_with_parent(int signal) {
   }).detach();
 }
 
-// Darwin accepts the limit and does not keep it.
+// Darwin accepts the limit, but does not enforce it.
 std::optional<std::uintmax_t> limited_memory() { return std::nullopt; }
 
 // VTK draws by Cocoa here, so a picture needs no X display.

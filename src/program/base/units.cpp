@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<Unit, 3> all_units = {Unit::metre, Unit::centimetre, Unit::millimetre};
 
-// The results are whole numbers, so that a quotient of two results is the number that a user would write, such as 0.01.
+// The results are whole numbers. A quotient of two results is thus exactly the number that a user would write, such as 0.01.
 double millimetres_of(Unit unit) { return unit == Unit::metre ? 1000 : unit == Unit::centimetre ? 10 : 1; }
 
 bool is_about(double a, double b) { return std::abs(a - b) <= 1e-9 * b; }
@@ -66,27 +66,29 @@ std::optional<Unit> unit_of_valve(double largest_side) {
 
 namespace {
 
-// A valve fits its vessel if the valve's largest side is between these limits. The mesh's middle side is at least the least
-// width, because the valve is no wider than the vessel. The mesh's shortest side is at most the largest width, because the vessel
-// is not much wider than the valve. Both widths are measured in valves and span a decade, so two units seldom fit.
+// A unit fits if it makes the vessel neither narrower than the least width nor wider than the largest width. The least width
+// limits the mesh's middle side, because a valve is no wider than its vessel. The largest width limits the mesh's shortest side,
+// because a vessel is not much wider than its valve. Both widths are multiples of the valve's largest side. The two widths are a
+// decade apart, so two units seldom fit.
 constexpr double least_width = 0.4, largest_width = 4;
-// Edges longer than this share of the valve's largest side do not show the valve.
+// The longest edge of a mesh that can show the valve, as a share of the valve's largest side.
 constexpr double longest_edge = 0.3;
-// Edges of a mesh that was made for the default half thickness are seldom longer than this number of half thicknesses.
+// The usual upper limit of edges in a mesh for the default half thickness, in half thicknesses.
 constexpr double usual_edge = 3;
-// Edges near the valve are seldom shorter than this number of half thicknesses.
+// The usual lower limit of edges near the valve, in half thicknesses.
 constexpr double shortest_edge = 0.3;
-// A mesh with edges longer than this number of half thicknesses, or this share of the valve's largest side, was made for another
-// valve.
+// Longer edges mean that the mesh was made for another valve. The limits are a number of half thicknesses, and a share of the
+// valve's largest side.
 constexpr double most_edge = 10, most_edge_of_valve = 0.4;
 // The least half thickness, as a share of the mesh's edge length. A thinner band falls between two layers of nodes and contains
 // few nodes.
 constexpr double smallest_half_thickness = 0.3;
-// A vessel that is too narrow or too wide by more than these ratios is impossible. The valve may stand in a wide basin.
+// A unit is impossible if it makes the vessel much too narrow or much too wide. The larger ratio allows a valve in a wide basin.
 constexpr double most_too_narrow = 1.5, most_too_wide = 10;
-// A unit is possible if it is at most this many times as odd as the likeliest unit. Oddities are products of ratios above 1.
+// A unit is possible if its oddity is at most a few times the oddity of the likeliest unit. The oddity of a unit is a product of
+// ratios of at least 1.
 constexpr double most_odd = 2.7;
-// The present unit of a wide basin is right if each other unit is at least this many times as odd.
+// In a wide basin, the present unit is right if every other unit is clearly odder.
 constexpr double surely_odder = 1.35;
 
 double excess(double ratio) { return std::max(ratio, 1.0); }
@@ -99,8 +101,8 @@ double wideness_at(double factor, const Sizes &s) {
   return excess(factor * s.mesh_sides[2] / (largest_width * s.surface.largest_side()));
 }
 
-// Returns how odd the sizes are if the mesh's lengths are multiplied by the factor. The default half thickness has the valve's
-// unit, and thus limits the mesh's edges from above and below.
+// Returns the oddity of the sizes after the mesh's lengths are multiplied by the factor. A default half thickness has the valve's
+// unit, and the mesh's edges may be too long or too short for it.
 double oddity_at(double factor, const Sizes &s, double edge) {
   double oddity = narrowness_at(factor, s) * wideness_at(factor, s) *
                   excess(factor * edge / (longest_edge * s.surface.largest_side()));
@@ -145,7 +147,7 @@ UnitJudgement judge_units(const Sizes &s, const std::vector<double> &factors) {
   };
   possible.erase(std::remove_if(possible.begin(), possible.end(), is_impossible), possible.end());
   if (narrowness_at(1, s) == 1 && judgement.is_possible(1)) {
-    // A basin may have long edges everywhere but near the valve.
+    // A basin may have long edges everywhere except near the valve.
     const double edge = s.near_edge > 0 ? std::min(s.near_edge, s.median_edge) : s.median_edge;
     judgement.is_right |= s.is_unit_known || std::all_of(possible.begin(), possible.end(), [&](double factor) {
                             return factor == 1 || oddity_at(factor, s, edge) >= oddity_at(1, s, edge) * surely_odder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Units of length, and sizes that suggest one: the units that --unit and --surface-unit accept, boxes, and the guess of a unit.
+// Units of length: the units that --unit and --surface-unit accept, boxes, and the guess of a unit from sizes.
 #pragma once
 
 #include <algorithm>
@@ -13,29 +13,30 @@ namespace riis::program {
 
 enum class Unit { metre, centimetre, millimetre };
 
-// The next functions return the names of units. Options have names such as "m", messages such as "metres".
+// The next functions return the names of units. Options use names such as "m", and messages use words such as "metres".
 const std::vector<std::string> &unit_names();
 const char *name_of(Unit unit);
 const char *words_of(Unit unit);
-// Returns the unit with one of the names in unit_names(), or none for "".
+// Returns the unit with this name, or none for "".
 std::optional<Unit> unit_of(const std::string &name);
 
-// Returns the factor from one unit to the other. For example, this factor is 0.01 from centimetres to metres.
+// Returns the factor from one unit to the other. For example, the factor from centimetres to metres is 0.01.
 double factor_between(Unit from, Unit to);
 // Returns the paper's half thickness, which is 0.1 cm, in the given unit.
 double paper_half_thickness(Unit unit);
 
-// Returns the unit that equals `from` times the factor, or none.
+// Returns the unit in which lengths are `factor` times their numbers in the unit `from`, or none.
 std::optional<Unit> unit_reached(Unit from, double factor);
-// Returns the units of surface and mesh between which the factor converts. Returns none for other factors and for 1.
+// Returns the units of a surface and a mesh between which the factor converts. Returns none for the factor 1, and for a factor
+// that belongs to no two units.
 struct UnitPair {
   Unit surface, mesh;
 };
 std::optional<UnitPair> units_of_factor(double factor);
-// Returns the unit in which this number is the size of a heart valve, about 1 to 10 centimetres.
+// Returns the unit in which the given number is the size of a heart valve. Heart valves are about 1 to 10 centimetres large.
 std::optional<Unit> unit_of_valve(double largest_side);
 
-// A box along the axes.
+// A box whose sides are parallel to the axes.
 struct Box {
   double lower[3], upper[3];
 
@@ -48,7 +49,7 @@ struct Box {
   }
   void grow(const double *point) { grow(point, point); }
   void grow(const Box &other) { grow(other.lower, other.upper); }
-  // Returns the box with every side moved outwards.
+  // Returns the box after each side was moved outwards.
   Box widened(double by) const {
     return {{lower[0] - by, lower[1] - by, lower[2] - by}, {upper[0] + by, upper[1] + by, upper[2] + by}};
   }
@@ -67,8 +68,8 @@ inline Box empty_box() {
   return {{far, far, far}, {-far, -far, -far}};
 }
 
-// Sums over points. These sums tell how far the points reach along their principal axes, so a vessel that lies obliquely is not
-// taken for a wide one.
+// Sums over points, for their moments. The sums tell how far the points reach along their principal axes. A narrow vessel thus
+// does not count as wide if it lies obliquely.
 struct Moments {
   double n = 0, sum[3]{}, squares[6]{};  // squares has xx, yy, zz, xy, xz, yz
 
@@ -76,12 +77,12 @@ struct Moments {
   void add(const Moments &other);
 };
 
-// Returns the three sides of a mesh, the longest first. A side is at most the box's side, and at most the diameter of a disc
-// whose points would have the same moment. Without points, the sides are those of the box.
+// Returns the three sides of a mesh, the longest first. A side is at most as long as the side of the box, and at most the
+// diameter of a disc with the points' moment. Without points, the sides of the box are returned.
 std::array<double, 3> sides_of(const Box &box, const Moments &moments);
 
-// The sizes of a mesh and of a valve in it. The functions below tell whether they fit together, and which unit and which half
-// thickness would fit. The program's warnings and the lights of Python's view share these rules.
+// The sizes of a mesh and of a valve in the mesh. The functions below tell whether the sizes of mesh and valve fit together, and
+// which unit and which half thickness would fit. The program's warnings and the lights of Python's view follow the same rules.
 struct Sizes {
   std::array<double, 3> mesh_sides;  // the longest first
   Box surface;
@@ -93,19 +94,20 @@ struct Sizes {
   double unnamed_factor = 1;    // the factor that stands for a run without a unit
 };
 
-// These two limits of the half thickness are shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of
-// the largest side of its aortic valve.
+// The limits of the half thickness, as shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of the
+// largest side of its aortic valve.
 inline constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
 
-// is_too_large returns whether the half thickness exceeds a quarter of the surface. is_too_small returns whether the band falls
-// between the mesh's nodes.
+// is_too_large returns whether the half thickness is above a quarter of the surface's largest side. is_too_small returns whether
+// the band is so thin that it falls between the mesh's nodes.
 bool is_too_large(double half_thickness, const Sizes &sizes);
 bool is_too_small(double half_thickness, const Sizes &sizes);
-// Returns a half thickness that fits: the present one times a power of ten. If no usual value fits, returns the mesh's edge
-// length, or 0 if this length is also unfit.
+// Returns a half thickness that fits: the present half thickness times a power of ten. If no half thickness fits, returns the
+// mesh's edge length, or 0 if the edge length does not fit either.
 double better_half_thickness(const Sizes &sizes);
 
-// The judgement of the unit. A factor stands for a unit: it makes the mesh's lengths fit the surface's.
+// The judgement of a mesh's unit. A factor stands for a unit. Multiplied by the factor, the mesh's lengths are in the surface's
+// unit.
 struct UnitJudgement {
   bool is_right;  // nothing speaks against the present unit, so there is no advice
   std::vector<double>
@@ -114,14 +116,15 @@ struct UnitJudgement {
   bool is_possible(double factor) const { return std::find(factors.begin(), factors.end(), factor) != factors.end(); }
 };
 
-// Judges the present unit, and each of `factors`. These factors need not contain 1. A coarse basin in centimetres and a vessel in
-// millimetres can have the same numbers. The unit of a run without a unit therefore stays possible beside a likelier unit.
+// Judges the present unit, whose factor is 1, and the unit of each factor in `factors`. `factors` may leave out the factor 1. A
+// coarse basin in centimetres can have the same numbers as a vessel in millimetres. Without a named unit, the present unit
+// therefore stays possible even if another unit is likelier.
 UnitJudgement judge_units(const Sizes &sizes, const std::vector<double> &factors);
-// Returns whether the mesh is about as wide as the surface if the mesh's lengths are multiplied by the factor.
+// Returns whether the mesh is about as wide as the surface after its lengths are multiplied by the factor.
 bool is_as_wide(const Sizes &sizes, double factor);
-// The factors between any two units.
+// All factors between two different units.
 const std::vector<double> &unit_factors();
-// Returns the sizes as they would be with the surface scaled to fit the mesh.
+// Returns the sizes after the surface is scaled to fit the mesh.
 Sizes rescaled(const Sizes &sizes, double factor);
 
 }  // namespace riis::program

@@ -35,10 +35,10 @@ constexpr milliseconds longest_start{30000};  // of Xvfb; it takes less than a s
 constexpr milliseconds longest_end{3000};
 constexpr const char *name_of_server = "Xvfb";
 
-// The numbers that the files have in Xvfb.
+// The numbers of the file descriptors in Xvfb.
 enum ServerFile : int { display_file = 3, key_file = 4, n_server_files = 5 };
 
-// A file descriptor. Its number is above the numbers of the server's files, so that no such file replaces this one.
+// A file descriptor that Xvfb's files cannot replace, because its number is above their numbers.
 class File {
  public:
   explicit File(int low) : number_(low < 0 ? -1 : fcntl(low, F_DUPFD_CLOEXEC, 10)) {
@@ -79,7 +79,7 @@ bool write_all(int file, const std::vector<unsigned char> &bytes) {
   return write(file, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
 }
 
-// Makes a file in memory with a random key, in the format of Xauthority files. The key holds for any host and display.
+// Makes a file in memory with a random key, in the format of Xauthority files. The key is valid for any host and any display.
 int file_with_key() {
   std::vector<unsigned char> bytes;
   const auto append = [&bytes](const std::string &text) {
@@ -97,7 +97,8 @@ int file_with_key() {
   return -1;
 }
 
-// Becomes Xvfb. Runs between fork and exec, so it calls only functions that are safe in a signal handler.
+// Turns this process into Xvfb. The function runs between fork and exec, so it calls only functions that are safe in a signal
+// handler.
 [[noreturn]] void become_server(char *const *words, pid_t parent, int display, int key, int messages) {
   setsid();  // so that the user's Ctrl-C does not reach Xvfb before a file is complete
   prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -117,8 +118,8 @@ int file_with_key() {
   _exit(127);
 }
 
-// Reads the number of the display, which Xvfb writes with a line break when it is ready. Returns "" if Xvfb has ended, or if the
-// time is over.
+// Reads the number of the display. Xvfb writes the number and a line break when it is ready. Returns "" if Xvfb has ended, or if
+// no time is left.
 std::string read_number(int file, Clock::time_point end) {
   std::string text;
   for (;;) {
@@ -156,7 +157,7 @@ void end_process(pid_t process) {
   }
 }
 
-// Returns the last line with a reason among Xvfb's messages.
+// Returns the last of Xvfb's messages that gives a reason.
 std::string reason_of(int messages) {
   constexpr off_t most = 4096;
   std::array<char, most> bytes{};
@@ -178,7 +179,7 @@ struct Server {
   int error = 0;          // the errno of the failed start, or 0
 };
 
-// Starts Xvfb with more options, and waits until it is ready. Xvfb finds a free number for its display by itself.
+// Starts Xvfb with these additional options, and waits until it is ready. Xvfb chooses a free number for its display.
 Server start(const std::vector<std::string> &options, const File &key, const File &messages, Clock::time_point end) {
   std::vector<std::string> words = {program_on_path(name_of_server),
                                     "-displayfd",
@@ -228,8 +229,8 @@ VirtualDisplay::VirtualDisplay() : display_before_(variable("DISPLAY")), key_bef
   File key(file_with_key()), messages(memfd_create("riis-xvfb", MFD_CLOEXEC));
   if (!key.is_open() || !messages.is_open()) refuse(" cannot be started: " + system_text(errno));
   const Clock::time_point end = Clock::now() + longest_start;
-  // An abstract socket leaves no file behind, and needs no folder in /tmp that Xvfb may write. A release of Xvfb without such
-  // sockets gets a file.
+  // An abstract socket leaves no file behind, so Xvfb needs no writable folder in /tmp. If a release of Xvfb has no abstract
+  // sockets, Xvfb uses a socket in a file.
   Server server = start({"-nolisten", "unix"}, key, messages, end);
   if (server.display.empty() && server.error == 0 && Clock::now() < end) server = start({}, key, messages, end);
   if (server.error != 0) refuse(" cannot be started: " + system_text(server.error));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A virtual X display for pictures on a machine without a screen. The program Xvfb, of Debian's package xvfb, makes it.
+// A virtual X display for pictures on a machine without a screen. The program Xvfb makes the display. Xvfb is in Debian's package
+// xvfb.
 #pragma once
 
 #include <sys/types.h>
@@ -9,16 +10,17 @@
 
 namespace riis::program {
 
-// Throws a Refusal, which names the package, if Xvfb is not on the PATH.
+// Throws a Refusal that names Debian's package if Xvfb is not on the PATH.
 void check_virtual_display();
 
-// Starts Xvfb, and names its display in DISPLAY and XAUTHORITY. Only this process knows the key of the display. Xvfb ends with
-// this object, and also with the thread that made the object, however that ends. Two runs get two displays.
+// Starts Xvfb, and puts the display into the variables DISPLAY and XAUTHORITY. Only this process knows the key of the display.
+// Xvfb ends with this object. Xvfb also ends if the thread that made the object ends for any reason. Each run of the program has
+// a separate display.
 class VirtualDisplay {
  public:
   // Throws a Refusal if Xvfb is missing, ends early, or is not ready in time.
   VirtualDisplay();
-  // Gives DISPLAY and XAUTHORITY their former values.
+  // Restores the former values of DISPLAY and XAUTHORITY.
   ~VirtualDisplay();
   VirtualDisplay(const VirtualDisplay &) = delete;
   VirtualDisplay &operator=(const VirtualDisplay &) = delete;

@@ -48,7 +48,7 @@ void finish_units(ValveOptions &options) {
   apply_units(options);
 }
 
-// Refuses a motion without a time, a time without a motion, and a period without a motion or a cycle.
+// Refuses a motion without a time, and a time without a motion. Also refuses a period if there is neither a motion nor a cycle.
 void check_motion(const Command &command, const MarkOptions &options) {
   check_surface_files(command, options);
   const bool moves = is_motion(options);
@@ -65,11 +65,11 @@ void check_open_state(const ValveOptions &options) {
     refuse_usage("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
 }
 
-// Refuses an open state without an opening. Most valves are closed by default, so the option would have no effect, and the user
-// would not notice.
+// Refuses an open state if the user gave no opening. Most valves are closed by default, so the open state would have no effect,
+// and the user would not notice.
 void check_open_state_is_met(const MarkOptions &options) {
   if (!options.params_open.empty() && !sets_opening(options) && options.series.cycle.empty())
-    refuse_usage("--params-open needs --opening or --cycle: without either the valve does not open to that state");
+    refuse_usage("--params-open needs --opening or --cycle: otherwise the valve does not open to this state");
 }
 
 void check_series(const Command &command, const MarkOptions &options) {
@@ -104,8 +104,8 @@ void finish_valve(const Command &command, ValveOptions &options) {
   finish_units(options);
 }
 
-// Finishes the options of a surface in a mesh. Options that the command lacks have no effect. `sweeps_openings` says whether the
-// command itself opens the valve.
+// Completes the options of a surface in a mesh. Options that the command does not have are left at their defaults.
+// `sweeps_openings` says whether the command opens the valve by itself.
 void finish_surface_in_place(const Command &command, MarkOptions &options, bool sweeps_openings = false) {
   check_valve(command, options);
   check_series(command, options);
@@ -119,7 +119,8 @@ void check_distance(const Command &command, const MarkOptions &options) {
     refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
 }
 
-// Refuses looks that no picture has, and looks that a movie or a picture without a mesh cannot have.
+// Refuses options for the looks of pictures if there is neither a picture nor a movie. Also refuses options for looks that a
+// movie, or a picture without a mesh, cannot have.
 void check_style(const Command &command, const MarkOptions &options) {
   const std::string &movie = options.series.movie;
   const PictureStyle &style = options.style;
@@ -147,7 +148,7 @@ void check_folder_name(const std::string &folder) {
     refuse_usage("FOLDER: '" + folder + "' has a blank, and svMultiPhysics cannot read such a path");
 }
 
-// A kind of valve has its sizes in centimetres, so its scale tells the unit of the mesh.
+// The sizes of a kind of valve are in centimetres, so a valve's scale determines the unit of the mesh.
 void check_solver_scale(const ExportOptions &options) {
   if (options.unit || !options.has_scale || is_valve_file(options.valve)) return;
   const auto unit = unit_reached(Unit::centimetre, options.surface_options.scale);
@@ -157,7 +158,8 @@ void check_solver_scale(const ExportOptions &options) {
                " in place of --scale, and riis export converts");
 }
 
-// svMultiPhysics gets grams, centimetres and seconds. Without --unit, plain numbers are in the solver's units.
+// svMultiPhysics gets numbers in grams, centimetres and seconds. Without --unit, numbers are taken as they are, in the solver's
+// units.
 void finish_solver_units(ExportOptions &options) {
   check_solver_scale(options);
   const auto in_solver_units = [&](const std::optional<Amount> &given, const Quantity &quantity, double usual) {
@@ -173,7 +175,8 @@ void finish_solver_units(ExportOptions &options) {
   options.viscosity = in_solver_units(options.given_viscosity, a_viscosity, blood_viscosity);
 }
 
-// Turns the area into the mesh's unit. The parameters of a kind are in centimetres, so without --scale the unit is known.
+// Converts the area into the mesh's unit. The parameters of a kind are in centimetres. Without --scale the mesh's unit is
+// therefore known.
 void finish_areas(AreaOptions &options) {
   const bool is_in_centimetres = !options.has_scale && !is_valve_file(options.valve);
   const std::optional<Unit> unit = options.unit        ? options.unit
@@ -202,11 +205,11 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
   if (options.at_cells) {
     if (!options.pictures.empty()) refuse_usage("--cells: --picture shows marks of nodes");
     if (!options.series.movie.empty()) refuse_usage("--cells: --movie shows marks of nodes");
-    if (options.n_steps > 0) refuse_usage("--cells: --steps times marks of nodes");
+    if (options.n_steps > 0) refuse_usage("--cells: --steps marks nodes, not centres");
     options.series.all_cells = true;  // centres have no parts
   }
   if (options.n_steps > 0 && (has_case || !options.series.times.empty()))
-    refuse_usage("--steps has no effect with --times and --case, because --steps itself moves one valve");
+    refuse_usage("--steps has no effect with --times and --case, because --steps moves one valve by itself");
   if (has_case) return options;
   apply_amounts(options);
   if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
@@ -254,7 +257,8 @@ AreaOptions finish_from_area(const Command &command, AreaOptions options) {
   if (!options.given_area && options.areas.empty()) refuse_usage("nothing to do: --area or --areas is needed");
   if (!options.areas.empty() && options.output.empty()) refuse_usage("--areas needs --output, the file of the cycle");
   if (options.solve == "opening" && sets_opening(options))
-    refuse_usage("an opening has no effect: --solve opening finds it; --solve scale or NAME finds a size");
+    refuse_usage(
+        "an opening has no effect, because --solve opening finds the opening; --solve scale or NAME finds a size");
   finish_valve(command, options);
   finish_areas(options);
   return options;
@@ -262,7 +266,7 @@ AreaOptions finish_from_area(const Command &command, AreaOptions options) {
 
 ExportOptions finish_export(const Command &command, ExportOptions options) {
   check_folder_name(options.folder);
-  // Two dashes would end a comment in the XML.
+  // Two dashes in a row would end the comment in the XML file.
   if (command.has("--name") && (!is_prefix(options.name) || options.name.find("--") != std::string::npos))
     refuse_usage("--name: '" + options.name.substr(0, 64) + "' must be 1 to 64 letters, digits, _, . and single -");
   if (command.has("--ring") && options.valve != "bileaflet")
@@ -286,7 +290,7 @@ PlaceOptions finish_place(const Command &command, PlaceOptions options) {
     refuse_usage("--valve: " + options.valve + " is a file; landmarks place a kind of valve");
   use_named_valve(options);
   if (options.output != "-" && !options.output.empty() && !is_valve_file(options.output))
-    refuse_usage("--output: " + options.output + " must end in .json, so that other commands take it");
+    refuse_usage("--output: " + options.output + " must end in .json, so that other commands accept the file");
   check_set_opening(options, "has no effect: landmarks are those of the closed valve");
   return options;
 }
@@ -322,7 +326,7 @@ void apply_units(ValveOptions &options) {
 void apply_amounts(MarkOptions &options) {
   const bool has_fields = is_foam_case(options.output) || is_foam_time(options.output);
   if (options.density && !has_fields)
-    refuse_usage("--density has no effect: only K in the fields of a case of OpenFOAM is divided by it");
+    refuse_usage("--density has no effect: it divides K only in the fields of an OpenFOAM case");
   if (!options.given_resistance) return;
   const Amount &given = *options.given_resistance;
   if (given.number < 0) throw Refusal{given.exit_code, given.subject + " is " + given.text + "; it must be at least 0"};

@@ -17,8 +17,8 @@ namespace riis::program {
 
 namespace {
 
-// Formats an option as its name and the type of its value. CLI11's own format also lists the options that an option excludes and
-// needs, which would make the help too long for a screen.
+// Formats an option as its name and the type of its value. CLI11's own format would also list the options that an option excludes
+// and needs, and the help would be too long for a screen.
 class BriefHelp : public CLI::Formatter {
  public:
   BriefHelp() { column_width(36); }
@@ -30,7 +30,7 @@ class BriefHelp : public CLI::Formatter {
   }
 };
 
-// Replaces two blank lines by one.
+// Replaces two blank lines by one blank line.
 std::string tidied(std::string help) {
   for (std::size_t at = 0; (at = help.find("\n\n\n", at)) != std::string::npos;) help.erase(at, 1);
   return help;
@@ -52,8 +52,8 @@ void check_equals_signs(int argc, char **argv) {
   }
 }
 
-// Returns a hint about words that are left over on the command line. Usually the user typed a value as several words, but
-// the option takes one word.
+// Returns a hint for words on the command line that belong to no option. Usually the user typed the value of an option as several
+// words.
 std::string hint_of(const CLI::App &app) {
   const struct {
     const char *name;
@@ -80,8 +80,8 @@ std::vector<std::string> names_of_options(const CLI::App &app) {
 
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
-// Returns a list of the words that CLI11 did not understand, in the order of typing. (CLI11 does not keep this order.) If there
-// are unknown options among these words, the list has only the options. Other words may be values of the options.
+// Returns the words that CLI11 did not understand, in the order of typing. (CLI11 does not keep the order of the words.) If some
+// of these words are unknown options, returns only the options. The remaining words may be values of the unknown options.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();
   const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);
@@ -116,7 +116,7 @@ const CLI::App &command_named(const CLI::App &app, const std::string &word) {
   refuse_usage("'" + word.substr(0, 64) + "' is not a command" + did_you_mean(word, names) + hint);
 }
 
-// Refuses a command line whose first words are neither a complete command nor a request for help or the version.
+// Refuses a command line if its first words are neither a complete command nor a request for help or the version.
 void check_commands(const CLI::App &app, int argc, char **argv) {
   const CLI::App *at = &app;
   for (int i = 1; !commands_of(*at).empty(); ++i) {
@@ -129,7 +129,7 @@ void check_commands(const CLI::App &app, int argc, char **argv) {
   }
 }
 
-// Returns the command that was parsed: the innermost one, if commands contain commands.
+// Returns the command that was parsed. If commands contain commands, returns the innermost command.
 const CLI::App &innermost(const CLI::App &app) {
   const CLI::App *at = &app;
   while (!at->get_subcommands().empty()) at = at->get_subcommands().front();
@@ -150,7 +150,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
     made->footer(help_of(name));
     return made;
   };
-  // For each command with options: the command, and the call that turns these options into the request.
+  // For each command with options: CLI11's object, and a call that turns the options into a request.
   std::vector<std::pair<const CLI::App *, std::function<Request()>>> commands;
   const auto add = [&](CLI::App &in, const char *name, const char *what, auto declare, auto finish, auto options) {
     const Command command(named(in, name, what));
@@ -163,7 +163,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   add(app, "surface", "Write or draw the triangles of a valve, without a mesh", declare_surface, finish_surface,
       MarkOptions());
   add(app, "states", "Measure a valve at openings from 0 to 1", declare_states, finish_states, StatesOptions());
-  add(app, "from-area", "Find the opening or the size at which a valve's orifice has an area", declare_from_area,
+  add(app, "from-area", "Find the opening or the size of a valve from the area of its orifice", declare_from_area,
       finish_from_area, AreaOptions());
   CLI::App *checks = named(app, "check", "Look for leaflets that cross, or for ways through a valve");
   checks->require_subcommand(1);

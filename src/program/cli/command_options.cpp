@@ -15,13 +15,14 @@ namespace {
 // The largest number of openings that riis states and riis size-field accept.
 constexpr std::int32_t most_states = 100001;
 
-// The position of each name is the value of LandmarkWarp that it stands for.
+// A name's position in the list is the value of its constant of LandmarkWarp.
 const std::vector<std::string> warp_names = {"none", "exact", "smoothed"};
 
-// The position of each name is the value of UrisRing that it stands for.
+// A name's position in the list is the value of its constant of UrisRing.
 const std::vector<std::string> ring_names = {"face", "none"};
 
-// Refuses numbers that are not above 0. RIIS_AUTO is a negative number, and a user's number must not be mistaken for it.
+// Refuses numbers that are not above 0. RIIS_AUTO is a negative number, so a negative number from the user would count as
+// RIIS_AUTO.
 double parse_positive(const std::string &text, const std::string &subject) {
   const double number = parse_number(text, subject);
   if (!(number > 0)) refuse_usage(subject + ": " + text + " is not above 0");
@@ -48,7 +49,7 @@ std::int32_t parse_count(const std::string &text, const std::string &subject) {
   return n;
 }
 
-// Returns a function that reads an amount of a quantity.
+// Returns a function that reads a number with its unit.
 auto amount_of(const Quantity &quantity) {
   return [&](const std::string &text, const std::string &subject) { return parse_amount(text, subject, quantity); };
 }
@@ -99,20 +100,19 @@ void declare_valve(Command &command, ValveOptions &options) {
 }
 
 void declare_opening(Command &command, ValveOptions &options) {
-  command.parsed("--opening", "X", "How far the valve is open, from 0, closed, to 1, open", options.opening,
-                 parse_opening);
+  command.parsed("--opening", "X", "Opening of the valve, from 0 (closed) to 1 (open)", options.opening, parse_opening);
 }
 
-// Declares the options of a valve's shape besides its opening.
+// Declares the options of a valve's shape, without its opening.
 void declare_shape(Command &command, ValveOptions &options) {
-  command.text("--params-open", "FILE.json", "Parameters of the state that the valve opens to", options.params_open);
-  command.text("--warp", "FILE.json|.csv", "Landmarks on the valve, and in the patient, to which the valve is warped",
+  command.text("--params-open", "FILE.json", "Parameters of the open state of the valve", options.params_open);
+  command.text("--warp", "FILE.json|.csv", "Landmarks on the valve and in the patient, for a warp of the valve",
                options.warp);
-  CLI::Option *const skirt =
-      command.parsed("--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, the longest",
-                     options.skirt, parse_positive_finite);
+  CLI::Option *const skirt = command.parsed(
+      "--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, its largest length",
+      options.skirt, parse_positive_finite);
   command
-      .text("--wall", "FILE", "A surface in the mesh's frame that the skirt reaches, in a format of --surface",
+      .text("--wall", "FILE", "The wall that the skirt reaches, in the mesh's coordinates and in a format of --surface",
             options.wall)
       ->needs(skirt);
 }
@@ -144,7 +144,7 @@ CLI::Option *declare_surface_files(Command &command, ValveOptions &options) {
   return surface;
 }
 
-// Declares the options of a surface from a file, and the options of any surface's triangles.
+// Declares the options of a surface from a file, and the options of the triangles of any surface.
 void declare_file(Command &command, ValveOptions &options) {
   riis_surface_options &how = options.surface_options;
   command.group("Surface");
@@ -199,7 +199,7 @@ void declare_half_thickness(Command &command, ValveOptions &options) {
                  options.surface_options.offset, parse_number);
 }
 
-// Declares all options that determine a placed surface, except for its half thickness.
+// Declares the options of a placed surface, without the option of its half thickness.
 void declare_surface_in_place(Command &command, ValveOptions &options) {
   declare_valve(command, options);
   declare_opening(command, options);
@@ -208,7 +208,7 @@ void declare_surface_in_place(Command &command, ValveOptions &options) {
   declare_placement(command, options);
 }
 
-// Declares all options that determine a placed surface and its half thickness.
+// Declares the options of a placed surface, with the option of its half thickness.
 void declare_placed_valve(Command &command, ValveOptions &options) {
   declare_surface_in_place(command, options);
   declare_half_thickness(command, options);
@@ -216,7 +216,7 @@ void declare_placed_valve(Command &command, ValveOptions &options) {
 
 // Declares --threads. The option applies to the search for nodes and to the search for crossings.
 void declare_threads(Command &command, MarkOptions &options) {
-  command.value("--threads", "N", "Number of threads (default as many as have work)",
+  command.value("--threads", "N", "Number of threads (default as many as the work can use)",
                 [&options](const std::string &text) {
                   options.n_threads = options.mark_options.n_threads = parse_integer(text, "--threads");
                 });
@@ -237,15 +237,15 @@ void declare_marking(Command &command, MarkOptions &options) {
       command.parsed("--resistance", "R", "Write riis_K, R/eps times the delta function at each node; R in kg/(m s)",
                      options.given_resistance, amount_of(a_resistance));
   command
-      .parsed("--k-unit", "UNIT", "Unit of riis_K (default of kg, m, s; g, cm, s; or g, mm, s)", options.chosen_K_unit,
-              [](const std::string &text, const std::string &) { return text; })
+      .parsed("--k-unit", "UNIT", "Unit of riis_K (default by the mesh's unit: from kg, m, s; g, cm, s; or g, mm, s)",
+              options.chosen_K_unit, [](const std::string &text, const std::string &) { return text; })
       ->needs(resistance);
   command
       .parsed("--density", "RHO", "Density in kg/m3, by which OpenFOAM's fields of K are divided", options.density,
               positive_amount_of(a_density))
       ->needs(resistance);
-  command.parsed("--far-distance", "X", "riis_distance of nodes beyond the limit (default 1e30)", options.far_distance,
-                 parse_number);
+  command.parsed("--far-distance", "X", "Value of riis_distance at nodes beyond the limit (default 1e30)",
+                 options.far_distance, parse_number);
   command
       .choice("--distance", "Distances to triangles (default), or by sampling or minimization", distance_names,
               options.surface_options.measure)
@@ -254,7 +254,7 @@ void declare_marking(Command &command, MarkOptions &options) {
                  options.surface_options.measure_tolerance, parse_positive);
   declare_search(command, options);
   command
-      .value("--steps", "N", "Also time N steps: each moves the opening by 0.02 and marks again",
+      .value("--steps", "N", "Also measure the time of N steps: each moves the opening by 0.02 and marks again",
              [&options](const std::string &text) {
                options.n_steps = parse_integer(text, "--steps");
                if (options.n_steps < 1) refuse_usage("--steps: " + text + " is not above 0");
@@ -302,15 +302,15 @@ void declare_style(Command &command, PictureStyle &style) {
   command.parsed("--picture-size", "WIDTHxHEIGHT", "Pixels of pictures and movies (default 1600x800)", style.size,
                  parse_size);
   command.parsed("--picture-background", "COLOUR",
-                 "white (default), black, transparent, or as f4f1ea: riis help pictures", style.background,
-                 parse_background);
-  command.choice("--picture-captions", "all (default), scale (only the scale bar) or none", caption_names,
+                 "white (default), black, transparent, or a colour such as f4f1ea: riis help pictures",
+                 style.background, parse_background);
+  command.choice("--picture-captions", "Captions: all (default), scale (only the scale bar) or none", caption_names,
                  style.captions, "WHICH");
   command.choice("--picture-panels", "both (default), valve or marks", panel_names, style.panels, "WHICH");
 }
 
-// --view is declared after --picture, so CLI11 passes the pictures first. The number of pictures is then known when the views are
-// read.
+// CLI11 passes on the pictures before the views, because --view is declared after --picture. The number of pictures is therefore
+// known when the views are read.
 void declare_pictures(Command &command, MarkOptions &options) {
   CLI::Option *const pictures =
       command
@@ -341,8 +341,8 @@ void declare_cycle(Command &command, std::string &cycle, std::int32_t &interpola
   CLI::Option *const file =
       command.text("--cycle", "FILE.csv", "Times and openings of the valve, in two columns", cycle);
   command
-      .choice("--interpolation", "Between the times of the cycle: linear (default) or cubic", interpolation_names(),
-              interpolation)
+      .choice("--interpolation", "Interpolation between the times of the cycle: linear (default) or cubic",
+              interpolation_names(), interpolation)
       ->needs(file);
 }
 
@@ -351,7 +351,7 @@ CLI::Option *declare_case(Command &command, SeriesOptions &series) {
                       series.case_file);
 }
 
-// Excludes those of the command's options for which the case file has its own values.
+// Excludes the options whose values are in the case file.
 void exclude_by_case(const Command &command, CLI::Option *all_of_it) {
   for (const char *name :
        {"--surface", "--leaflets",      "--valve",         "--opening",        "--params",         "--params-open",
@@ -370,10 +370,11 @@ void declare_series(Command &command, MarkOptions &options) {
                      series.times, parse_times);
   declare_cycle(command, series.cycle, series.interpolation);
   CLI::Option *const all_of_it = declare_case(command, series);
-  command.flag("--all-cells", "Write the whole mesh each time, not only the cells near the sweep", series.all_cells);
+  command.flag("--all-cells", "Write the whole mesh at each time, not only the cells near the moving valve",
+               series.all_cells);
   command.text("--series-table", "OUT.csv", "Write time, opening, marked nodes and speed of each step", series.table);
   CLI::Option *const movie =
-      command.text("--movie", "OUT.mp4|OUT.gif", "Draw each time and make a movie of it, by ffmpeg", series.movie);
+      command.text("--movie", "OUT.mp4|OUT.gif", "Make a movie of all times, by ffmpeg", series.movie);
   command
       .parsed("--frame-rate", "N", "Frames of the movie per second (default 10)", series.frame_rate,
               parse_positive_finite)
@@ -386,7 +387,7 @@ void declare_series(Command &command, MarkOptions &options) {
 
 void declare_cells_where(Command &command, ValveOptions &options) {
   command.text("--cells-where", "NAME=VALUES",
-               "Take only cells with such a value of a cell array, or gmsh:physical=NAME: riis help mesh",
+               "Take only the cells with these values of a cell array, or gmsh:physical=NAME: riis help mesh",
                options.cells_where);
 }
 
@@ -406,18 +407,19 @@ void declare_allow_none(Command &command, MarkOptions &options) {
 
 void declare_mark(Command command, MarkOptions &options) {
   declare_mesh(command, options);
-  command.flag("--cells", "Mark the centres of the cells, not the nodes; arrays are then arrays of cells",
+  command.flag("--cells", "Mark the centres of cells, not the nodes; the output then has cell arrays",
                options.at_cells);
   declare_surface_in_place(command, options);
   declare_marking(command, options);
   command.group("Output");
   CLI::Option *const output = command.text(
       "--output", "OUT",
-      "Write the marked mesh: .vtu, .xdmf; .pvtu, .vti or .vtr if MESH is one; --cells: fields in CASE/TIME",
+      "Write the marked mesh: .vtu or .xdmf; .pvtu, .vti or .vtr if MESH has this ending; --cells: fields in CASE/TIME",
       options.output);
   command.text("--prefix", "NAME", "Names of the arrays: NAME_marked and so on (default riis)", options.prefix)
       ->needs(output);
-  command.flag("--replace", "Replace arrays of these names that the mesh already has", options.replace)->needs(output);
+  command.flag("--replace", "Replace arrays of the mesh that have the names of new arrays", options.replace)
+      ->needs(output);
   declare_allow_none(command, options);
   command.text("--surface-output", "OUT.vtp", "Write the placed triangles", options.surface_output);
   declare_pictures(command, options);
@@ -447,7 +449,8 @@ void declare_crossings(Command command, MarkOptions &options) {
 
 void declare_leaks(Command command, MarkOptions &options) {
   declare_mesh(command, options);
-  command.flag("--cells", "Take the centres of the cells as the nodes, as riis mark --cells does", options.at_cells);
+  command.flag("--cells", "Use the centres of cells in place of the nodes, as riis mark --cells does",
+               options.at_cells);
   command
       .values("--between", "X,Y,Z X,Y,Z", "Say whether and where unmarked nodes join these two points",
               [&options](const std::vector<std::string> &ends) {
@@ -462,7 +465,8 @@ void declare_leaks(Command command, MarkOptions &options) {
   command
       .flag("--first-passage", "Also tell at which opening unmarked nodes first join the points", options.first_passage)
       ->needs(command.option("--between"));
-  command.flag("--demand-sealed", "Exit with status 4 unless the valve seals", options.demand_sealed);
+  command.flag("--demand-sealed", "Exit with status 4 if the valve leaks, or if this is unknown",
+               options.demand_sealed);
   CLI::Option *const resistance =
       command.parsed("--resistance", "R", "Resistance of the valve in kg/(m s), for the ideal leak",
                      options.given_resistance, positive_amount_of(a_resistance));
@@ -492,7 +496,7 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
                  options.growth, parse_positive_finite);
   command.parsed("--largest-edge", "L", "Largest edge length, in the mesh's unit (default 4 half thicknesses)",
                  options.largest_edge, parse_positive_finite);
-  command.parsed("--spacing", "L", "Spacing of the grid, in the mesh's unit (default half a half thickness)",
+  command.parsed("--spacing", "L", "Spacing of the grid, in the mesh's unit (default 0.5 half thicknesses)",
                  options.spacing, parse_positive_finite);
   command.parsed("--count", "N", "Number of openings (default 41)", options.n_openings, parse_count);
   declare_threads(command, options);
@@ -532,13 +536,15 @@ void declare_from_area(Command command, AreaOptions &options) {
       command.parsed("--area", "A", "The area in the mesh's unit squared, or with a unit, such as '2.5 cm2'",
                      options.given_area, amount_of(an_area));
   CLI::Option *const areas =
-      command.text("--areas", "FILE.csv", "Areas in time, which become a cycle of openings: time, area", options.areas);
+      command.text("--areas", "FILE.csv",
+                   "File of areas in time, for a cycle of openings; its columns are time and area", options.areas);
   area->excludes(areas);
   command
       .parsed("--area-unit", "UNIT", "Unit of the areas in --areas, such as cm2 (default the mesh's unit squared)",
               options.area_unit, [](const std::string &text, const std::string &) { return text; })
       ->needs(areas);
-  command.flag("--effective", "The areas are effective areas, which the band leaves to the flow", options.is_effective);
+  command.flag("--effective", "The areas are effective areas: without the part that the band closes",
+               options.is_effective);
   command
       .text("--solve", "opening|scale|NAME", "What to find: the opening (default), the scale, or a parameter",
             options.solve)
@@ -565,7 +571,7 @@ void declare_export(Command command, ExportOptions &options) {
   declare_cells_where(command, options);
   command.option("--cells-where")->needs(command.option("MESH"));
   command
-      .parsed("--time-step", "DT", "Time step of the solver, which plays one frame a step", options.time_step,
+      .parsed("--time-step", "DT", "Time step of the solver, which plays one frame in each step", options.time_step,
               parse_positive_finite)
       ->required();
   command
@@ -643,8 +649,8 @@ void declare_place(Command command, PlaceOptions &options) {
   command.group("Valve");
   command.text("--valve", "KIND", "aortic, coapting, mitral, trileaflet or bileaflet (default that of the file)",
                options.valve);
-  command.text("--params", "FILE.json", "Parameters of the valve that serves as the template", options.params);
-  declare_settings(command, "Set and keep one parameter, in cm; may be repeated", options);
+  command.text("--params", "FILE.json", "Parameters of the valve before the landmarks size it", options.params);
+  declare_settings(command, "Set one parameter, in cm, and keep it; may be repeated", options);
 }
 
 void declare_patient(Command command, PatientOptions &options) {
@@ -666,10 +672,14 @@ void declare_patient(Command command, PatientOptions &options) {
   command.flag("--replace", "Replace the files that an earlier riis patient wrote to FOLDER", options.replace);
   declare_loudness(command, options);
   command.group("Landmarks and wall (lengths without a unit and points are in the unit of WALL)");
-  declare_unit_of(command, "--wall-unit", "Unit of WALL (default found: landmarks lie at the wall)", options.wall_unit);
-  command.text("--axes", "LPS|RAS", "Axes of WALL (default found in the same way)", options.axes)
+  declare_unit_of(command, "--wall-unit", "Unit of WALL (default the unit in which the landmarks lie at the wall)",
+                  options.wall_unit);
+  command
+      .text("--axes", "LPS|RAS", "Axes of WALL (default the axes with which the landmarks lie at the wall)",
+            options.axes)
       ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
-  declare_unit_of(command, "--unit", "Unit of the files in FOLDER (default the solver's, else that of WALL)",
+  declare_unit_of(command, "--unit",
+                  "Unit of the files in FOLDER (default that of the solver; without a solver that of WALL)",
                   options.unit);
   command.choice("--warp", "Warp the valve to the landmarks: none, exact, or smoothed by their noise (default)",
                  warp_names, options.warp_choice);
@@ -677,10 +687,11 @@ void declare_patient(Command command, PatientOptions &options) {
                  options.noise, amount_of(a_length));
   command.value("--flow", "X,Y,Z", "Direction of flow through the valve, in the axes of WALL",
                 [&options](const std::string &text) { options.flow = parse_list(text, "--flow", 3, "X,Y,Z"); });
-  command.value("--inlet", "X,Y,Z", "A point near the flat end that the blood comes from (default found by the valve)",
+  command.value("--inlet", "X,Y,Z", "A point near the flat end through which blood enters (default found by the valve)",
                 [&options](const std::string &text) { options.inlet = parse_list(text, "--inlet", 3, "X,Y,Z"); });
   command
-      .values("--outlet", "X,Y,Z", "A point near an end that the blood leaves by; may be repeated (default all others)",
+      .values("--outlet", "X,Y,Z",
+              "A point near an end through which blood leaves; may be repeated (default all other ends)",
               [&options](const std::vector<std::string> &texts) {
                 for (const std::string &text : texts)
                   options.outlets.push_back(parse_list(text, "--outlet", 3, "X,Y,Z"));
@@ -689,8 +700,8 @@ void declare_patient(Command command, PatientOptions &options) {
   command.group("Valve");
   command.text("--valve", "KIND|DISEASE", "coapting, mitral or another kind, or a disease (default by the landmarks)",
                options.valve);
-  command.text("--params", "FILE.json", "Parameters of the valve that serves as the template", options.params);
-  declare_settings(command, "Set and keep one parameter, in cm; may be repeated", options);
+  command.text("--params", "FILE.json", "Parameters of the valve before the landmarks size it", options.params);
+  declare_settings(command, "Set one parameter, in cm, and keep it; may be repeated", options);
   command.parsed("--skirt", "L", "The longest acceptable skirt from the valve to the wall (default 6 mm)",
                  options.given_skirt, positive_amount_of(a_length));
   command.group("Mesh and flow");

@@ -78,9 +78,9 @@ riis help patient explains the steps. The program gmsh makes the mesh.)"},
   riis view --wall root.stl --landmarks landmarks.mrk.json
   riis view root.vtu --valve placed.json --wall root.stl
   riis view --open valve.view.json
-A page in the browser has the mesh, the wall, the valve and sliders for its sizes. Landmarks are picked on the wall, and place
-the valve. Other options: --port N, and --cells-where NAME=VALUES as in riis mark. RIIS_PYTHON names the Python that has the
-package riis; python3 unless set.)"},
+A page in the browser shows the mesh, the wall, the valve, and sliders for the valve's sizes. Landmarks that you pick on the
+wall place the valve. Other options: --port N, and --cells-where NAME=VALUES as in riis mark. RIIS_PYTHON names the Python that
+has the package riis. The default is python3.)"},
     {"help", R"(Examples:
   riis help units)"},
     {"riis", R"(Examples:
@@ -101,32 +101,33 @@ const Topic topics[] = {
 The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
 1), riis_distance (Float64) and riis_leaflet (Int32: -1 for none). --prefix NAME names them NAME_marked and so on, so a mesh
 can have the marks of several valves. An array that the mesh already has is replaced only with --replace.
-A .vti or .vtr is read as three axes, and --output may have the same ending. Its nodes are its points, which have six neighbours.
-Other structured grids, such as .vts or a turned image, become hexahedra with points.
---cells-where NAME=VALUES takes only the cells with such a value of a cell array, such as the fluid of a mesh that also has the
-wall: --cells-where region=1,2. The rest of the file does not count, and is not written. riis_node_id and riis_cell_id then have
-the ids in the whole mesh, from 0. gmsh's physical groups are the array gmsh:physical, and VALUES may be their names. If domains
-touch and none is chosen, a line on stderr says so.
+A .vti or .vtr is read as three axes, and --output may have the same ending. The nodes of such a grid are its points, and inside
+the grid each node has six neighbours. Other structured grids, such as .vts or a turned image, become hexahedra with points.
+--cells-where NAME=VALUES takes only the cells with these values of a cell array. For example, --cells-where region=1,2 may take
+the fluid of a mesh that also has the wall. All other cells of the file are ignored, and are not written. The arrays
+riis_node_id and riis_cell_id then have the ids in the whole mesh, counted from 0. The physical groups of gmsh are in the array
+gmsh:physical, and VALUES may be names of groups. If domains touch and you choose none, a line on stderr says so.
 )"},
     {"pieces", "meshes larger than memory, and MPI",
      R"(
 A .pvtu file lists the pieces of a mesh, .vtu files. The pieces are read, marked and written one by one. Counts, leaks and
-passages are those of the whole mesh. Nodes of two pieces are the same node if their global ids are equal (the point array
-with VTK's attribute GlobalIds, vtkGlobalIds, GlobalNodeId or GlobalPointIds). Without global ids, all their coordinates must be
-equal. Ghost cells (vtkGhostType 1) do not count. --output marked.pvtu writes the pieces to the folder marked.
+passages are those of the whole mesh. Nodes of two pieces are the same node if their global ids are equal (the point array with
+VTK's attribute GlobalIds, vtkGlobalIds, GlobalNodeId or GlobalPointIds). Without global ids, nodes with equal coordinates are
+the same node. Ghost cells (vtkGhostType 1) do not count. --output marked.pvtu writes the pieces to the folder marked.
 A series reads each piece once. Pictures, movies, --cells, --steps and --search paper need the whole mesh.
-A program built with RIIS_PROGRAM_MPI shares out the pieces: mpirun -n 8 riis mark mesh.pvtu --threads 1 --output marked.pvtu
+A program that was built with RIIS_PROGRAM_MPI distributes the pieces among processes:
+mpirun -n 8 riis mark mesh.pvtu --threads 1 --output marked.pvtu
 )"},
     {"units", "units of lengths, and the scale",
      R"(
-Lengths are in the mesh's unit. --unit names that unit, and the program derives the scale from it. The parameters of the
-kinds of valves are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the unit of that
-file. With --unit the default half thickness is the paper's, 0.1 cm. Without --unit the program knows no units, and --scale
-is the factor from the surface's unit to the mesh's.
+Lengths are in the mesh's unit. --unit names this unit, and the scale follows from the unit. The parameters of the kinds of
+valves are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the unit of that file. With
+--unit the default half thickness is the paper's, 0.1 cm. Without --unit the program knows no units, and --scale is the factor
+from the surface's unit to the mesh's.
 If --unit, a placed valve or a case names the unit of the mesh, --resistance is in kg/(m s), --density in kg/m3, --viscosity in
 Pa s and --drop in Pa. A number may also have a unit: --resistance '1e5 g/(cm s)'. riis_K is then in kg/(m3 s) for m, g/(cm3 s)
-for cm and g/(mm3 s) for mm, or in the unit of --k-unit. The file and the report name its unit. If the unit of the mesh is not
-known, plain numbers and K are in the units of the mesh. OpenFOAM's fields of K are divided by --density.
+for cm and g/(mm3 s) for mm, or in the unit of --k-unit. The file and the report name the unit of K. If the unit of the mesh is
+not known, plain numbers and K are in the units of the mesh. OpenFOAM's fields of K are divided by --density.
 )"},
     {"valves", "the kinds of valves, and their diseases",
      R"(
@@ -140,78 +141,82 @@ tricuspid        three leaflets with a zone of coaptation: anterior, septal, pos
 bileaflet        a mechanical prosthesis
 FILE.json        a valve of your own (riis help patches)
 Cusps and commissures have sizes of their own: cusp_0.sector, cusp_0.effective_height, commissure_0.height. Sectors are angles,
-and are scaled to a sum of 360 degrees. commissure_0.fusion is the share of the meeting line over which two cusps are one.
+and are scaled to a sum of 360 degrees. commissure_0.fusion is the share of the meeting line over which two cusps are fused.
 Cusps, leaflets and commissures count from 0, counter-clockwise seen from +z. Commissure 0 is between the leaflets 0 and 1.
-A bump changes one place of a free edge. bump_0.leaflet and bump_0.u choose the place, or bump_0.commissure chooses a
-commissure. u is 0 at the commissure before the leaflet, and 1 at that behind it. bump_0.closed is how far the place is open in
-the closed valve, and bump_0.open how far it is open in the open valve, from 0 to 1. bump_0.width is the bump's reach as a share
-of the edge. bump_0.lift lifts the closed place of a leaflet of mitral_coapting and tricuspid. A valve has six bumps, bump_0 to
-bump_5. Kinds with sectors or a zone of coaptation have them.
+A bump changes one place of a free edge. bump_0.leaflet and bump_0.u choose the place, or bump_0.commissure chooses a commissure.
+u is 0 at the commissure before the leaflet, and 1 at the commissure after it. bump_0.closed is the opening of this place in the
+closed valve, and bump_0.open is its opening in the open valve. Both are from 0 to 1. bump_0.width is the bump's reach as a
+share of the edge. bump_0.lift lifts the closed place of a leaflet of mitral_coapting and tricuspid. A valve has six bumps,
+bump_0 to bump_5. Kinds with sectors or with a zone of coaptation have bumps.
 riis from-area --solve bump_0.closed finds the bump that makes a gap of a given area (riis help areas). The band closes gaps
-narrower than two half thicknesses, or than 2 (1 - O) with --offset O. A line on stderr says so.
+that are narrower than two half thicknesses. With --offset O, it closes gaps narrower than 2 (1 - O) half thicknesses. A line on
+stderr warns of such a gap.
 )"},
     {"diseases", "sick valves by the names of diagnoses",
      R"(
 --valve takes these names in all commands, and in a case. Each name is a kind of valve with parameters, and riis params --valve
-NAME prints them. --params and --set change them, and riis place takes the sizes from landmarks.
+NAME prints them. --params and --set change these parameters, and riis place takes the sizes from landmarks.
 riis params --valve NAME > sick.json makes a file for --params, with the kind in the second column.
-The area in cm2 is the orifice of the open valve, or the gap that the closed valve leaves. Both are seen along the axis, so they
-do not show a gap that a lifted leaflet makes. docs/diseases.md has the sources. riis from-area finds other areas (riis help
-areas).
+The area in cm2 is the orifice of the open valve, or the gap that the closed valve leaves. Both areas are seen along the axis,
+so they do not show the gap that a lifted leaflet makes. docs/diseases.md has the sources. riis from-area finds other areas
+(riis help areas).
 )"},
     {"parameters", "names and files of parameters",
      R"(
 A name with a part (right.leaflet_angle, bump_0.open) is a parameter of that part. A name without a part (leaflet_angle) is a
-parameter of the valve. If the valve has no such parameter, the name stands for that of all parts. A JSON file sets the names
-without a part first, in any order of the file. A part may be an object: {"cusp_0": {"sector": 140}, "bump_0": {"leaflet": 1}}.
-Then --set changes values, from left to right. --opening comes last, and cannot be combined with --set opening.
+parameter of the valve. If the valve has no such parameter, the name stands for the parameter of all parts. A JSON file sets the
+names without a part first, whatever their order in the file is. A part may be an object:
+{"cusp_0": {"sector": 140}, "bump_0": {"leaflet": 1}}. After the file, each --set changes a value, from left to right. --opening
+comes last, and cannot be combined with --set opening.
 
 annulus and stj are diameters, and effective_height is the height of the free edges above the annulus. These names set sizes of
-valves with cusps, and annulus also that of a bileaflet valve. riis params --describe shows which parameters they set.
+valves with cusps. annulus also sets the size of a bileaflet valve. riis params --describe shows which parameters they set.
 
 Some parameters follow from others unless they are set. riis params --describe prints these rules after "unless set", and one
 line for parts that are alike. riis params prints the present values of all parameters. Bumps without a place do nothing, and
 only bump_0 of them is printed.
-After such a file was read, all parameters are set, and none follows.
+A file with the output of riis params sets all parameters, so that none of them follows from others.
 )"},
     {"opening", "closed and open states",
      R"(
-The parameters of a kind of valve make it closed and open. By default the mitral valve has opening 1, and the others have
-opening 0. With --params-open, the other options give the closed state. That file's parameters and the defaults give the open
-state. An opening in that file has no effect. The paper's aortic valve, at opening 0 with the default parameters, is not
-closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. All other kinds close.
+The parameters of a kind of valve make it closed and open. By default the mitral valve has opening 1, and all other valves have
+opening 0. With --params-open FILE, the other options give the closed state. The parameters of FILE and the defaults give the
+open state. An opening in FILE has no effect. The paper's aortic valve, at opening 0 with the default parameters, is not closed.
+Seen along the valve's axis, 19 % of a disc of radius 1.2 cm stay open. All other kinds close.
 )"},
     {"skirt", "a strip that closes the gap to the wall",
      R"(
---skirt L gives a valve a strip of the length L, in the mesh's unit. It leads outwards from the attachment and closes the gap
-to the wall. The parameter skirt_length is the same length in the valve's own unit. With --wall FILE, a surface in the mesh's
-frame and unit, the skirt reaches that wall, and no farther. FILE may also be a volume mesh, whose boundary is the wall. L is
-then the longest skirt to accept. The program prints the gap. A wall that is missed, or farther away at any opening, is refused.
+--skirt L gives a valve a strip of the length L, in the mesh's unit. The strip leads outwards from the attachment and closes the
+gap to the wall. The parameter skirt_length is the same length in the valve's own unit. With --wall FILE, the skirt ends at the
+wall in FILE, which is a surface in the mesh's coordinates and unit. FILE may also be a volume mesh, whose boundary is the wall.
+L is then the largest length that is accepted. The program prints the gap. A wall is refused if the skirt misses it, or if it is
+farther away than L at any opening.
 With --surface FILE, the skirt leads from the points whose point array riis_attached is not 0. Without this array, it leads from
 the closed line of open edges that encloses the largest area. In a case, "skirt" and "wall" are keys of a valve.
-riis place --foam writes a skirt for OpenFOAM, which ends at the patch wall of the mesh. There, --skirt is the longest length.
+riis place --foam writes a skirt for OpenFOAM, which ends at the patch wall of the mesh. In riis place, --skirt is the largest
+length of this skirt.
 )"},
     {"warp", "a valve that meets a patient's landmarks",
      R"(
-riis place LANDMARKS --warp exact writes a warp into the placed valve, and every command that takes this valve as --valve uses it.
-With --warp smoothed the warp misses the landmarks by about their noise, so an error of a landmark bends the valve less. Points of
-the attachment among the landmarks (riis help landmarks) make the valve fit between its commissures and nadirs. The sizes and the
-placement do not depend on them. A warp that folds is refused. A bileaflet valve is rigid and takes no warp. With --foam,
-OpenFOAM's dictionary also has the warp.
---warp FILE gives a warp to a valve of any command: landmarks on the valve, their places in the patient, in the mesh's unit.
-FILE.json has the keys of "warp" in a case (riis help cases). FILE.csv has a line SX,SY,SZ,TX,TY,TZ for each landmark, and perhaps
-lines # noise = 0.3 and # coordinates = valve.
+riis place LANDMARKS --warp exact writes a warp into the placed valve, and every command that takes this valve as --valve uses
+it. With --warp smoothed the warp misses the landmarks by about their noise, so an error of a landmark bends the valve less.
+Points of the attachment among the landmarks (riis help landmarks) make the valve fit between its commissures and nadirs. The
+sizes and the placement do not depend on these points. A warp that folds is refused. A bileaflet valve is rigid and takes no
+warp. With --foam, OpenFOAM's dictionary also has the warp.
+In every command, --warp FILE warps the valve. FILE has landmarks on the valve and their places in the patient, in the mesh's
+unit. FILE.json has the keys of "warp" in a case (riis help cases). FILE.csv has a line SX,SY,SZ,TX,TY,TZ for each landmark, and
+perhaps lines # noise = 0.3 and # coordinates = valve.
 )"},
     {"patches", "a file of curves for a valve of your own",
      R"(
---valve FILE.json is a valve from patches, which are given by the curves that bound them:
+--valve FILE.json is a valve that consists of patches. Curves bound each patch:
 {"curves":  {"hinge": [[0,0,0], [1,0,0]], "edge": [[0,1,0], [0.5,1,0.3], [1,1,0]],
              "left": [[0,0,0], [0,1,0]], "right": [[1,1,0], [1,0,0]]},
  "patches": [{"v0": "hinge", "v1": "edge", "u0": "left", "u1": "-right", "leaflet": 0}]}
-2, 3 or 4 points control a curve of degree 1, 2 or 3. One point stands for a side that collapses to a point. A minus reverses
-a curve. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. The default of "leaflet" is 0. "open": {"curves": {...}}
-beside "patches" holds all curves at --opening 1. Without it the valve stays at opening 0. The valve's parameters are
-opening and skirt_length.
+2, 3 or 4 points control a curve of degree 1, 2 or 3. One point stands for a side that collapses to a point. A minus reverses a
+curve. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. The default of "leaflet" is 0. "open": {"curves": {...}} beside
+"patches" holds all curves at --opening 1. Without these curves the valve stays at opening 0. The valve's parameters are opening
+and skirt_length.
 )"},
     {"landmarks", "files of riis place, and its report",
      R"(
@@ -230,25 +235,30 @@ tricuspid   "annulus": 4 points or more in their order around it; commissure_ant
             commissure_anterior_posterior
 bileaflet   "annulus": 3 points or more of the housing's circle, 2 or 4 "hinge" ends, and the flow
 Other keys: "flow": [x,y,z], or the points flow_from and flow_to; "noise"; "parameters", sizes in cm that are known.
-In 3D Slicer, labels are the names, as in annulus-1. A CSV has lines NAME,X,Y,Z, and must state # unit = mm and # axes = LPS.
+In 3D Slicer, the labels of points are the names, as in annulus-1. A CSV has lines NAME,X,Y,Z, and must state # unit = mm and #
+axes = LPS.
 LPS and RAS differ by half a turn about z, which landmarks cannot show; "mesh" stands for the mesh's own axes. With --mesh,
-landmarks that are not at the mesh are refused, and the message says if they would be with other axes or another unit.
+landmarks that are far from the mesh are refused. The message says whether other axes or another unit would bring them to the
+mesh.
 Sizes from "proportion" have no landmark: they keep the proportions of --params or of the defaults. A size is NOT DETERMINED if
-its standard error at the noise moves the valve by more than a fifteenth of its radius. It is then drawn to its proportion.
+its standard error at the noise moves the valve by more than a fifteenth of its radius. The proportion then largely determines
+the size.
 Landmarks are those of the closed valve. The report's residuals are distances from landmarks to the valve.
 )"},
     {"patient", "from a wall and landmarks to a mesh with a valve",
      R"(
-riis patient WALL LANDMARKS --output FOLDER makes all of a patient's valve: an aortic valve in its root, or a mitral valve in a
-ventricle with the ends of the atrium and of the aorta. It sizes and places the valve, warps it to the landmarks, leads a skirt
-to the wall, makes a mesh by gmsh, and marks it. It prints each command before it runs it. The commands also run one by one, in
-FOLDER. The unit and the axes of WALL are found: the landmarks must lie at the wall. If two possibilities fit, the command asks.
-The flat ends of the wall become the boundaries inlet, outlet, outlet_2 and so on, and the rest becomes wall. --inlet and --outlet
-name ends by points near them.
+riis patient WALL LANDMARKS --output FOLDER makes all files for a patient's valve: an aortic valve in its root, or a mitral
+valve in a ventricle with the ends of the atrium and of the aorta. The command finds the sizes and the place of the valve, warps
+it to the landmarks, adds a skirt to the wall, makes a mesh by gmsh, and marks the mesh. Each of these steps is a command, which
+is printed before it runs. You can also run these commands one by one in FOLDER. The unit and the axes of WALL are those with
+which the landmarks lie at the wall. If two possibilities fit, riis patient stops, and an option must choose. The flat ends of
+the wall become the boundaries inlet, outlet, outlet_2 and so on, and the rest becomes wall. --inlet and --outlet name ends by
+points near them.
 The command stops, and says what to do, if WALL has a fault or is not within --skirt of the valve, if leaflets go through each
-other, if an edge leaks at one of 11 openings, or if the closed valve does not seal. If an edge leaks, it first makes the mesh
-once more with shorter edges. FOLDER has the file UNFINISHED.txt until all is done. A sick valve that never closes need not seal.
---solver writes a case into FOLDER, and the last line on stdout runs it.
+other, if an edge leaks at one of 11 openings, or if the closed valve does not seal. If an edge leaks, riis patient first makes
+another mesh with shorter edges. FOLDER has the file UNFINISHED.txt until all steps are done. A sick valve that never closes
+need not seal.
+--solver writes a case into FOLDER, and the last line on stdout is the command that runs the case.
 )"},
     {"pictures", "views, sizes, backgrounds, captions",
      R"(
@@ -259,30 +269,31 @@ for the movie of a run:
   --picture-background COLOUR     white, black, transparent (not for a movie), or six hexadecimal digits: red, green, blue
   --picture-captions scale|none   only the scale bar, or no text at all
   --picture-panels valve|marks    only one of the two panels
---view and --movie-view choose the direction: side, top, oblique or three, by the mesh's axes, and valve-side, ... by the valve's.
-Captions give the opening, the orifice in cm2, the half thickness in mm, the number of marked nodes, and leaking edges.
-A picture needs no screen. If DISPLAY is not set or cannot be used, riis starts Xvfb, of Debian's package xvfb, for as long as it
-draws. An empty DISPLAY forces this: DISPLAY= riis mark ...
+--view and --movie-view choose the direction of view. side, top, oblique and three use the mesh's axes, and valve-side and so on
+use the valve's axes. Captions give the opening, the orifice in cm2, the half thickness in mm, the number of marked nodes, and
+leaking edges.
+A picture needs no screen. If DISPLAY is not set or cannot be used, riis starts Xvfb, of Debian's package xvfb, for as long as
+it draws. With an empty DISPLAY, riis always starts Xvfb: DISPLAY= riis mark ...
 )"},
     {"series", "many times: .pvd, movies, tables",
      R"(
---times marks the nodes at each time, and --cycle is a file with the opening. The file has a line for each key, with a time
-and an opening from 0 to 1. Times ascend. The first line may name the columns. --output beat.pvd writes beat/beat_0000.vtu
-and so on, and beat.pvd, which ParaView plays. --surface-output does the same with the triangles. With --triangulation fixed
-all times have the same triangles, so changes of the triangles cause no jumps of K.
+--times marks the nodes at each time, and --cycle names a file of openings. This file has a line for each key, with a time and
+an opening from 0 to 1. Times ascend. The first line may name the columns. --output beat.pvd writes beat/beat_0000.vtu and so
+on, and beat.pvd, which ParaView plays. --surface-output writes the triangles in the same way. With --triangulation fixed all
+times have the same triangles, so changes of the triangles cause no jumps of K.
 Each mesh has the point arrays of a marked mesh, and riis_normal, riis_side and riis_velocity of the closest point. With
---resistance it has riis_K and riis_K_u_surface, K times that velocity. Velocities are means since the previous time. At the
-first time they are means over a step as long as the first one. A series of one time has no velocities. Without --all-cells
-the meshes have only the cells near the valve's whole motion. Their arrays riis_node_id and riis_cell_id are ids of the input,
-from 0. All times have the same cells.
+--resistance, each mesh also has riis_K, and riis_K_u_surface, which is K times riis_velocity. Velocities are means since the
+previous time. At the first time, velocities are means over a step that is as long as the first step. A series of one time has
+no velocities. Without --all-cells the meshes have only the cells near the valve's whole motion. The arrays riis_node_id and
+riis_cell_id of these meshes have the ids of the input, counted from 0. All times have the same cells.
 A line on stderr gives the size of all files before they are written. Ctrl-C ends a series after the present step. A line then
-gives the number of steps written, and the .pvd lists them. If the process is killed, the list is at most a second behind the
-files. Files of steps that an earlier run of riis wrote to the same name, and this one does not, are removed. If a list that
-riis did not write names such a file, or no list does, the run is refused. --series-table has a line for each time: opening,
-marked nodes, the largest speed of the surface, and the seconds for surface and marks. --picture draws the first time. --movie
-draws all times with one camera, and needs the program ffmpeg. The check for leaks runs at the time when the valve is least
-open. For --surface it runs at the first time. The numbers of --stats are those of this time, and "times" has the openings,
-marks and speeds of all times. An orifice is that of the largest opening.
+gives the number of steps written, and the .pvd lists these steps. If the process is killed, the list is at most a second behind
+the files. If an earlier run of riis wrote further steps under the same name, the files of these steps are removed. The run is
+refused if such a file is named by no list, or by a list that riis did not write. --series-table has a line for each time:
+opening, marked nodes, the largest speed of the surface, and the seconds for surface and marks. --picture draws the first time.
+--movie draws all times with one camera, and needs the program ffmpeg. The check for leaks runs at the time when the valve is
+least open. With --surface the check runs at the first time. The numbers of --stats belong to the time of this check, and
+"times" has the openings, marks and speeds of all times. Orifices are measured at the largest opening.
 )"},
     {"cases", "several valves in one mesh, from a file",
      R"(
@@ -293,101 +304,105 @@ marks and speeds of all times. An orifice is that of the largest opening.
             {"name": "aortic", "valve": "coapting",
              "rotate": [1,0,0,-30], "translate": [0,3.8,1], "opening": 0.3, "half_thickness": 0.08}]}
 Paths are relative to the file. A MESH, --times, --distance-limit, --resistance and --between on the command line replace those
-in the file. A valve's own "resistance" stays. riis check leaks, riis check crossings and riis size-field also take a case.
-A valve has "valve", a kind or a file of patches, or it has "surface", a file or a list of files, one for each leaflet. A
-surface is at rest unless the file is a .pvd or .dat. Such a file may have a "period", and a .dat a "time_step". A valve may
-have "parameters" and "open_parameters", each an object or a file, and "scale", "surface_unit", "rotate", "translate",
-"half_thickness", "offset", "resistance", "tolerance", "triangulation", "flip_normals", "leaflets", "skip_zero_area", "skirt"
-and "wall", as the options of these names. A resistance is a number or a text such as '1e5 g/(cm s)' (riis help units).
-"opening" is a number or one of
+in the file. The "resistance" of a single valve in the file stays. riis check leaks, riis check crossings and riis size-field
+also take a case.
+A valve has the key "valve", whose value is a kind or a file of patches. Or it has the key "surface", whose value is a file, or
+a list of files with one for each leaflet. Only the surface of a .pvd or a .dat moves. It may have a "period", and a .dat also a
+"time_step". A valve may have "parameters" and "open_parameters", each an object or a file, and "scale", "surface_unit",
+"rotate", "translate", "half_thickness", "offset", "resistance", "tolerance", "triangulation", "flip_normals", "leaflets",
+"skip_zero_area", "skirt" and "wall", as the options of these names. A resistance is a number or a text such as '1e5 g/(cm s)'
+(riis help units). "opening" is a number or one of
   {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
   {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
   {"opening_start": 0.4, "opening_duration": 0.05, "closing_start": 0.7, "closing_duration": 0.05, "closed": 0, "open": 1,
    "period": 0.8}
 A "warp" takes landmarks on the valve to landmarks in the patient, exactly or smoothed by their noise:
   {"sources": [[1,0,0], [0,1,0], ...], "targets": [[1.1,0,0], [0,1.2,0], ...], "noise": 0.03, "coordinates": "mesh"}
-With "times", and perhaps "period" and "interpolation", "targets" has an array of points for each time. "open" may have the
-"sources" and "targets" of the open state. With "coordinates": "valve", landmarks are those of the valve before its placement.
+With "times", and perhaps "period" and "interpolation", "targets" has an array of points for each time. The key "open" may have
+the "sources" and "targets" of the open state. With "coordinates": "valve", landmarks are in the coordinates of the valve before
+its placement.
 "check_leaks": [x,y,z, x,y,z] has two points, as riis check leaks --between (riis help leaks). "cells_where": "region=1" chooses
 cells of the mesh, as --cells-where.
-If there are several valves, each one has its own arrays, NAME_marked and so on. riis_K and riis_K_u_surface are sums over
-the valves. Without times there is one mesh, --output marked.vtu. With --stats, "valves" has an object for each of several
+If there are several valves, each valve has its own arrays, NAME_marked and so on. riis_K and riis_K_u_surface are sums over the
+valves. Without times, --output names one mesh, such as marked.vtu. With --stats, "valves" has an object for each of several
 valves, with the keys that a single valve has.
 )"},
     {"motion", "a surface from a file that moves",
      R"(
 --surface FILE.pvd is a ParaView collection of surface files, each with a time. All files have the same points and faces, and
-only the points move. --surface FILE.dat has the frames that riis export writes for svMultiPhysics. Their faces are in a .vtu
-file beside it, and --time-step is the time between two frames. Several files are one valve, with a file for each leaflet.
---time T moves the surface to a time, linearly between two frames. --times moves it to each of several times.
---surface-output then has the velocities of the points, riis_velocity, in the mesh's unit over the unit of T.
+only the points move. --surface FILE.dat has the frames that riis export writes for svMultiPhysics. The faces of these frames
+are in a .vtu file in the same folder, and --time-step is the time between two frames. Several files are one valve, with a file
+for each leaflet. --time T moves the surface to a time, linearly between two frames. --times moves the surface to each of
+several times. --surface-output then has the velocities of the points, riis_velocity, in the mesh's unit over the unit of T.
 Triangles in .stl files must have the same order in all files.
 )"},
     {"warnings", "what warnings mean, and which comes first",
      R"(
-A line on stderr names a suspicious result and the options to write instead. It is printed if no node, all nodes or hardly
-any nodes are marked. It is also printed if the half thickness does not fit the surface or the edges of the mesh, or if the
-valve does not fit its vessel. --quiet does not silence it, because wrong marks look like right ones. --allow-none is for
-valves that are sometimes near no node.
-It is printed, too, if more than 2 % of the leaflets' area is farther than the half thickness outside the mesh. Skirts and the
-housing of a bileaflet valve do not count. A series is judged where each valve is least and most open.
-One fault may cause the others. The order is units, half thickness, places, leaks. Only the first warning in this order has
-advice. Correct that fault and run the program again. A unit that you name by --unit or --scale counts as known, if the sizes
-allow it. If the sizes allow two units, the advice names both. The next run says how many nodes each unit marks. With
---strict the status is 4 after a warning of any kind. Coordinates have enough digits for an edge of the mesh at that place.
-They have the unit of --unit.
+A line on stderr names a suspicious result and the options to write instead. Such a warning is printed if no node, all nodes or
+hardly any nodes are marked. It is also printed if the half thickness does not fit the surface or the edges of the mesh, or if
+the valve does not fit its vessel. --quiet does not silence warnings, because wrong marks look like right ones. --allow-none is
+for valves that are sometimes near no node.
+A warning is also printed if more than 2 % of the leaflets' area is farther than the half thickness outside the mesh. Skirts and
+the housing of a bileaflet valve do not count. A series is judged where each valve is least and most open.
+One fault may cause other faults. Their order is units, half thickness, places, leaks. Only the first warning in this order has
+advice. Correct this fault and run the program again. A unit that you name by --unit or --scale counts as known, if the sizes
+allow it. If the sizes allow two units, the advice names both. The next run says how many nodes each unit marks. With --strict
+the status is 4 after a warning of any kind. Coordinates in warnings are in the unit of --unit. They have enough digits to find
+an edge of the mesh.
 )"},
     {"leaks", "edges and passages through the band",
      R"(
-The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats give the number
-of leaking edges, and the half thickness that closes them. Edges of at most two half thicknesses do not leak. With --offset O
-edges of at most 2 (1 - |O|) half thicknesses do not leak, and those of at most 2 sqrt(1 - O^2) seldom leak, beside rims. Leaks
-are unknown in a mesh without volume cells, if no node is marked, and at cells whose edges are not known. Leaking edges do not
-show gaps between leaflets, nor ways round the valve. riis check leaks MESH --between FROM TO finds these. FROM and TO are
-points of the mesh on either side of the valve, each as X,Y,Z.
-The program says whether unmarked nodes join the points. It also gives the place of the widest passage, and the half
-thickness that closes it. The distance of the points from the valve must be larger than the width of the passage. A case has
-the points as "check_leaks": [x,y,z, x,y,z]. The check uses all its valves together, each at its least opening. For each
-valve the table then has the mesh edges across its band, and the orifice at its largest opening.
+The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats give the number of
+leaking edges, and the half thickness that closes them. Edges of at most two half thicknesses do not leak. With --offset O,
+edges of at most 2 (1 - |O|) half thicknesses do not leak. Beside rims, edges of at most 2 sqrt(1 - O^2) half thicknesses seldom
+leak. Leaks are unknown in a mesh without volume cells, if no node is marked, and at cells whose edges are not known. Leaking
+edges do not show gaps between leaflets, and they do not show ways round the valve. riis check leaks MESH --between FROM TO
+finds such passages. FROM and TO are points of the mesh on either side of the valve, each as X,Y,Z.
+The program says whether unmarked nodes join the points. It also gives the place of the widest passage, and the half thickness
+that closes it. The distance of the points from the valve must be larger than the width of the passage. A case has the points as
+"check_leaks": [x,y,z, x,y,z]. The check uses all valves of the case together, each at its least opening. For each valve the
+table has the number of mesh edges across its band, and the orifice at its largest opening.
 riis check leaks also prints how many mesh edges lie across the band, and the orifice with its effective area. With
 --first-passage it tries openings and prints the first at which unmarked nodes join the points. With --resistance and --drop it
 prints the flow through an ideal closed valve. A leak does not change the exit status, because the valve may be open. With
---demand-sealed the status is 4 unless the points are not joined, or without points, unless no edge leaks.
+--demand-sealed the status is 4 if the points are joined, or if this is unknown. Without points, the status is 4 if an edge
+leaks, or if leaks are unknown.
 )"},
     {"crossings", "leaflets that go through each other",
      R"(
-riis check crossings checks a valve's triangles at 101 openings from 0 to 1. It ends with status 4 at the first opening at
-which two triangles go through each other. A line on stderr gives that opening, the number of pairs, the length of their
+riis check crossings checks a valve's triangles at 101 openings from 0 to 1. The check ends with status 4 at the first opening
+at which two triangles go through each other. A line on stderr gives this opening, the number of pairs, the length of their
 intersections, and the depth and place of the deepest pair. The depth is the distance by which one triangle must move so that
-both only touch. A depth up to 1e-6 half thicknesses counts as touching. A valve that does not open, a surface from a file and
-a valve with --opening are checked as they are. With --case each valve of a case is checked. The command needs no MESH. riis
-mark checks only openings 0, 0.5 and 1, and only a valve whose shape is set by --set, --params, --params-open or a file. Then
-contacts of leaflets do not count, nor those of a housing with its hinges.
+the two triangles only touch. A depth up to 1e-6 half thicknesses counts as touching. A valve that does not open, a surface from
+a file and a valve with --opening are checked as they are. With --case each valve of a case is checked. The command needs no
+MESH. riis mark checks only openings 0, 0.5 and 1, and only a valve whose shape is set by --set, --params, --params-open or a
+file. This check ignores contacts between leaflets, and contacts between a housing and its hinges.
 )"},
     {"states", "what the table of riis states has",
      R"(
-riis states measures the valve in its own frame at 101 openings, or at the number of --count. It needs no MESH. The table has
-a line for each opening. A line has the length of each free edge, the area of each leaflet, both also as a share of their
+riis states measures the valve in its own coordinates at 101 openings, or at the number of --count. It needs no MESH. The table
+has a line for each opening. A line has the length of each free edge and the area of each leaflet, also as shares of their
 closed values, and the area of the orifice. The summary on stdout names the free edges whose length differs by more than 10 %
 from the closed length. Free edges are the sides v = 1 of the patches on a leaflet's rim. The orifice is the part of an outline
-that the leaflets leave uncovered, seen along the outline's axis. effective_area is the part that the band around the leaflets
-leaves to the flow, by the half thickness and a round rim. The outline is the leaflets' farthest edges in all directions, such
-as the annulus. Straight lines join leaflets that do not touch. A bileaflet valve has the disc of the housing's radius. If the
-leaflets of --surface do not reach the wall, --wall FILE, a ring or a straight tube, gives the outline. The table has no
-columns for measures that a valve lacks. The default tolerance is 0.01. A valve without an open state has one line, at
-opening 0.
+that the leaflets leave uncovered, seen along the outline's axis. effective_area is the part of the orifice that the band around
+the leaflets leaves to the flow. It is computed from the half thickness, for a round rim. The outline is the leaflets' farthest
+edges in all directions, such as the annulus. Straight lines join leaflets that do not touch. The outline of a bileaflet valve
+is a disc with the housing's radius. If the leaflets of --surface do not reach the wall, --wall FILE, a ring or a straight tube,
+gives the outline. The table has no columns for measures that a valve lacks. The default tolerance is 0.01. A valve without an
+open state has one line, at opening 0.
 )"},
     {"areas", "how riis from-area finds an opening or a size",
      R"(
-riis from-area finds the opening at which the orifice has an area, such as an area from echocardiography. Areas are measured as in
-riis states. --effective takes them as effective areas, as in its column effective_area. A plain number is in the mesh's unit
-squared; '2.5 cm2' has a unit. --solve scale finds the factor for --scale, and --solve NAME finds a parameter that is one number,
-such as cusp_0.open_radius_ratio, commissure_0.fusion or bump_0.open. The valve is then open, or at --opening. With --opening 0
-the area is the gap of the closed valve, which bump_0.closed changes. The area is first measured at 33 openings or sizes, from
---from to --to: by default from 0 to 1 for the opening, a tenth to ten times the present scale, and half to twice a parameter. A
-share that is 0 is searched over its whole range. An area out of reach is refused, and the message has the range. If the area
-grows in one part of the range and falls in another, a line on stderr says where it turns. The least opening is taken, or the size
-nearest to the present one.
+riis from-area finds the opening at which the orifice has an area, such as an area from echocardiography. Areas are measured as
+in riis states. With --effective they are effective areas, as in the column effective_area of riis states. A plain number is in
+the mesh's unit squared; '2.5 cm2' has a unit. --solve scale finds the factor for --scale, and --solve NAME finds a parameter
+that is one number, such as cusp_0.open_radius_ratio, commissure_0.fusion or bump_0.open. If a size is searched, the valve is
+open, or it has the opening of --opening. With --opening 0 the area is the gap of the closed valve, which bump_0.closed changes.
+The area is first measured at 33 openings or sizes, from --from to --to: by default from 0 to 1 for the opening, a tenth to ten
+times the present scale, and half to twice a parameter. A parameter that is a share is searched over its whole range if it is 0
+now. An area out of reach is refused, and the message has the range. If the area grows in one part of the range and falls in
+another, a line on stderr says where it turns. Of several solutions, the least opening is taken, or the size nearest to the
+present size.
 --areas FILE has the columns time and area. --output writes a file of openings for --cycle, with the columns time and opening.
 The area 0 stands for the closed valve. With --period the first and the last area must be equal if they are a period apart.
 Adapted triangles are the default, and with them the area jumps by up to 1e-4 of the largest area. --triangulation fixed has no
@@ -396,35 +411,37 @@ jumps.
     {"export", "what riis export writes",
      R"(
 riis export FOLDER writes the files that the solver's Add_URIS_mesh reads: for each leaflet NAME.vtu, NAME_open.dat and
-NAME_close.dat. The same files of a face "box" widen the box in which the solver looks for nodes. normal.dat is the direction
-of flow. The folder must be new or empty. The block for the solver's input goes to stdout; it needs --resistance. The solver
-plays a frame in each of its time steps, so --time-step must be the solver's step. The valve opens from 0 to 1 in
---opening-seconds by a ramp of fifth degree, and closes in --closing-seconds. With --cycle it opens from the last key of its
-least opening to the next key of its largest opening. It closes from the last key of its largest opening to the next key of
-its least opening. --opening-span and --closing-span set other times. The solver measures distances to the middles of
-triangles. With a --largest-edge of 0.15 half thicknesses its sum of K is within 1 % of the exact sum. Triangles without area
-in some frame are left out, and a line on stderr says so. The files are in cm and R is in g/(cm s): lengths of --unit m or mm
-are converted. Without --unit, lengths and R are taken as they are. The valve's name in the solver is that of the folder, or
---name. The solver starts with the closed valve, or with that of --cycle at time 0, unless --starts says otherwise. The ring of a
-bileaflet valve is a face beside the leaflets, so that no point has the K of both. --ring none leaves the ring out.
+NAME_close.dat. A face "box" has the same three files, which widen the box in which the solver looks for nodes. normal.dat is
+the direction of flow. The folder must be new or empty. The block for the solver's input goes to stdout, and needs --resistance.
+The solver plays a frame in each of its time steps, so --time-step must be the solver's step. The valve opens from 0 to 1 in
+--opening-seconds by a ramp of fifth degree, and closes in --closing-seconds. With --cycle the valve opens from the last key of
+its least opening to the next key of its largest opening. It closes from the last key of its largest opening to the next key of
+its least opening. --opening-span and --closing-span set other times. The solver measures distances to the middles of triangles.
+With a --largest-edge of 0.15 half thicknesses its sum of K is within 1 % of the exact sum. Triangles without area in some frame
+are left out, and a line on stderr says so. The files are in cm and R is in g/(cm s): lengths of --unit m or mm are converted.
+Without --unit, lengths and R are taken as they are. The valve's name in the solver is the name of the folder, or --name. The
+solver starts with the closed valve, or with the state of --cycle at time 0. --starts chooses another state. The ring of a
+bileaflet valve is a face beside the leaflets, so that no point has the K of both the ring and a leaflet. --ring none leaves the
+ring out.
 
 riis export FOLDER MESH also computes what the solver will do in MESH, by the solver's own rules: its box, its distances, their
-interpolation to Gauss points, and the bands in which it takes pressures. The comment of the block has the expected drop of the
-closed valve over (R/eps) u, and the nodes before and behind the valve. If the drop is below 0.9, a line on stderr names the
-half thickness that the mesh needs. FOLDER/forecast.csv has the numbers of each frame. A valve that the solver could never open
-or never close is refused. The drop depends a little on --density and --viscosity. python3 computes it by
-NumPy and SciPy, or the Python that RIIS_PYTHON names. Without them only the drop is missing, and a line on stderr says so.
+interpolation to Gauss points, and the bands in which it takes pressures. The comment in the block has the expected drop of the
+closed valve divided by (R/eps) u, and the numbers of nodes before and behind the valve. If the drop is below 0.9, a line on
+stderr names the half thickness that the mesh needs. FOLDER/forecast.csv has the numbers of each frame. A valve that the solver
+could never open or never close is refused. The drop depends a little on --density and --viscosity. A Python with NumPy and
+SciPy computes the drop: python3, or the Python that RIIS_PYTHON names. Without these packages only the drop is missing, and a
+line on stderr says so.
 )"},
     {"meshing", "the edge lengths of riis size-field",
      R"(
-A mesh whose edges are at most two half thicknesses long does not leak. With --offset O it seldom leaks if edges beside rims
-are at most 2 sqrt(1 - O^2) half thicknesses long (riis help leaks). riis size-field writes edge lengths that are small near
-the valve only: --band-edge half thicknesses in the band of every state of the valve, and larger outside it. With --offset O
-the lengths beside rims are shorter by the factor sqrt(1 - O^2). The states are openings from 0 to 1, in number --count, or
-the times of --times or of a case. The file is a grid, which gmsh's field "Structured" reads with TextFormat = 1. The lines
-for the .geo file go to stdout. gmsh makes some edges longer than the field says, so --band-edge should stay below 1. The
-default algorithm of gmsh in space, Delaunay, keeps closer to the field than HXT does. The number of nodes grows with the cube
-of 1 / --band-edge. A case needs no mesh here. Check the mesh by riis check leaks, or by riis mark at several openings.
+A mesh whose edges are at most two half thicknesses long does not leak. With --offset O it seldom leaks if edges beside rims are
+at most 2 sqrt(1 - O^2) half thicknesses long (riis help leaks). riis size-field writes edge lengths that are small near the
+valve only: --band-edge half thicknesses in the band of every state of the valve, and larger outside it. With --offset O the
+lengths beside rims are shorter by the factor sqrt(1 - O^2). The states are openings from 0 to 1, whose number is --count, or
+the times of --times or of a case. The file is a grid, which gmsh's field "Structured" reads with TextFormat = 1. The lines for
+the .geo file go to stdout. gmsh makes some edges longer than the field says, so --band-edge should stay below 1. The default
+algorithm of gmsh in space, Delaunay, keeps closer to the field than HXT does. The number of nodes grows with the cube of 1 /
+--band-edge. For riis size-field, a case needs no mesh. Check the mesh by riis check leaks, or by riis mark at several openings.
 )"},
     {"searches", "how nodes are found",
      R"(
@@ -432,16 +449,16 @@ exhaustive  queries the distance of every node near the valve
 neighbor    walks from marked nodes to their neighbours and then proves that the rest is far
 clusters    handles nearby nodes together
 paper       the published search, for comparison: from one start, through marked nodes only
-The first three give the same marks. neighbor needs the mesh's adjacency, which lists the neighbours; clusters needs sorted
-nodes. For one marking, either preparation costs more time than it saves, so auto is exhaustive. paper
-misses nodes that are not connected to its start, so it is never complete, and a line on stderr says so. Neighbours are nodes
-joined by an edge of a volume cell.
+exhaustive, neighbor and clusters give the same marks. neighbor needs the mesh's adjacency, which lists the neighbours; clusters
+needs sorted nodes. For a single marking, each of these preparations costs more time than it saves, so auto is exhaustive.
+paper misses nodes that are not connected to its start, so it is never complete, and a line on stderr says so. Neighbours are
+nodes joined by an edge of a volume cell.
 )"},
     {"distances", "how distances are measured",
      R"(
---distance sampling measures to the nearest of many points on the valve's patches. --distance-tolerance sets their number.
---distance minimization applies Powell's method to every patch, and this may miss the closest point. Both methods are the
-paper's. They are slow, and serve for comparison.
+--distance sampling measures to the nearest of many points on the valve's patches. --distance-tolerance sets the number of
+points. --distance minimization applies Powell's method to every patch, and this may miss the closest point. Both methods come
+from the paper. They are slow, and serve only for comparison.
 )"},
     {"running", "progress, Ctrl-C, locks",
      R"(

@@ -17,15 +17,16 @@
 
 namespace {
 
-// Names of files and parameters may contain line breaks. Line breaks are replaced, so that the message stays on one line.
+// Names of files and parameters may contain line breaks. Other characters replace the line breaks, so that the message stays on
+// one line.
 int give_up(int exit_code, std::string text) {
   std::replace_if(text.begin(), text.end(), riis::program::is_control, '?');
   std::cerr << "riis: " << text << std::endl;
   return exit_code;
 }
 
-// Opens a substitute for each standard stream that is closed. Without a substitute, the next opened file would get the stream's
-// number, and prints would go into that file. The substitute is opened for reading, so prints to it fail.
+// Opens a substitute for each standard stream that is closed. Without a substitute, the next opened file would get the number of
+// the closed stream, and the program would print into this file. A substitute is opened for reading only, so prints to it fail.
 void occupy_closed_streams() {
   for (const int stream : {0, 1, 2}) {
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
@@ -62,7 +63,7 @@ int run_and_report(int argc, char **argv) {
 
 int main(int argc, char **argv) {
   occupy_closed_streams();
-  // Ignores SIGXFSZ. A write beyond the limit of file sizes then fails instead of ending the process.
+  // Ignores SIGXFSZ. A write beyond the limit of file sizes then fails, but does not end the process.
   std::signal(SIGXFSZ, SIG_IGN);
   const riis::program::ranks::Session session(&argc, &argv);
   return run_and_report(argc, argv);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of the program. run.cpp calls them. They throw a Refusal.
+// The commands of the program, which run.cpp calls. A command throws a Refusal if it fails.
 #pragma once
 
 #include "program/base/options.hpp"
@@ -9,42 +9,44 @@
 namespace riis::program {
 
 // riis states. Measures free edges, leaflet areas, the orifice and the coaptation, writes the table, and prints the summary. A
-// valve is measured at openings from 0 to 1, in its own frame. A surface from a file is measured as it is, or at the times of its
-// frames.
+// valve is measured at openings from 0 to 1, in its own coordinates. A surface from a file is measured as it is. A moving surface
+// is measured at the times of its frames.
 void run_states(const StatesOptions &options);
 
-// Returns the options of a surface that is measured in the valve's own frame. Only the scale places it. Without --tolerance, the
-// triangles are finer than the triangles of riis mark.
+// Returns the options of a surface that is measured in the valve's own coordinates. Only the scale of the placement is kept.
+// Without --tolerance, the triangles are finer than those of riis mark.
 riis_surface_options own_frame(const ValveOptions &options);
 
-// riis from-area, the inverse of riis states. In: an area, or areas in time. Out: for an area, a summary with the opening or the
-// size at which the orifice has it. For areas in time, a cycle of openings.
+// riis from-area, the inverse of riis states. In: an area, or areas in time. Out: for one area, a summary with the opening or the
+// size that gives this area. For areas in time, the result is a cycle of openings.
 void run_from_area(const AreaOptions &options);
 
-// riis place. In: landmarks of a patient. Prints the sizes and the placement of the valve as a report, as a file for every
+// riis place. In: landmarks of a patient. Prints the sizes and the placement of the valve: as a report, as a file for every
 // command, and as text for OpenFOAM, C and Fortran.
 void run_place(const PlaceOptions &options);
 
-// riis patient. In: a patient's wall and landmarks. Out: a folder with the placed valve, a mesh with named boundaries, marks that
-// seal, a beat, pictures, a report, and perhaps a case of a solver.
+// riis patient. In: a patient's wall and landmarks. Out: a folder with the placed valve, a mesh with named boundaries, marks
+// without leaks, a beat, pictures and a report. A solver's case can be added.
 ExitCode run_patient(const PatientOptions &options);
 
-// riis export. Writes a valve's opening and closing to a folder as files for svMultiPhysics, and prints the block of the solver's
-// input that names these files.
+// riis export. Writes the opening and closing of a valve as files for svMultiPhysics. Prints the block of the solver's input that
+// names the files.
 void export_uris(const ExportOptions &options);
-// The files of an export, written. The block names the files in `named_folder`, the path of the folder for the solver.
+// The files of an export, after they are written. `named_folder` is the path of the folder as the solver sees it. In the block,
+// the paths of the files begin with `named_folder`.
 struct UrisExport {
   std::string block;
   std::string failure;  // why the drop was not found; "" if it was found, or without a mesh
 };
 UrisExport write_uris(const ExportOptions &options, const std::string &named_folder);
 
-// riis size-field. In: valves and their motion. Out: a grid of edge lengths that gmsh reads, small near the valves. The lengths
-// follow from the distances of the grid's points to the valves at all times.
+// riis size-field. In: valves and their motion. Out: a grid of edge lengths that gmsh reads. The edges are short near the valves.
+// Each edge length follows from the distance between the grid's point and the valves at all times.
 ExitCode run_size_field(const SizeFieldOptions &options);
 
-// In: the user's request. Out: the files, and the report on stdout. Returns exit_fine, or exit_none_marked if no node was marked
-// and the user did not allow that. Returns exit_warned if a check found its fault, or after a warning with --strict.
+// In: the user's request. Out: the files, and the report on stdout. Returns exit_none_marked if no node was marked, unless the
+// user allowed this. Returns exit_warned if a check found a fault, or if there was a warning and the user gave --strict.
+// Otherwise returns exit_fine.
 ExitCode run(const Request &request);
 
 }  // namespace riis::program

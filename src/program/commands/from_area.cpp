@@ -19,7 +19,7 @@
 namespace riis::program {
 namespace {
 
-// The areas to reach, in the mesh's unit, and their times if they come from a file.
+// The areas that the user wants, in the mesh's unit. Areas from a file also have times.
 struct Areas {
   std::vector<double> times, areas;
 };
@@ -39,7 +39,7 @@ struct Solution {
 
 std::string words_of(const AreaOptions &options) { return options.is_effective ? "effective area" : "area"; }
 
-// Returns a number with more digits than a summary has, so that the number gives the area again.
+// Returns a number with nine digits. Nine digits suffice to get the area again from an opening or a size.
 std::string exact(double number) { return printed("%.9g", number); }
 
 std::string text_of_range(const AreaOptions &options, const riis_area_range &range) {
@@ -47,7 +47,7 @@ std::string text_of_range(const AreaOptions &options, const riis_area_range &ran
          " goes from " + exact(range.least) + " to " + exact(range.most);
 }
 
-// A size belongs to the open valve, unless the user chose an opening.
+// If the user chose no opening, a size is found for the open valve.
 Valve valve_of(const AreaOptions &options) {
   Valve valve = make_valve(options);
   if (options.solve == "opening" || sets_opening(options)) return valve;
@@ -68,7 +68,8 @@ class Search {
 
   const riis_valve *valve() const { return valve_; }
 
-  // Warns if the band closes the gap of a closed valve whose size was found. Without a half thickness, the band is not known.
+  // After a search for a closed valve's size, warns if the band closes the valve's gap. Without a half thickness, the band is not
+  // known.
   void judge_gap(const Solution &found) const {
     const bool is_size = options_.solve != "opening" && options_.solve != "scale";
     if (!is_size || !options_.has_half_thickness || opening_of(valve_) != 0) return;
@@ -100,7 +101,8 @@ class Search {
                              made->values.data(), made->reached.data(), &made->range, sizeof made->range);
   }
 
-  // Refuses the first area of the file that is out of reach. Returns if the call was refused for another reason.
+  // Refuses the first area of the file that the valve cannot reach. If the valve can reach all areas, refuses with the library's
+  // reason.
   void refuse_row(const Areas &wanted, const std::string &reason) const {
     Solution all;
     if (call({}, &all) != RIIS_OK) throw Refusal{exit_wrong_usage, with_option_named(reason)};
@@ -117,19 +119,20 @@ class Search {
   riis_area_search search_ = defaults<riis_area_search>();
 };
 
-// Says where the area turns, because other openings or sizes then have the same area.
+// Tells where the area stops growing or falling. If the area turns, several openings or sizes have one area.
 void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
   if (range.n_turns == 0) return;
   std::vector<std::string> places;
   for (const double turn : range.turns)
     if (std::isfinite(turn)) places.push_back(shown(turn));
   const std::string taken = options.solve == "opening" ? "the least opening" : "the value nearest to the present one";
-  warn("the " + words_of(options) + " does not only grow or only fall: it turns at " + options.solve + " " +
-       joined_by(places, ", ") + (range.n_turns > static_cast<std::int64_t>(places.size()) ? " and further on" : "") +
-       "; of several solutions " + taken + " was found, and --from and --to lead to the others");
+  warn("the " + words_of(options) + " grows in a part of the range and falls in another: it turns at " + options.solve +
+       " " + joined_by(places, ", ") +
+       (range.n_turns > static_cast<std::int64_t>(places.size()) ? " and further on" : "") + "; of several solutions " +
+       taken + " was found, and --from and --to lead to the other solutions");
 }
 
-// Jumps of an adapted triangulation are smaller than this share of the area, unless the area is small.
+// With adapted triangles, the area jumps by less than a small share of its value, except for small areas.
 constexpr double fair_error = 1e-4;
 
 void warn_of_jumps(const Areas &wanted, const Solution &found) {

@@ -14,7 +14,7 @@
 namespace riis::program {
 namespace {
 
-// Returns advice on the band, which no parameter of a valve sets.
+// Returns advice about the band. No parameter of a valve sets the band.
 std::string advice_on_band(const std::string &kind) {
   if (kind == "bileaflet") return "band: leave --offset at 0, because the flow passes on both sides of the leaflets\n";
   std::string advice =
@@ -34,7 +34,7 @@ void print_params(const ParamsOptions &options) {
                                    : json_template(valve) + "\n");
 }
 
-// Runs the command to which the options belong.
+// Runs the command to which the given options belong.
 ExitCode run_command(const Request &request) {
   // riis mark, riis surface and the two commands of riis check
   if (const auto *options = std::get_if<MarkOptions>(&request)) return run_mark(*options);
@@ -48,7 +48,7 @@ ExitCode run_command(const Request &request) {
   return exit_fine;
 }
 
-// Only a mesh in pieces gives work to more than one rank. A case may name one.
+// Several ranks share the work only if the mesh is in pieces. A case may name a mesh in pieces.
 bool has_ranks(const Request &request) {
   const auto *options = std::get_if<MarkOptions>(&request);
   return options && (is_in_pieces(options->mesh) || !options->series.case_file.empty());

@@ -29,11 +29,11 @@ namespace {
 // The largest number of points of the grid.
 constexpr std::int64_t most_field_points = 20'000'000;
 
-// Returns a law whose opening is the time, so that times stand for openings.
+// Returns a law of motion whose opening equals the time.
 OpeningLaw all_openings() { return OpeningLaw(OpeningTable{{0, 1}, {0, 1}}, ""); }
 
-// Returns the valves and their times. A valve of the command line without times moves through all openings, unless the user gave
-// an opening.
+// Returns the valves and their times. If neither times nor an opening are given, a valve of the command line moves through all
+// openings.
 Case case_of(const SizeFieldOptions &options) {
   const bool has_case = !options.series.case_file.empty();
   Case all = has_case ? read_case(options) : case_of_command_line(options);
@@ -51,8 +51,8 @@ Case case_of(const SizeFieldOptions &options) {
   return all;
 }
 
-// The edge lengths around one valve: `band` up to `band_reach` from its surface, and `beside_rims` up to `band_reach` from its
-// rims. Farther away, the lengths grow with the distance, up to `largest`.
+// The edge lengths around one valve. The length is `band` within `band_reach` of the surface, and `beside_rims` within
+// `band_reach` of a rim. Farther away, the length grows with the distance up to `largest`.
 struct Edges {
   double half_thickness, offset, band_reach, band, beside_rims, growth, largest;
 
@@ -67,8 +67,9 @@ std::vector<Edges> edges_of(const SizeFieldOptions &options, const std::vector<M
   for (const MovingValve &valve : valves) {
     const riis_surface_info info = info_of(valve.surface());
     const double half_thickness = info.half_thickness, o = info.offset, band = options.band_edge * half_thickness;
-    // With an offset, edges beside rims leak from 2 sqrt(1 - o^2) half thicknesses on, elsewhere from 2 (docs/theory/marks.md,
-    // "Offset"). Every leaking edge has an end at most as far from the rim as the band reaches.
+    // Edges leak if they are longer than 2 half thicknesses. If the band has an offset o, edges beside rims leak above 2 sqrt(1 -
+    // o^2) half thicknesses (docs/theory/marks.md, "Offset"). Each leaking edge beside a rim has an end that is at most
+    // `band_reach` from the rim.
     edges.push_back({half_thickness, o, (1 + std::abs(o)) * half_thickness, band, band * std::sqrt((1 - o) * (1 + o)),
                      options.growth, 0});
     thickest = std::max(thickest, info.half_thickness);
@@ -102,14 +103,14 @@ struct Grid {
   }
 };
 
-// A surface, and the edge lengths by the distance from it.
+// A surface, and the edge lengths that depend on the distance from it.
 struct Zone {
   Surface surface;
   Edges edges;
 };
 
-// Adds a narrow strip of triangles along the rim of a surface, which consists of the edges of only one triangle. Vertices with
-// equal coordinates count as one.
+// Adds a narrow strip of triangles along the rim of a surface. The rim consists of the edges that belong to one triangle only.
+// Vertices with equal coordinates count as one.
 void add_rim(const riis_triangles &triangles, JoinedTriangles &rim) {
   const std::vector<std::int64_t> places = equal_places(triangles.n_vertices, triangles.xyz);
   std::map<std::array<std::int64_t, 2>, std::vector<std::array<std::int64_t, 3>>> of_edge;  // its triangles, by corners
@@ -152,8 +153,9 @@ Surface surface_of(const JoinedTriangles &triangles, double half_thickness) {
   return create_for<Surface>("the triangles of all states together", riis_surface_create_from_arrays, &arrays, &how);
 }
 
-// Adds the triangles of one valve at all times as one surface. The distance to this surface is the least distance over the
-// whole motion, so one marking per valve suffices. With an offset, the rims at all times are another surface.
+// Adds the triangles of one valve at all times to one surface. The distance to the joined surface is the least distance during
+// the whole motion, so each valve is marked only once. If the band has an offset, a second joined surface has the rims at all
+// times.
 void add_zones(MovingValve &valve, const Edges &edges, const Case &all, std::vector<Zone> &zones) {
   const std::vector<double> &times = all.options.series.times;
   JoinedTriangles swept, rims;
@@ -162,7 +164,7 @@ void add_zones(MovingValve &valve, const Edges &edges, const Case &all, std::vec
   for (std::size_t step = 0; step < times.size(); ++step) {
     progress.begin(step);
     valve.move_to(times[step]);
-    // An opening that occurs again is skipped, because the valve has the same triangles there.
+    // An opening that occurs again is skipped, because its triangles have been added before.
     if (!valve.source().keyframes && !openings.insert(valve.opening().value_or(0)).second) continue;
     const riis_triangles triangles = triangles_of(valve.surface());
     swept.add(triangles, 0);
@@ -195,12 +197,12 @@ Grid grid_in(const Box &box, double spacing) {
   return grid;
 }
 
-// Returns the edge length at each point: the least over all zones.
+// Returns the edge length at each point: the least length of all zones.
 std::vector<double> lengths_at(const Grid &grid, const std::vector<Zone> &zones, const SizeFieldOptions &options) {
   const Stage stage("measuring the distances of the grid", options.quiet);
   const std::vector<double> xyz = grid.points();
   const auto mesh = create<Mesh>(riis_mesh_create, grid.n_points(), xyz.data(), xyz.data() + 1, xyz.data() + 2, 3);
-  // Most points of the grid are within reach of the valves, so clusters pay off at once.
+  // Most points of the grid are near the valves. The search in clusters is therefore the fastest.
   check(riis_mesh_prepare(mesh, options.mark_options.n_threads));
   const Marks marks = new_result();
   std::vector<double> lengths(static_cast<std::size_t>(grid.n_points()), zones[0].edges.largest);
@@ -217,7 +219,7 @@ std::vector<double> lengths_at(const Grid &grid, const std::vector<Zone> &zones,
   return lengths;
 }
 
-// Returns the text of gmsh's field "Structured": origin, spacing, numbers of points, and lengths with z running fastest.
+// Returns the text of gmsh's field "Structured": the origin, the spacing, the numbers of points, and the lengths in gmsh's order.
 std::string text_of(const Grid &grid, const std::vector<double> &lengths) {
   const std::string spacing = shortest(grid.spacing);
   std::string text = numbers_text(grid.origin.data(), 3, " ") + "\n" + spacing + " " + spacing + " " + spacing + "\n" +
@@ -230,8 +232,8 @@ std::string text_of(const Grid &grid, const std::vector<double> &lengths) {
   return text;
 }
 
-// Returns the lines that load the field in a .geo file. gmsh takes the least length of all sources, so the lines switch the other
-// sources off.
+// Returns the lines that load the field in a .geo file. gmsh takes the least length of all its sources of lengths, so the lines
+// switch off the other sources.
 std::string gmsh_lines(const SizeFieldOptions &options, double largest) {
   return "gmsh      Field[1] = Structured;\n"
          "          Field[1].FileName = \"" +

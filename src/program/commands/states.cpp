@@ -47,7 +47,7 @@ struct States {
   bool has_edges() const { return why_no_edges.empty(); }
 };
 
-// A valve with its surface, or a surface from a file.
+// A parametric valve with its surface, or a surface from a file.
 class Measured {
  public:
   explicit Measured(const StatesOptions &options) : options_(options) {
@@ -75,7 +75,7 @@ class Measured {
     keyframes_ = std::move(source.keyframes);
   }
 
-  // Moves to a state: an opening of a valve, or a time of a moving surface.
+  // Moves the surface to a state: to an opening of a valve, or to a time of a moving surface.
   void move_to(double place) {
     if (keyframes_)
       check(riis_surface_update_from_keyframes(surface_, keyframes_, place, 0, nullptr), options_.surface);
@@ -133,7 +133,7 @@ State state_at(Measured &valve, double place, bool has_contacts) {
   return state;
 }
 
-// Returns the closed state's names, ids and disc, which all openings share.
+// Returns the names and the ids of the leaflets, and the disc of the closed state. All openings share these values.
 States frame_of(const StatesOptions &options, Measured &valve) {
   const bool is_valve = valve.valve() != nullptr;
   if (is_valve) valve.move_to(0);
@@ -158,7 +158,7 @@ States frame_of(const StatesOptions &options, Measured &valve) {
   return states;
 }
 
-// Measures the valve at n_states openings, or only at 0 if the valve does not open.
+// Measures the valve at n_states openings. If the valve cannot open, measures it only at opening 0.
 States measure_states(const StatesOptions &options) {
   Measured valve(options);
   const std::string why_closed = valve.why_closed();
@@ -178,14 +178,15 @@ States measure_states(const StatesOptions &options) {
 
 // ---- State table ----
 
-// A free edge may gain or lose this share of its closed length.
+// The summary mentions a change of a free edge's length only above a certain share of the length.
 constexpr double fair_change = 0.1;
-// Lengths and areas that differ by at most this share count as equal, since they differ by rounding.
+// Lengths and areas count as equal if their difference can be due to rounding.
 constexpr double same = 1e-9;
 
 using StateValue = std::function<double(const State &)>;
 
-// Finds the states with the least and with the greatest value. Of equal states, finds the first.
+// Finds the state with the least value, and the state with the greatest value. If several states have the extreme value, finds
+// the first of these states.
 struct Extremes {
   const State *least, *most;
 };
@@ -196,12 +197,12 @@ Extremes extremes_of(const States &states, const StateValue &value) {
   return {&*std::min_element(begin, end, less), &*std::max_element(begin, end, less)};
 }
 
-// Returns a ratio or an area as readable text.
+// Returns a ratio or an area as text with few digits.
 std::string rounded(double value) { return shown(std::round(value * 1e4) / 1e4); }
 
 std::string at(const State &state) { return " at " + shown(state.opening); }
 
-// Returns the opening or the time of the first state. For a valve, this state is the closed state.
+// Returns the opening or the time of the first state. The first state of a valve is the closed state.
 std::string at_first(const States &states) {
   if (states.is_of_file && states.states.size() == 1) return "";
   return at(states.states.front());
@@ -222,7 +223,7 @@ StateValue size_of(std::size_t leaflet, double riis_leaflet::*size) {
   return [=](const State &state) { return state.leaflets[leaflet].*size; };
 }
 
-// Collects the lines of the summary, with their texts aligned.
+// Collects the lines of the summary, and aligns their texts.
 class Summary {
  public:
   explicit Summary(const States &states) {
@@ -247,7 +248,7 @@ void add_leaflets(const States &states, Summary &summary) {
   }
 }
 
-// Returns an area of the orifice at the first state, and the largest one.
+// Returns the orifice's area at the first state, and its largest area.
 std::string text_of_area(const States &states, double riis_orifice::*area) {
   const StateValue value = [=](const State &state) { return (*state.orifice).*area; };
   std::string text = rounded(value(states.states.front())) + at_first(states);
@@ -269,7 +270,7 @@ std::string text_of_contact(const States &states) {
   return text;
 }
 
-// Lists the free edges whose length changes by more than a tenth, and the opening at which this begins.
+// Lists the free edges whose length changes by more than a tenth, and the opening at which each change begins.
 std::string text_of_changes(const States &states) {
   std::string text;
   for (std::size_t i = 0; i < states.names.size(); ++i) {
@@ -288,8 +289,8 @@ std::string text_of_changes(const States &states) {
   return text.empty() ? "all " + range : "not " + range + ": " + text;
 }
 
-// Returns the names in letters, digits and _. If a name has other characters, such as "x > 0", numbers replace the names of all
-// leaflets.
+// Returns names of columns: blanks and dashes in the names of leaflets become _. If a name has other special characters, as "x >
+// 0" has, all leaflets get numbers as names.
 std::vector<std::string> columns_of(const States &states) {
   std::vector<std::string> columns = states.names;
   bool are_words = true;
@@ -310,8 +311,8 @@ std::string cells_of(const riis_leaflet &now, const riis_leaflet &closed, bool h
   return text + "," + shortest(now.area) + "," + shortest(now.area / closed.area);
 }
 
-// The columns are opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then orifice_area,
-// orifice_perimeter and effective_area. Ratios are relative to the closed state.
+// The table has a column for the opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then
+// orifice_area, orifice_perimeter and effective_area. A ratio is the value over the value of the closed state.
 std::string csv_of(const States &states) {
   std::string text = states.is_of_file ? "time" : "opening";
   for (const std::string &name : columns_of(states)) {
@@ -347,7 +348,7 @@ std::string summary_of(const States &states, const StatesOptions &options) {
   else
     summary.add("valve", options.valve + ": " +
                              (can_open ? counted(n, "opening") + " from 0 to 1"
-                                       : "opening 0 alone, because it has no state to open to"));
+                                       : "only opening 0, because it has no open state"));
   add_leaflets(states, summary);
   summary.add("orifice", text_of_orifice(states));
   if (!states.disc.empty())
@@ -367,9 +368,9 @@ std::string summary_of(const States &states, const StatesOptions &options) {
 }  // namespace
 
 riis_surface_options own_frame(const ValveOptions &options) {
-  // The orifice of the triangles differs from that of the smooth surface. At the program's usual tolerance, the difference is up
-  // to 0.3 % for the prosthesis. At this tolerance the difference is at most about 0.1 % for the prosthesis and for the aortic
-  // valve.
+  // The orifice of the triangles differs slightly from the orifice of the smooth valve. At the program's usual tolerance, the two
+  // orifices of the prosthesis differ by up to 0.3 %. At the tolerance chosen here, the two orifices differ by at most about 0.1
+  // % for the prosthesis and for the aortic valve.
   constexpr double fine_tolerance = 0.01;
   riis_surface_options own = options.surface_options;
   if (!options.has_tolerance) own.tolerance = fine_tolerance;

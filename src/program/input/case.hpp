@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A case: one or several valves in one mesh, at one time or at many. The valve of the command line is a case of one.
+// A case: one or several valves in one mesh, at one time or at many. A valve of the command line is a case with one valve.
 #pragma once
 
 #include <functional>
@@ -22,36 +22,37 @@ struct Case {
 
   bool has_resistance() const;
   bool is_series() const { return !options.series.times.empty(); }
-  // Returns the times of the series, or the only time.
+  // Returns the times of the series. Without a series, returns the only time.
   std::vector<double> times() const;
-  // Returns the name for the files and columns of one valve, or "" if it is the only valve.
+  // Returns a valve's name for files and columns, or "" if it is the only valve.
   std::string part_of(std::size_t valve) const { return valves.size() == 1 ? "" : valves[valve].options.prefix; }
-  // Returns the beginning of a line about one valve, such as "mitral: ", or "" if it is the only valve.
+  // Returns the beginning of a line about a valve, such as "mitral: ", or "" if it is the only valve.
   std::string before(std::size_t valve) const { return valves.size() == 1 ? "" : part_of(valve) + ": "; }
   // Returns the name of a valve's surface in warnings.
   std::string surface_of(std::size_t valve) const;
 };
 
-// Returns the valve or the surface of the command line as a case. The case has the options' opening and time, or the options'
-// times and cycle. Reads a surface only for a series, whose outputs must not replace its frames.
+// Returns the valve or the surface of the command line as a case. The case takes the opening and the time from the options. In a
+// series, the case takes the times and the cycle. A surface is read here only for a series. No output of a series may replace a
+// frame of the surface.
 Case case_of_command_line(const MarkOptions &options);
-// Reads the surfaces of the valves that are in files and not read yet.
+// Reads the valves' surfaces from files. A surface that was read before is not read again.
 void read_surfaces(Case &all);
 
-// Reads the case file of --case, JSON that describes the valves of a mesh with their placements and motions. Paths in the file
-// are relative to the file's folder. Refusals name the file, the valve and the key. The command line's mesh, times, distance
-// limit, resistance and points of --between replace those in the file.
+// Reads the case file of --case. The case file is a JSON file with the valves of a mesh, their placements and their motions.
+// Paths in the file are relative to the file's folder. Refusals name the file, the valve and the key. Some options of the command
+// line replace values of the case file: the mesh, the times, the distance limit, the resistance and the points of --between.
 Case read_case(const MarkOptions &options);
 
-// The law of the opening of a valve in a case.
+// The law for the opening of a valve in a case.
 struct CaseOpening {
   OpeningLaw law;
   std::string file;  // the file that was read, or "" if there was none
 };
 
-// Reads a number or an object. An object is {"file"} or {"times", "openings"}, each with "period" and "interpolation", or it is
-// {"opening_start", "opening_duration", "closing_start", "closing_duration", "closed", "open", "period"}. in_folder turns a path
-// of the case file into a path relative to the working folder.
+// Reads a number or an object. An object is {"file"} or {"times", "openings"}, each with "period" and "interpolation". An object
+// may also be {"opening_start", "opening_duration", "closing_start", "closing_duration", "closed", "open", "period"}. in_folder
+// turns a path of the case file into a path relative to the working folder.
 CaseOpening case_opening(const CaseValues &valve, const std::function<std::string(const std::string &)> &in_folder);
 
 }  // namespace riis::program

@@ -38,7 +38,7 @@ class CaseReader {
     const CaseValues values(path_, "", root, case_keys);
     read_common(values);
     const Json &valves = values.needed("valves");
-    if (!valves.is_array() || valves.empty()) values.refuse("valves", "it must be an array of one valve or more");
+    if (!valves.is_array() || valves.empty()) values.refuse("valves", "it must be an array of at least one valve");
     for (std::size_t i = 0; i < valves.size(); ++i) read_valve(valves[i], i, valves.size());
     apply_resistances(values);
     read_surfaces(all_);
@@ -66,7 +66,7 @@ class CaseReader {
     if (values.has("times") && options.series.times.empty()) options.series.times = times_of(values);
   }
 
-  // Reads R, a number or a text with a unit.
+  // Reads R, which is a number or a text with a unit.
   static std::optional<Amount> resistance_of(const CaseValues &values) {
     const char *const key = "resistance";
     if (!values.has(key)) return std::nullopt;
@@ -84,8 +84,8 @@ class CaseReader {
     }
   }
 
-  // Gives R of each valve in the units of the mesh. K is a sum over the valves, so all valves must agree about the mesh's unit.
-  // Without "unit", a placed valve has the unit of its file.
+  // Converts the resistance R of each valve into the units of the mesh. K is a sum over the valves, so all valves need the same
+  // unit of the mesh. Without "unit", a placed valve has the unit of its file.
   void apply_resistances(const CaseValues &values) {
     const ValveSource *first = nullptr;
     for (ValveSource &valve : all_.valves) {
@@ -125,7 +125,7 @@ class CaseReader {
     return all_.files.back();
   }
 
-  // Returns the paths that a key gives, as one text or as an array of texts.
+  // Returns the paths that a key gives. The value of the key is a text or an array of texts.
   std::vector<std::string> files_of(const CaseValues &values, const char *key) {
     if (!values.needed(key).is_array()) return {file_of(values, key)};
     std::vector<std::string> files;
@@ -152,7 +152,7 @@ class CaseReader {
     if (values.has("surface")) set_surface(options, files_of(values, "surface"), source.subject);
     options.leaflets = values.text("leaflets");
     if (options.surface_files.size() > 1 && !options.leaflets.empty())
-      values.refuse("leaflets", "it has no effect, because each of several files is a leaflet");
+      values.refuse("leaflets", "it has no effect, because each file is a leaflet");
     options.valve = values.text("valve");
     if (options.valve.empty() == options.surface.empty())
       values.refuse("valve", "either it or \"surface\" must be given");
@@ -173,12 +173,13 @@ class CaseReader {
   std::string name_of(const CaseValues &values, std::size_t n_valves) {
     const std::string name = values.text("name");
     if (name.empty()) {
-      if (n_valves > 1) values.refuse("name", "each of several valves needs one");
+      if (n_valves > 1) values.refuse("name", "it is missing, and each of several valves needs a name");
       return all_.options.prefix;
     }
     if (!is_prefix(name)) values.refuse("name", "\"" + name + "\" must be 1 to 64 letters, digits, _, - and .");
-    if (n_valves > 1 && name == all_.options.prefix) values.refuse("name", "\"" + name + "\" is the name of the sums");
-    if (!names_.insert(name).second) values.refuse("name", "\"" + name + "\" is the name of two valves");
+    if (n_valves > 1 && name == all_.options.prefix)
+      values.refuse("name", "\"" + name + "\" is already the name of the sums over all valves");
+    if (!names_.insert(name).second) values.refuse("name", "\"" + name + "\" is already the name of another valve");
     return name;
   }
 
@@ -241,7 +242,7 @@ class CaseReader {
     set_skirt(source.options, source.valve, source.subject);
   }
 
-  // Reads the warp, and gives it to the valve at the first time.
+  // Reads the warp, and gives the valve its warp at the first time.
   void set_warp(const CaseValues &values, riis_valve *valve, ValveSource &source) {
     const std::vector<double> &times = all_.options.series.times;
     source.warp = read_warp(source.options);
@@ -256,7 +257,7 @@ class CaseReader {
     source.warp.apply(times.empty() ? 0 : times.front(), valve);
   }
 
-  // Sets parameters from an object, or from a file if a path is given.
+  // Sets parameters from an object, or from the file at a path.
   void set_parameters_of(const CaseValues &values, const char *key, riis_valve *valve) {
     if (!values.has(key)) return;
     if (values.needed(key).is_string())
@@ -265,7 +266,7 @@ class CaseReader {
       set_from_json(valve, values.needed(key), values.subject() + ": " + key);
   }
 
-  // Sets the law of opening. Also sets the valve to its largest opening, which fails if the valve cannot open.
+  // Sets the law of opening. Also opens the valve as far as the law requires. Fails if the valve cannot open.
   void set_law(const CaseValues &values, riis_valve *valve, ValveSource &source) {
     const std::vector<double> &times = all_.options.series.times;
     source.law = OpeningLaw(opening_of(valve));
@@ -357,7 +358,7 @@ CaseOpening case_opening(const CaseValues &valve, const std::function<std::strin
   }
   if (value.contains("times")) return {law_of_arrays({valve.path(), object, value, table_keys}), ""};
   if (value.contains("opening_start")) return {law_of_ramps({valve.path(), object, value, ramp_keys}), ""};
-  valve.refuse("opening", "it has none of file, times and opening_start");
+  valve.refuse("opening", "it must have file, times or opening_start");
 }
 
 namespace {
@@ -371,7 +372,7 @@ void read_valve(const MarkOptions &options, ValveSource &source) {
   }
   const SeriesOptions &series = options.series;
   source.law = OpeningLaw(read_cycle(series.cycle, options.period, series.interpolation), series.cycle);
-  // make_valve refuses a file of patches if the valve cannot open as far as the law requires.
+  // make_valve gets the largest opening, and refuses a file of patches that cannot open so far.
   source.options.opening = largest_opening(source.law, options.series.times);
   source.valve = make_valve(source.options, OpeningCheck::yes, &source.warp);
 }
@@ -409,7 +410,7 @@ void read_surfaces(Case &all) {
       continue;
     }
     KeyframeFiles read = read_keyframes(options, all.seconds);
-    // Outputs are written after all frames are read, so the user would not notice an output that replaces a frame.
+    // Outputs are written after all frames are read. Without a check, the user would not notice an output that replaces a frame.
     check_no_output_is("a frame of --surface " + options.surface, read.files, options);
     source.keyframes = std::move(read.keyframes);
     all.files.insert(all.files.end(), read.files.begin(), read.files.end());

@@ -9,7 +9,7 @@
 namespace riis::program {
 namespace {
 
-// A name without a part, such as "width", sets that of all bumps or commissures.
+// A parameter without a part's name, such as "width", is set for all bumps or for all commissures.
 // clang-format off
 const Disease diseases[] = {
     {"aortic_stenosis_mild", "coapting",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sick valves by the names of diagnoses, which --valve takes. docs/diseases.md has the sources of their areas.
+// The sick valves that --valve takes by the names of diagnoses. docs/diseases.md has the sources of their areas.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct Disease {
 // Returns the disease with that name, or nullptr.
 const Disease *disease_named(const std::string &name);
 
-// Returns a table of all diseases for people.
+// Returns a table of all diseases for the user to read.
 std::string table_of_diseases();
 
 }  // namespace riis::program

@@ -20,15 +20,16 @@
 namespace riis::program {
 namespace {
 
-// A side of a face, between two vertices a < b.
+// A side of a face between two vertices, a < b.
 struct Side {
   std::int64_t a, b, face;
   bool is_forward;  // whether the face goes from a to b
   std::int32_t leaflet;
 };
 
-// Pieces of faces that are joined by sides, and how each face is turned in its piece. In the sets, the number i is face i as it
-// is, and the number n + i is face i turned over. Two numbers in one set face the same way.
+// Faces that are joined along sides, as disjoint sets. The sets also tell how the faces are oriented against each other. The
+// number i stands for face i as it is, and the number n + i stands for face i turned over. Two numbers are in one set if the
+// faces are joined and have the same orientation.
 class Pieces {
  public:
   explicit Pieces(std::int64_t n) : n_(n), sets_(2 * n) {}
@@ -41,7 +42,8 @@ class Pieces {
     const std::int64_t as_it_is = sets_.root(face), turned = sets_.root(n_ + face);
     return {std::min(as_it_is, turned), turned < as_it_is};
   }
-  // Joins two faces. The two faces face the same way, or one is turned over. Two faces of one piece stay as they are.
+  // Joins two faces, whose orientations agree or differ. `turned` tells whether the orientations differ. If the two faces are in
+  // one piece already, nothing changes.
   void join(std::int64_t one, std::int64_t other, bool turned) {
     if (find(one).piece == find(other).piece) return;
     sets_.unite(one, turned ? n_ + other : other);
@@ -92,7 +94,7 @@ class FaceCheck {
     return view(places_)[triangles_.vertex_id[3 * face + k % 3]];
   }
 
-  // Returns the faces, but of faces with equal corners only the first.
+  // Returns the faces that have different corners. Of several faces with the same corners, returns only the first.
   std::vector<std::int64_t> different_faces() const {
     using Key = std::array<std::int64_t, 3>;
     std::vector<std::pair<Key, std::int64_t>> sorted;
@@ -108,8 +110,8 @@ class FaceCheck {
     return faces;
   }
 
-  // Joins the faces of a leaflet that share a side. Returns for each face whether a side of it is open. A side of more than two
-  // faces joins none.
+  // Joins the faces of one leaflet that share a side. For each face, returns whether one of its sides is open. If more than two
+  // faces share a side, the side joins none of the faces.
   std::vector<char> join_along_sides(const std::vector<std::int64_t> &faces, Pieces &pieces) const {
     std::vector<Side> sides;
     for (const std::int64_t face : faces)
@@ -140,8 +142,8 @@ void warn_of_faces(const std::string &name, const riis_surface *surface) {
   if (faults.n_turned > 0)
     warn(name + ": " + grouped(faults.n_turned) + " of " + counted(triangles.n_triangles, "triangle") +
          (faults.n_turned == 1 ? " is" : " are") +
-         " turned over against the others: normals and side change there; ParaView's filter Surface Normals turns them "
-         "back");
+         " turned over against the neighbours: normals and sides change there; ParaView's filter Surface Normals turns "
+         "them back");
   if (faults.n_equal > 0)
     warn(name + ": " + counted(faults.n_equal, "triangle") + (faults.n_equal == 1 ? " is" : " are") +
          " in the file twice: areas count both");
@@ -165,7 +167,7 @@ OpenLine longest_open_line(const riis_surface *surface, double most) {
     while (end < edges.size() && edges[end] == edges[i]) ++end;
     if (end == i + 1 && edges[i].first != edges[i].second) open.push_back(edges[i]);
   }
-  // A vertex for each place.
+  // Makes one vertex for each place.
   std::vector<const double *> points(static_cast<std::size_t>(triangles.n_vertices), nullptr);
   for (std::int64_t i = 0; i < triangles.n_vertices; ++i) view(points)[view(places)[i]] = triangles.xyz + 3 * i;
   DisjointSets joined(triangles.n_vertices);

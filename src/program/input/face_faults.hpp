@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a surface from a file. Out: lines on stderr about triangles that give other sides or areas than a user expects, and lines
-// of open edges.
+// In: a surface from a file. Out: warnings about triangles whose side or area may not be as the user expects, and lines of open
+// edges.
 #pragma once
 
 #include <riis/riis.h>
@@ -10,16 +10,16 @@
 
 namespace riis::program {
 
-// Warns of triangles that are turned over against their neighbours, of equal triangles, and of closed pieces such as thick
-// leaflets. `name` begins the lines. Corners at equal positions are one vertex.
+// Warns of three faults: triangles whose orientation differs from their neighbours', equal triangles, and closed pieces such as
+// thick leaflets. The warnings begin with `name`. Corners at equal positions are one vertex.
 void warn_of_faces(const std::string &name, const riis_surface *surface);
 
-// A line of open edges: the number of its edges, their length, and the middle of the box around it.
+// A line of open edges: the number of its edges, their total length, and the middle of the box around the line.
 struct OpenLine {
   std::int64_t n_edges = 0;
   double length = 0, point[3] = {0, 0, 0};
 };
-// Returns the longest line of open edges that is at most so long. Lines that meet are one line.
+// Returns the longest line of open edges whose length is at most the given length. Lines that meet count as one line.
 OpenLine longest_open_line(const riis_surface *surface, double most);
 
 }  // namespace riis::program

@@ -15,7 +15,8 @@ class Guard {
   Guard(const std::string &path, const std::string &content) : path_(path), content_(content) {}
 
   void operator()(int depth, Json::parse_event_t event, const Json &parsed) {
-    // The program's files need up to five levels below the root. The limit protects recursive code from deeper nesting.
+    // The program's files have at most five levels below the root. The limit protects recursive code from files with deeper
+    // nesting.
     constexpr int deepest = 8;
     if (depth > deepest) refuse_file(path_, "is nested deeper than " + content_ + " can be");
     if (event == Json::parse_event_t::object_start) {
@@ -31,7 +32,7 @@ class Guard {
   void check_key(const std::string &key) {
     // Control characters are refused, because the library would end a name at a 0 byte.
     if (std::any_of(key.begin(), key.end(), is_control)) refuse_file(path_, "a name holds a control character: " + key);
-    // Repeated keys are refused. The parser would keep only the last of them, and the user cannot have meant all.
+    // Repeated keys are refused. The parser would keep only the last of several equal keys.
     if (!keys_.back().insert(key).second) refuse_file(path_, key + " is given twice");
   }
 

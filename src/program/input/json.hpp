@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a JSON file. Out: its value. The reader refuses deep nesting, repeated keys and control characters in keys, all of which
-// the parser would accept.
+// In: a JSON file. Out: its value. The reader refuses deep nesting, repeated keys, and control characters in keys, which the
+// parser alone would accept.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,29 +18,28 @@ namespace riis::program {
 
 using Json = nlohmann::ordered_json;
 
-// `content` names the expected content of the file, such as "parameters". This name appears in the message if the file is nested
-// too deeply.
+// `content` names the content of the file, such as "parameters", in the refusal of a file that is nested too deeply.
 Json parse_json_file(const std::string &path, const std::string &content);
 Json parse_json(const std::string &path, const std::string &text, const std::string &content);
 
-// Refuses a value that is not an object, and a key that is not in the list. The refusal of a key suggests the nearest key of the
-// list. `subject` names the value.
+// Refuses a value that is not an object, and an object with a key that is not in the list. The refusal of an unknown key suggests
+// the nearest key of the list. `subject` names the value.
 void check_keys(const std::string &path, const std::string &subject, const Json &value,
                 const std::vector<std::string> &keys);
 
-// Returns the point [x, y, z], or nothing for another value.
+// Returns the point if the value is [x, y, z], or nothing.
 std::optional<std::array<double, 3>> point_in(const Json &value);
 
-// In: an object of a case file. Out: its values by key, checked. Refusals name the file, the object and the key.
+// In: an object of a case file. Out: the object's values by key, after checks. Refusals name the file, the object and the key.
 
 class CaseValues {
  public:
-  // `object`, such as "valve 0", names the value in refusals. "" stands for the file's root, whose words are `root`. Borrows the
-  // value.
+  // `object`, such as "valve 0", names the object in refusals. If `object` is "", refusals name the file's root by `root`. The
+  // new object borrows the JSON value.
   CaseValues(const std::string &path, const std::string &object, const Json &value,
              const std::vector<std::string> &keys, const std::string &root = "the case");
 
-  // Returns the file and the object, for refusals.
+  // Returns the names of the file and the object for refusals.
   std::string subject() const { return object_.empty() ? path_ : path_ + ": " + object_; }
   const std::string &path() const { return path_; }
   void set_subject(const std::string &object) { object_ = object; }
@@ -55,7 +54,7 @@ class CaseValues {
   std::vector<double> numbers(const char *key, std::size_t n) const;
   bool flag(const char *key) const;  // returns false if the key is missing
   std::optional<Unit> unit(const char *key) const;
-  // Returns the position of the text in the list, or 0 if the key is missing.
+  // Returns the position of the key's text in the list, or 0 if the key is missing.
   std::size_t choice(const char *key, const std::vector<std::string> &names) const;
 
   [[noreturn]] void refuse(const std::string &key, const std::string &reason) const;

@@ -15,7 +15,8 @@
 namespace riis::program {
 namespace {
 
-// The names of leaflets: of three cusps, of a tricuspid valve, and of any number of cusps. A name stands before its beginning.
+// The words for leaflets: of a valve with three cusps, of a tricuspid valve, and of a valve with any number of cusps. In the
+// list, non_coronary stands before non, because the first fitting word counts.
 struct LeafletWord {
   const char *word;
   std::int32_t leaflet_id;
@@ -24,7 +25,7 @@ constexpr LeafletWord leaflet_words[] = {{"right", 0},    {"left", 1},   {"non_c
                                          {"anterior", 0}, {"septal", 1}, {"posterior", 2},    {"cusp_0", 0},
                                          {"cusp_1", 1},   {"cusp_2", 2}, {"cusp_3", 3}};
 
-// The words for roles. Some words may stand for several landmarks, because a valve has several landmarks of that role.
+// The words for the roles of landmarks. Some words may name several landmarks, because a valve has several landmarks of one role.
 struct RoleWord {
   const char *word;
   std::int32_t role;
@@ -49,7 +50,7 @@ struct Place {
   bool may_repeat;  // whether other landmarks may have the same name
 };
 
-// Returns the name in small letters, with _ for blanks and hyphens in it.
+// Returns the name in small letters. Blanks and hyphens become _.
 std::string plain(const std::string &name) {
   std::string made;
   for (const char c : trimmed(name))
@@ -61,7 +62,8 @@ bool is_number(const std::string &text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// Takes a leaflet's name from the start of the text. Returns the leaflet id of a name, or -1.
+// Removes a leaflet's name from the beginning of the text. Returns the id of the leaflet, or -1 if the text does not begin with a
+// leaflet's name.
 std::int32_t take_leaflet(std::string &text) {
   for (const auto &[name, leaflet_id] : leaflet_words) {
     const std::string word = name;
@@ -72,8 +74,8 @@ std::int32_t take_leaflet(std::string &text) {
   return -1;
 }
 
-// Reads a name: the word of a role, and perhaps more. A number may follow, or one leaflet after a nadir, or two leaflets after a
-// commissure. For a point of the attachment, a leaflet and a number may follow.
+// Reads the name of a landmark, which begins with the word of a role. After the word, there may be a number, the leaflet of a
+// nadir, or the two leaflets of a commissure. After the word attachment, a leaflet and a number may follow.
 std::optional<Place> place_of_name(const std::string &name) {
   const std::string text = plain(name);
   for (const RoleWord &known : role_words) {
@@ -129,7 +131,7 @@ class Collector {
     file_.xyz.insert(file_.xyz.end(), point.begin(), point.end());
   }
 
-  // Checks the landmarks as a whole, and takes the direction of flow from its two points.
+  // Checks the landmarks as a whole. Takes the direction of flow from the two points flow_from and flow_to.
   void finish() {
     if (file_.names.empty()) refuse_file(file_.path, "holds no landmarks");
     if (ends_.empty()) return;
@@ -148,13 +150,12 @@ class Collector {
     for (const RoleWord &word : role_words) names.emplace_back(word.word);
     const std::string known = joined_by(names, ", ");
     names.insert(names.end(), {"nadir_right", "nadir_left", "nadir_non_coronary"});
-    refuse_file(
-        file_.path,
-        quoted(name) + " is not the name of a landmark" + did_you_mean(plain(name), names, "\"", "\"") +
-            "; there are " + known +
-            ", flow_from and flow_to; a nadir may name its cusp, as in nadir_left, a commissure its two, as in "
-            "commissure_left_right, and a point of the attachment its cusp and a number, as in attachment_left_2; "
-            "leaflets are called right, left and non_coronary, or anterior, septal and posterior, or cusp_0 to cusp_3");
+    refuse_file(file_.path, quoted(name) + " is not the name of a landmark" +
+                                did_you_mean(plain(name), names, "\"", "\"") + "; there are " + known +
+                                ", flow_from and flow_to; a nadir may name its cusp, as in nadir_left; a commissure "
+                                "may name its two cusps, as in commissure_left_right; a point of the attachment may "
+                                "name its cusp and a number, as in attachment_left_2; leaflets are called right, left "
+                                "and non_coronary, or anterior, septal and posterior, or cusp_0 to cusp_3");
   }
 
   LandmarkFile &file_;
@@ -174,7 +175,7 @@ std::array<double, 3> point_in_row(const std::string &path, const CsvFile::Row &
 // ---- What a file states ----
 
 constexpr const char *why_axes =
-    "; mesh stands for those of the mesh or of the wall, and LPS and RAS differ by half a turn about z";
+    "; mesh stands for the axes of the mesh or of the wall, and LPS and RAS differ by half a turn about z";
 
 Unit stated_unit(const std::string &path, const std::string &text) {
   if (const auto unit = unit_of(text)) return *unit;
@@ -219,7 +220,8 @@ void read_json(const Json &root, LandmarkFile &file) {
       to.add(name, point_of(file.path, quoted(name), value));
       continue;
     }
-    // Only a name that several landmarks may have takes numbers. Another name may have a list of one point.
+    // If several landmarks may have a name, the points of a list get the name with a number. If only one landmark may have the
+    // name, the list must have one point.
     const std::optional<Place> place = place_of_name(name);
     for (std::size_t i = 0; i < value.size(); ++i) {
       const std::string own = place && place->may_repeat ? name + "_" + std::to_string(i + 1) : name;
@@ -231,7 +233,7 @@ void read_json(const Json &root, LandmarkFile &file) {
 
 // ---- 3D Slicer ----
 
-// Returns the unit of a list of points. By 3D Slicer's schema it is a text, or an array whose first entry is the text; the
+// Returns the unit of a list of points. In 3D Slicer's schema, the unit is a text, or an array whose first entry is the text. The
 // default is mm.
 Unit slicer_unit(const std::string &path, const Json &list, const std::string &where) {
   const auto found = list.find("coordinateUnits");
@@ -241,11 +243,11 @@ Unit slicer_unit(const std::string &path, const Json &list, const std::string &w
   return stated_unit(path, unit.get<std::string>());
 }
 
-// A file of 3D Slicer has many keys, which change from version to version. Only the keys needed here are read.
+// A file of 3D Slicer has many keys, which differ between versions. Only the keys needed here are read.
 void read_slicer(const Json &root, LandmarkFile &file) {
   const std::string &path = file.path;
   const Json &lists = root["markups"];
-  if (!lists.is_array() || lists.empty()) refuse_file(path, "markups must be an array of one list of points or more");
+  if (!lists.is_array() || lists.empty()) refuse_file(path, "markups must be an array of at least one list of points");
   const auto text_in = [&](const Json &object, const char *key, const std::string &where) {
     const auto found = object.find(key);
     if (found == object.end() || !found->is_string()) refuse_file(path, where + " has no text " + quoted(key));
@@ -263,7 +265,8 @@ void read_slicer(const Json &root, LandmarkFile &file) {
     const Axes axes = stated_axes(path, system);
     const Unit unit = slicer_unit(path, list, where);
     if (i > 0 && (axes != file.axes || unit != file.unit))
-      refuse_file(path, where + " has other axes or another unit than markups 0: save them alike");
+      refuse_file(path,
+                  where + " has other axes or another unit than markups 0: save both with the same axes and unit");
     file.axes = axes;
     file.unit = unit;
     const bool is_closed_curve = list.contains("type") && list["type"] == "ClosedCurve";
@@ -274,8 +277,8 @@ void read_slicer(const Json &root, LandmarkFile &file) {
       const Json &point = (*points)[k];
       const std::string at = where + ", control point " + std::to_string(k);
       if (!point.is_object()) refuse_file(path, at + " must be an object, not of type " + point.type_name());
-      // A closed curve is an annulus, whatever its points are called. An open curve is also an annulus, except for points with
-      // names of landmarks.
+      // A closed curve is an annulus, whatever the names of its points are. An open curve is also an annulus if its points do not
+      // have the names of landmarks.
       const std::string given = is_closed_curve ? "" : text_in(point, "label", at);
       const bool is_annulus = is_closed_curve || (is_curve && !is_landmark(given));
       const std::string label = is_annulus ? "annulus_" + std::to_string(++n_annulus) : given;
@@ -298,7 +301,8 @@ Axes fcsv_axes(const std::string &path, const std::string &value) {
   refuse_file(path, "CoordinateSystem is " + quoted(value) + "; it must be LPS, RAS, 0 for RAS or 1 for LPS");
 }
 
-// Reads an .fcsv file, which earlier versions of 3D Slicer wrote. Its lengths are in mm. The axes are a name or a number.
+// Reads an .fcsv file, which earlier versions of 3D Slicer wrote. Its lengths are in mm. An .fcsv file gives its axes as a name
+// or as a number.
 void read_fcsv(const std::string &text, LandmarkFile &file) {
   const std::string &path = file.path;
   std::vector<std::string> columns;

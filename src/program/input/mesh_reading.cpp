@@ -27,13 +27,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns whether a damaged file of this format can crash its reader: HDF5, or VTK's reader of Exodus.
+// Returns whether a damaged file of this format can crash its reader. HDF5 files can crash their reader, and so can files that
+// VTK's reader of Exodus reads.
 bool may_crash(const std::string &path) {
   static const std::set<std::string> endings = {".xdmf", ".xmf", ".e", ".exo", ".ex2", ".exii"};
   return endings.count(ending_of(path)) != 0;
 }
 
-// A folder for the mesh that a child process passes on. Signals that end the process remove the folder.
+// A folder for the mesh that a child process has read. If a signal ends the process, the folder is removed.
 class PassingFolder {
  public:
   PassingFolder() { remove_if_ended(folder_.path(), mesh()); }
@@ -47,8 +48,9 @@ class PassingFolder {
   const TemporaryFolder folder_;
 };
 
-// Limits the memory of this process, because damaged files may claim any size. A sound file needs a few times its size in memory,
-// and a compressed file up to a thousand times. The address sanitizer reserves terabytes, so its builds have no limit.
+// Limits the memory of this process, because damaged files may claim any size. Reading needs a few times the size of an undamaged
+// file in memory. A compressed file may need a thousand times its size. Builds with the address sanitizer have no limit, because
+// the sanitizer reserves terabytes.
 void limit_memory([[maybe_unused]] const std::string &path) {
 #ifndef __SANITIZE_ADDRESS__
   std::error_code error;
@@ -68,17 +70,17 @@ void limit_memory([[maybe_unused]] const std::string &path) {
 #endif
 }
 
-// The result of the child process: a status, and the notes or the message.
+// The result of the child process: a status, and notes about the mesh or an error message.
 struct Answer {
   riis_status status = RIIS_INTERNAL_ERROR;
   std::string text;
 };
 
-// Reads the mesh, writes it to a .vtu, and answers through the pipe.
+// Reads the mesh, writes it to a .vtu file, and sends the result through the pipe.
 [[noreturn]] void read_as_child(const std::string &path, const std::string &passed, int answer, pid_t parent) {
-  // Readers print errors of their own. The message of the child process goes through the pipe.
+  // Readers print their own errors, which the child process drops. The child process sends its message through the pipe.
   const int nowhere = open("/dev/null", O_WRONLY);
-  // The child process ends with its parent, and removes no file of its parent.
+  // The child process ends with its parent, and does not remove the parent's files.
   for (const int ending : UnbrokenWrite::signals)
     if (signal(ending, SIG_DFL) == SIG_IGN) signal(ending, SIG_IGN);
   end_with_parent(SIGKILL);
@@ -93,7 +95,7 @@ struct Answer {
   if (status == RIIS_OK) status = riis_vtk_mesh_get_notes(mesh, &notes);
   if (status == RIIS_OK) status = riis_vtk_mesh_write(mesh, passed.c_str());
   const char *const text = status == RIIS_OK ? notes : riis_last_error();
-  // A pipe takes as few bytes as these in one call.
+  // The text is short enough for a pipe to take it in one call.
   const auto n_bytes = static_cast<ssize_t>(std::strlen(text));
   const bool is_written =
       write(answer, &status, sizeof status) == sizeof status && write(answer, text, std::strlen(text)) == n_bytes;
@@ -172,7 +174,7 @@ std::vector<std::string> data_files_of(const std::string &path) {
     const std::size_t begin = text.find_first_not_of(" \t\r\n"), end = text.find_last_not_of(" \t\r\n");
     if (begin == std::string::npos) continue;
     text = text.substr(begin, end + 1 - begin);
-    // A dataset may follow the file: FILE.h5:/DATASET, or without "/".
+    // A dataset may follow the file's name, as in FILE.h5:/DATASET. The slash may be missing.
     for (const char *separator : {":/", ":"}) {
       const fs::path place = fs::path(path).parent_path() / text.substr(0, text.find(separator));
       std::error_code error;
@@ -214,7 +216,7 @@ std::string text_of_regions(const std::string &path, riis_vtk_mesh *mesh) {
   for (std::int64_t i = 0; i < std::min(n, most_listed); ++i)
     list += (i == 0 ? "" : i + 1 == n ? " and " : ", ") + shortest(values[i]);
   return path + " has the regions " + list + (n > most_listed ? ", ..." : "") + " of the cell array " + array +
-         ", and they touch: --cells-where " + array + "=" + shortest(values[0]) + " takes only the cells of one";
+         ", and they touch: --cells-where " + array + "=" + shortest(values[0]) + " takes only the cells of one region";
 }
 
 std::string take_notes() { return std::exchange(kept_notes, ""); }

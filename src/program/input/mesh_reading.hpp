@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the path of a mesh. Out: the mesh. Formats whose readers a damaged file can crash are read in a child process.
+// In: the path of a mesh. Out: the mesh. A child process reads the formats in which a damaged file can crash the reader.
 #pragma once
 
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace riis::program {
 
-// Reads a mesh. Keeps the reader's note, such as that the file has single precision, for the summary. `cells_where` chooses
-// cells, unless it is "".
+// Reads a mesh. Keeps a note of the reader for the summary. For example, a note says that the file has single precision.
+// `cells_where` chooses cells of the mesh. "" chooses all cells.
 MeshFile read_mesh_file(const std::string &path, const std::string &cells_where);
-// Returns a sentence about domains that touch, if a cell array tells them apart, or "".
+// Returns a sentence about the domains of the mesh if they touch. Returns "" if no cell array tells domains apart.
 std::string text_of_regions(const std::string &path, riis_vtk_mesh *mesh);
-// Returns the files that an .xdmf file takes numbers from, as far as they exist, and none for other files.
+// Returns the existing files from which an .xdmf file takes its numbers. Returns none for files of other formats.
 std::vector<std::string> data_files_of(const std::string &path);
-// Returns the lines of the notes since the last call, for the beginning of the summary.
+// Returns the notes since the last call, as lines for the beginning of the summary.
 std::string take_notes();
 
-// Returns whether the path is the folder of a case of OpenFOAM.
+// Returns whether the path is the folder of an OpenFOAM case.
 bool is_foam_case(const std::string &path);
-// Returns whether the path is the folder of a time of such a case. The folder may be missing.
+// Returns whether the path is the folder of a time in an OpenFOAM case. The folder need not exist.
 bool is_foam_time(const std::string &path);
-// Returns the path of a time's folder in a case.
+// Returns the path of a time's folder in an OpenFOAM case.
 std::string foam_time(const std::string &foam_case, double time);
 
 }  // namespace riis::program

@@ -16,7 +16,7 @@ namespace riis::program {
 
 namespace {
 
-// Checks a law. Reports the law's faults as bad data, because all values of the law come from the user.
+// Checks a law. Reports a fault of the law as bad data, because all values of the law come from the user.
 void check_law(riis_status status, const std::string &subject) {
   if (status == RIIS_INVALID_ARGUMENT) refuse_data(subject + ": " + riis_last_error());
   check(status, subject);
@@ -81,7 +81,7 @@ const std::vector<std::string> &interpolation_names() {
 
 namespace {
 
-// The library has the same limits for a table.
+// The limits are those of the library's tables of openings.
 constexpr std::size_t most_keys = 1000000;
 constexpr double largest_key_time = 1e30;
 
@@ -118,7 +118,7 @@ TimedValues read_keys(const std::string &path, const KeyColumn &column) {
       refuse("has " + std::to_string(columns.size()) + " columns: '" + line + "'; it must have 2, time and " + name);
     if (may_be_header && !number_in(columns[0]) && !number_in(columns[1])) continue;
     const double time = number(columns[0], "the time"), value = number(columns[1], "the " + name);
-    if (keys.times.size() == most_keys) refuse("is one key too many; there may be 1000000");
+    if (keys.times.size() == most_keys) refuse("is one key too many; at most 1000000 keys are allowed");
     if (std::abs(time) > largest_key_time) refuse("the time " + columns[0] + " is beyond 1e30");
     if (!keys.times.empty() && time <= keys.times.back())
       refuse("the time " + columns[0] + " is not above the time before it");

@@ -23,17 +23,17 @@ class OpeningLaw {
  public:
   // Makes a constant opening.
   explicit OpeningLaw(double opening) : law_(opening) {}
-  // If the library refuses the law, the message begins with `subject`, such as a file's name.
+  // Messages of the library's refusals begin with `subject`, such as a file's name.
   OpeningLaw(OpeningTable table, const std::string &subject);
   OpeningLaw(const riis_opening_times &times, const std::string &subject);
 
   double at(double time) const;
-  // Returns the derivative of the opening by time.
+  // Returns the derivative of the opening with respect to time.
   double rate_at(double time) const;
   bool is_constant() const { return std::holds_alternative<double>(law_); }
 
  private:
-  // Evaluates the law once, so that the library refuses a bad law before any other work.
+  // Evaluates the law once. The library thus refuses a bad law before the program does any other work.
   void rehearse() const;
 
   std::variant<double, OpeningTable, riis_opening_times> law_;
@@ -43,12 +43,12 @@ class OpeningLaw {
 // Returns the largest opening at these times. Without times, the law must be constant, and the function returns its opening.
 double largest_opening(const OpeningLaw &law, const std::vector<double> &times);
 
-// Returns the names of RIIS_INTERPOLATION_*. The position of each name is the value that it stands for.
+// Returns the names of the constants RIIS_INTERPOLATION_*. A name's position in the list is the value of its constant.
 const std::vector<std::string> &interpolation_names();
 
 // In: a CSV file of times and values. Out: the keys. Refusals name the file, the line and the value.
 
-// The second column of such a file.
+// Describes the second column of a file of keys.
 struct KeyColumn {
   const char *name, *names;             // such as "opening" and "openings"
   std::function<bool(double)> is_good;  // whether a value is possible
@@ -59,11 +59,11 @@ struct TimedValues {
   std::vector<double> times, values;
 };
 
-// The file has two columns, the time and the value, separated by a comma, a semicolon, blanks or a tab. The first line may name
-// the columns. Empty lines and lines that begin with # are skipped. Times must ascend.
+// The file has two columns, the time and the value. A comma, a semicolon, blanks or a tab separate the columns. The first line
+// may name the columns. Empty lines and lines that begin with # are skipped. Times must ascend.
 TimedValues read_keys(const std::string &path, const KeyColumn &column);
 
-// Reads a table of openings, which must be from 0 to 1.
+// Reads a table of openings. Each opening must be from 0 to 1.
 OpeningTable read_cycle(const std::string &path, double period = 0,
                         std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR);
 

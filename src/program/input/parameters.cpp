@@ -34,7 +34,7 @@ bool is_part(const riis_valve *valve, const std::string &name) {
   });
 }
 
-// Returns a parameter's own name, given this name or its second name, such as "root_radius" for "annulus".
+// Returns the first name of a parameter that has two names. For example, "annulus" is the second name of "root_radius".
 std::string own_name(const riis_valve *valve, const std::string &name) {
   const std::size_t dot = name.rfind('.'), start = dot == std::string::npos ? 0 : dot + 1;
   for (const riis_parameter &parameter : all_parameters(valve)) {
@@ -55,7 +55,8 @@ void add(const std::string &path, const riis_valve *valve, const std::string &na
   const auto [place, is_new] = settings.emplace(own_name(valve, name), Setting{name, numbers_of(path, name, value)});
   if (is_new) return;
   if (place->second.name == name) refuse_file(path, name + " is given twice");
-  refuse_file(path, place->second.name + " and " + name + " are given, but they are names of one size; give one");
+  refuse_file(
+      path, place->second.name + " and " + name + " are given, but both are names of one size; give only one of them");
 }
 
 Settings settings_of(const std::string &path, const riis_valve *valve, const Json &root) {
@@ -107,7 +108,7 @@ namespace {
 
 std::string text_of(double number) { return printed("%g", number); }
 
-// Returns the description with the parameter's rule and its second name.
+// Returns the description of a parameter, followed by its rule and its second name.
 std::string description_of(const riis_parameter &parameter) {
   std::string text = parameter.description;
   if (*parameter.rule) text += std::string("; unless set: ") + parameter.rule;
@@ -130,13 +131,13 @@ Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
           text_of(parameter.minimum) + " to " + text_of(parameter.maximum), description_of(parameter)};
 }
 
-// The rows of a part of the valve with a number, such as bump_0, or the row of another parameter.
+// The rows of a numbered part of the valve, such as bump_0. A parameter without a numbered part has a row alone.
 struct Part {
   std::string name;  // "" without a number
   std::vector<Row> rows;
 };
 
-// Returns "bump_0" for "bump_0.open", and "" for names without a number.
+// Returns the numbered part of a name, such as "bump_0" for "bump_0.open". Returns "" for a name without a numbered part.
 std::string numbered_part(const std::string &name) {
   const std::size_t dot = name.find('.');
   const bool has_number = dot != std::string::npos && dot > 0 && name[dot - 1] >= '0' && name[dot - 1] <= '9';
@@ -156,7 +157,7 @@ std::vector<Part> parts_of(const riis_valve *valve) {
   return parts;
 }
 
-// Returns whether two names of parts differ by their numbers only.
+// Returns whether two parts of the valve differ only in their numbers.
 bool are_alike(const Part &a, const Part &b) {
   const auto without_number = [](const Part &part) {
     std::string text = part.name.substr(0, part.name.find_last_not_of("0123456789") + 1);
@@ -167,7 +168,7 @@ bool are_alike(const Part &a, const Part &b) {
   return !a.name.empty() && !b.name.empty() && without_number(a) == without_number(b);
 }
 
-// Returns whether a part is a bump at no place. Such a bump does nothing.
+// Returns whether a part of the valve is a bump without a place. A bump without a place does nothing.
 bool is_idle_bump(const riis_valve *valve, const std::string &part) {
   const auto has_no = [&](const char *place) {
     double number = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a JSON file or NAME=VALUE. Out: parameters of a valve, with the names that riis_valve_set accepts. json_template makes
-// such a file from a valve.
+// In: a JSON file or NAME=VALUE. Out: parameters of a valve, with the names that riis_valve_set accepts. json_template writes
+// such a JSON file for a valve.
 #pragma once
 
 #include <riis/riis.h>
@@ -11,22 +11,23 @@
 
 namespace riis::program {
 
-// Reads, for example, {"root_radius": 1.29, "right": {"leaflet_angle": 61}, "left.leaflet_angle": 58.5}. Names without a part
-// are set first, so the order in the file does not matter. Refused are a repeated name, and two names of one size, such as
-// "annulus" and "root_radius".
+// Reads parameters such as {"root_radius": 1.29, "right": {"leaflet_angle": 61}, "left.leaflet_angle": 58.5}. Parameters without
+// a part's name are set first, so the order in the file does not matter. Refuses a repeated name, and two names of one parameter,
+// such as "annulus" and "root_radius".
 void set_from_json_file(riis_valve *valve, const std::string &path);
 
-// Sets parameters from a JSON value, as from a file. `path`, a file or a position in one, begins refusals.
+// Sets parameters from the JSON value of a file or of a case. Refusals begin with `path`, which is a file or a position in a
+// file.
 void set_from_json(riis_valve *valve, const Json &parameters, const std::string &path);
 
-// Sets the parameter of one --set.
+// Sets the parameter of one option --set.
 void set_from_text(riis_valve *valve, const std::string &setting);
 
-// Returns all parameters of the valve with their values. Reading these values back sets all parameters, so no parameter follows
-// from others. Of the bumps at no place, only bump_0 is shown.
+// Returns all parameters of the valve with their values. If these values are read back, every parameter is set, and none follows
+// from another. Bumps that have no place are left out, except bump_0.
 std::string json_template(const riis_valve *valve);
-// Returns the parameters as a table for people. Each line has a parameter's name, value, unit, range and description. One line
-// stands for all like parts, such as bumps.
+// Returns the parameters as a table for the user to read. Each line has a parameter's name, value, unit, range and description.
+// One line stands for all parts that are alike, such as bumps.
 std::string parameter_table(const riis_valve *valve);
 
 }  // namespace riis::program

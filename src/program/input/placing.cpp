@@ -25,8 +25,8 @@ std::string option_text(Reader reader, const char *name, const std::string &valu
   return reader == Reader::program ? "--" + (name + (" " + value)) : name + ("='" + value + "'");
 }
 
-// Returns the names of the parameters that keep their values, by the options or by the landmarks' file. The library refuses names
-// of no parameter.
+// Returns the names of the parameters whose values the options or the landmarks' file give. The library refuses a name that is
+// not a parameter.
 std::string held_names(std::vector<std::string> given, const LandmarkFile &landmarks, const riis_valve *valve) {
   if (landmarks.parameters.is_object())
     for (const auto &[name, value] : landmarks.parameters.items()) {
@@ -47,7 +47,7 @@ std::string held_names(std::vector<std::string> given, const LandmarkFile &landm
   return joined_by(held, " ");
 }
 
-// Returns the library's message with the names of the file for landmarks, and the words of the file for fields.
+// Returns the library's message, in which the names of landmarks and fields are those of the file.
 std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
   static const std::regex numbered("landmark ([0-9]+)( \\([^)]*\\))?");
   std::string named;
@@ -72,20 +72,20 @@ std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
   return text;
 }
 
-// Passes the library's refusal of the landmarks on, with its message.
+// Throws a Refusal if the library has refused the landmarks. The Refusal has the library's message.
 void check_landmarks(riis_status status, const LandmarkFile &landmarks, Reader reader) {
   if (status == RIIS_OK) return;
   if (status != RIIS_INVALID_ARGUMENT && status != RIIS_INVALID_PARAMETER) return check(status);
   std::string text = in_words_of_file(riis_last_error(), landmarks);
   if (reader == Reader::program && text.rfind("the landmarks give ", 0) == 0)
-    text += "; --set gives sizes that landmarks do not tell, in centimetres";
+    text += "; --set sets sizes that do not follow from landmarks, in centimetres";
   throw Refusal{exit_bad_data, landmarks.path + ": " + text, status};
 }
 
-// The error of measured distances from a valve, in centimetres.
+// The error of measured distances from the valve, in centimetres.
 constexpr double distance_error = 1e-4;
 
-// Returns the distances of points from the closed valve without its skirt.
+// Returns the distances of points from the closed valve. The valve's skirt is left out.
 std::vector<double> distances_from(riis_valve *valve, riis_surface_options where, const std::vector<double> &xyz) {
   check(riis_valve_set_scalar(valve, "opening", 0));
   check(riis_valve_set_scalar(valve, "skirt_length", 0));
@@ -93,7 +93,7 @@ std::vector<double> distances_from(riis_valve *valve, riis_surface_options where
   return distances_to(create<Surface>(riis_surface_create, valve, &where), xyz);
 }
 
-// Finds the pairs of the warp. Refuses two landmarks that the warp cannot both meet.
+// Finds the pairs of landmarks for the warp. Refuses two landmarks if no warp can take both to their places.
 void pair_landmarks(Placed &placed, bool is_exact) {
   const LandmarkFile &landmarks = placed.landmarks;
   const auto apart = [](const std::vector<double> &xyz, std::size_t i, std::size_t k) {
@@ -124,7 +124,7 @@ void pair_landmarks(Placed &placed, bool is_exact) {
   }
 }
 
-// Warps the valve to the landmarks. Refuses a warp that folds at one of five openings.
+// Warps the valve to the landmarks. Refuses a warp if the valve folds at one of five openings.
 Warp unfolded_warp(const Placed &placed, riis_valve *valve, double noise, Reader reader) {
   LandmarkFile landmarks = placed.landmarks;
   landmarks.names = placed.paired_names;
@@ -145,7 +145,8 @@ Warp unfolded_warp(const Placed &placed, riis_valve *valve, double noise, Reader
   return warp;
 }
 
-// Returns a cure for a warp that meets the landmarks but folds. A warp that is smoothed by the landmarks' noise is tried.
+// Returns advice for a warp that meets the landmarks but folds. For the advice, tries a warp that is smoothed according to the
+// landmarks' noise.
 std::string cure_of_folds(const Placed &placed, const riis_valve *valve, Reader reader) {
   const std::string smoothed = option_text(reader, "warp", "smoothed"),
                     look = "look for a landmark that is not at its place";
@@ -251,7 +252,7 @@ Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader r
 
 namespace {
 
-// Returns the mean distance of the landmarks from their nearest nodes, after a change of the axes and the unit.
+// Returns the mean distance of the landmarks from their nearest nodes, after the axes and the unit are changed.
 double distance_from_nodes(const LandmarkFile &landmarks, int64_t n_nodes, const double *nodes, double sign,
                            double factor) {
   double sum = 0;
@@ -274,7 +275,8 @@ double distance_from_nodes(const LandmarkFile &landmarks, int64_t n_nodes, const
 
 void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const double *nodes, const std::string &of,
                     Reader reader) {
-  // Landmarks lie on the wall, so nodes of the mesh must be near. Landmarks a centimetre away belong to another place.
+  // Landmarks lie on the wall, so nodes of the mesh must be near them. If landmarks are a centimetre away from the nodes, they
+  // belong to another place.
   const double near = factor_between(Unit::centimetre, landmarks.unit);
   const double apart = distance_from_nodes(landmarks, n_nodes, nodes, 1, 1);
   if (apart <= near) return;
@@ -326,7 +328,7 @@ std::string filled(const std::string &text, std::size_t width) {
   return text + std::string(std::max(width, text.size() + 1) - text.size(), ' ');
 }
 
-// A distance from the valve, or 0 for a distance within the error of such distances.
+// Returns a distance from the valve as text. A distance that is smaller than the error of measured distances becomes 0.
 std::string distance_text(double distance, double centimetre) {
   return distance > distance_error * centimetre ? digits(distance, 3) : "0";
 }
@@ -351,7 +353,7 @@ std::string placed_file_of(const Placed &placed, const riis_valve *valve) {
   const auto by_name = [&](const std::vector<double> &values) {
     Json made = Json::object();
     for (std::size_t i = 0; i < values.size(); ++i) {
-      // A name may occur repeatedly, such as that of annulus points.
+      // Several landmarks may have one name, for example points of the annulus.
       std::string name = placed.landmarks.names[i];
       while (made.contains(name)) name += "'";
       made[name] = values[i];
@@ -456,12 +458,12 @@ std::string place_report(const Placed &placed, Reader reader) {
     text += std::string(at.n_as_annulus == 1 ? "The trigone lies" : "The trigones lie") +
             " behind the anterior horn, where the valve has none: " +
             (at.n_as_annulus == 1 ? "it counts as a point" : "they count as points") +
-            " of the annulus, and IT_distance is not theirs.\n";
+            " of the annulus, and IT_distance does not follow from trigones.\n";
   text += undetermined.empty()
-              ? "\nThe landmarks determine every size that they bear on.\n"
+              ? "\nThe landmarks determine every size that depends on them.\n"
               : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") +
-                    ".\nTheir values in the table are guesses, drawn to the proportions of the kind. "
-                    "Each may move the valve by more than a\nfifteenth of its radius. Add landmarks" +
+                    ".\nTheir values in the table are guesses from the usual proportions of the kind. Each guess may "
+                    "move the valve by more than a\nfifteenth of its radius. Add landmarks" +
                     (reader == Reader::program
                          ? ", or give known sizes in cm, as by --set " + undetermined.front() + "=VALUE"
                          : ", or give known sizes") +

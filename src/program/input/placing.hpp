@@ -16,10 +16,10 @@
 namespace riis::program {
 
 // In: a file of landmarks (docs/formats.md): JSON, 3D Slicer's .mrk.json, or CSV. Out: the landmarks as the library takes them.
-// A file that does not state its unit and its axes is refused, so nothing is guessed.
+// A file must state its unit and its axes, because the program does not guess them.
 
-// The directions of x, y and z. LPS is left, posterior, superior; RAS is right, anterior, superior. `mesh` stands for the
-// mesh's own.
+// The directions of x, y and z. LPS is left, posterior, superior; RAS is right, anterior, superior. `mesh` stands for the mesh's
+// own axes.
 enum class Axes { LPS, RAS, mesh };
 const std::vector<std::string> &axes_names();
 const char *name_of(Axes axes);
@@ -44,15 +44,16 @@ struct LandmarkFile {
   void convert(Axes to);
 };
 
-// Reads the text of a file, whose format follows from the ending of its path.
+// Reads the text of a file of landmarks. The ending of its path tells the format.
 LandmarkFile read_landmarks(const std::string &path, const std::string &text);
-// Reads landmarks in memory from an object with the keys of a file. `subject` stands for the landmarks in refusals.
+// Reads landmarks in memory from an object that has the keys of a file. Refusals call the landmarks by `subject`.
 LandmarkFile landmarks_of_json(const std::string &subject, const Json &root);
 
-// Who reads a message. Options are written like --unit mm for the program, and like unit='mm' for Python.
+// The reader of a message: a user of the program or of the Python package. Messages write options like --unit mm for the program,
+// and like unit='mm' for Python.
 enum class Reader { program, python };
 
-// The user's statements about the landmarks, besides the file.
+// The user's statements about the landmarks, in addition to the file's.
 struct PlaceRequest {
   Reader reader = Reader::program;
   std::optional<Unit> unit;     // to which lengths are converted
@@ -60,9 +61,10 @@ struct PlaceRequest {
   std::optional<double> noise;  // in the unit after the conversion
   std::optional<std::vector<double>> flow;  // in the axes after the conversion
 };
-// Changes landmarks as the user says.
+// Changes the landmarks' unit and axes as the user requests.
 void adapt(LandmarkFile &landmarks, const PlaceRequest &request);
-// Returns the user's kind of valve, else that of the landmarks' file, else "". Refuses two kinds that differ.
+// Returns the kind of valve that the user named. If the user named no kind, returns the kind of the landmarks' file, or "".
+// Refuses the two kinds if they differ.
 std::string kind_of(const LandmarkFile &landmarks, const std::string &given, Reader reader);
 
 // A size of the valve.
@@ -84,30 +86,31 @@ struct Placed {
   std::vector<double> places;                                     // (3, n), of the landmarks on the valve
   riis_surface_options where = defaults<riis_surface_options>();  // the placement
   bool is_warped = false;
-  // Of the warp: the landmarks on the valve and in the patient, (3, n), and their names. Landmarks in one place are one pair.
+  // The pairs of the warp: landmarks on the valve and in the patient, (3, n), and their names. Landmarks at one place make one
+  // pair.
   std::vector<double> sources, targets;
   std::vector<std::string> paired_names;
   double warp_noise = 0;          // the noise that smooths the warp; 0: the warp meets the landmarks
   std::vector<double> still_off;  // distances of the landmarks from the warped closed valve, right to a micrometre
 };
 
-// Sizes the valve by the landmarks and finds its placement. The parameters of `held` keep their values, and so do those that
-// the landmarks' file states. The caller sets these.
+// Finds the sizes and the placement of the valve from the landmarks. The parameters in `held` and the parameters that the
+// landmarks' file states keep the values that the caller has set.
 Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, const std::string &kind,
                           const std::vector<std::string> &held, Reader reader);
 
-// Warps the valve to the landmarks, and returns the warp. The noise smooths the warp; a noise of 0 makes a warp that meets the
-// landmarks. A warp that folds at one of five openings is refused, and the message says whether smoothing it helps. Other
-// commands check each opening that they take.
+// Warps the valve to the landmarks, and returns the warp. The noise smooths the warp. With a noise of 0 the warp meets the
+// landmarks. Refuses a warp if the valve folds at one of five openings. The message says whether smoothing the warp helps. Other
+// commands check the openings that they use.
 Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader reader);
 
-// Refuses landmarks that are not at these nodes of a mesh, (3, n_nodes). `of`, such as " of mesh.vtu", names the mesh. If other
-// axes or another unit would bring the landmarks to the nodes, the message says so.
+// Refuses landmarks that are far from the given nodes of a mesh, (3, n_nodes). `of`, such as " of mesh.vtu", names the mesh in
+// the message. If other axes or another unit would bring the landmarks to the nodes, the message says so.
 void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const double *nodes, const std::string &of,
                     Reader reader);
 
 std::string place_report(const Placed &placed, Reader reader);
-// Returns the file of a placed valve. The second function returns such a file with the valve's present parameters.
+// placed_file_of returns the file of a placed valve. with_parameters_of returns such a file with the valve's present parameters.
 std::string placed_file_of(const Placed &placed, const riis_valve *valve);
 std::string with_parameters_of(const std::string &placed_file, const riis_valve *valve);
 

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::array<const char *, 4> side_keys = {"v0", "v1", "u0", "u1"};
 
-// The curves of one state, and the arrays that the library needs for them.
+// The curves of one state of the valve, and the arrays in which the library takes them.
 struct Curves {
   std::vector<std::string> names;
   std::unordered_map<std::string, std::int32_t> position;
@@ -41,7 +41,7 @@ class CurveFileReader {
  public:
   explicit CurveFileReader(const std::string &path) : path_(path) {}
 
-  // `where`, "" or "open: ", precedes names in refusals.
+  // In refusals, `where` comes before the names. It is "" or "open: ".
   Curves curves_of(const Json &root, const std::string &where) const {
     const Json &list = member(root, "curves", where);
     if (!list.is_object())
@@ -73,7 +73,7 @@ class CurveFileReader {
     return patches;
   }
 
-  // Returns the open state's curves, in the order of the closed state's curves.
+  // Returns the curves of the open state, in the order of the closed state's curves.
   Curves open_curves_of(const Json &open, const Curves &closed) const {
     check_object(open, "\"open\"", {"curves"});
     const Curves found = curves_of(open, "open: ");
@@ -126,7 +126,7 @@ class CurveFileReader {
     }
     for (std::size_t i = 0; i < points.size(); ++i)
       add_point(points[i], curve + ": point " + std::to_string(i), curves);
-    // A side that collapses to a point is stored as a line without length.
+    // If a side collapses to a point, it is stored as a line of length 0.
     if (points.size() == 1) add_point(points[0], curve, curves);
     curves.degrees.push_back(std::max(1, static_cast<std::int32_t>(points.size()) - 1));
   }
@@ -158,7 +158,7 @@ class CurveFileReader {
 
   std::int32_t leaflet_of(const Json &value, const std::string &subject) const {
     constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
-    // The comparison also refuses a negative number, which as an unsigned number is too large.
+    // The comparison also refuses a negative number, because it is too large after conversion to an unsigned number.
     if (!value.is_number_integer() || value.get<std::uint64_t>() > static_cast<std::uint64_t>(most)) {
       refuse(subject + ": leaflet is " + value.dump() + "; it must be a whole number from 0 to " +
              std::to_string(most));
@@ -169,7 +169,7 @@ class CurveFileReader {
   const std::string &path_;
 };
 
-// Replaces numbers of curves and the library's names of sides in a library message by the file's names.
+// In a message of the library, replaces the numbers of curves and the names of sides by the names in the file.
 std::string with_names(std::string text, const Curves &curves, const Patches &patches) {
   std::smatch match;
   if (std::regex_search(text, match, std::regex("curve ([0-9]+)"))) {
@@ -231,7 +231,7 @@ ValveFile::ValveFile(const std::string &path) {
 
 namespace {
 
-// Returns whether the file is JSON with a kind of valve. Files that cannot be read are refused later, by their own reader.
+// Returns whether the file is a JSON file that names a kind of valve. If a file cannot be read, its own reader refuses it later.
 bool names_kind(const std::string &path) {
   std::ifstream file(path);
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -275,7 +275,7 @@ void use_named_valve(ValveOptions &options) {
   const PlacedFile file = read_placed(path, parse_json_file(path, "a placed valve"), options.unit);
   riis_surface_options &surface = options.surface_options;
   if (options.surface_unit) refuse_usage("--surface-unit has no effect with --valve " + path + ", which has a unit");
-  if (options.has_scale) refuse_usage("--scale has no effect with --valve " + path + ": --unit says the mesh's unit");
+  if (options.has_scale) refuse_usage("--scale has no effect with --valve " + path + ": --unit gives the mesh's unit");
   const bool is_moved =
       surface.rotation_angle != 0 ||
       std::any_of(std::begin(surface.translation), std::end(surface.translation), [](double x) { return x != 0; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a JSON file of boundary curves and patches. Out: a valve, with an open state if the file has one.
+// In: a JSON file of boundary curves and patches. Out: a valve, which has an open state if the file has one.
 #pragma once
 
 #include <riis/riis.h>
@@ -12,15 +12,16 @@
 
 namespace riis::program {
 
-// Returns whether --valve is a file, which ends in .json, and not a kind.
+// Returns whether --valve names a file, not a kind. Files of valves end in .json.
 bool is_valve_file(const std::string &valve);
 
 // {"curves": {"edge": [[0, 0, 0], [1, 0, 0]], ...},
 //  "patches": [{"v0": "edge", "v1": "-rim", "u0": ..., "u1": ..., "leaflet": 0}, ...],
 //  "open": {"curves": {"edge": ...}}}
-// A curve with 2, 3 or 4 points has them as control points of degree 1, 2 or 3. A curve with 1 point is a side that is collapsed
-// to it. A minus reverses the curve. "leaflet" (0 by default) and "open" may be left out. Refusals name the curve, or the
-// patch by its number from 0.
+// A curve with 2, 3 or 4 points is a Bezier curve of degree 1, 2 or 3, and the points are its control points. A curve with 1
+// point is a side of a patch that collapses to this point. A minus before the name of a curve reverses the curve. The keys
+// "leaflet" and "open" may be missing; the default leaflet is 0. Refusals name the curve, or the number of the patch, counted
+// from 0.
 struct ValveFile {
   explicit ValveFile(const std::string &path);
 
@@ -29,7 +30,7 @@ struct ValveFile {
 };
 
 // A placed valve: a JSON file of riis place, with the kind, the parameters and the placement of a patient's valve. Every command
-// takes this file as --valve FILE.json, and Python's read_placed reads it.
+// takes a placed valve by --valve FILE.json, and Python reads it by read_placed.
 struct PlacedFile {
   std::string kind;
   Unit unit = Unit::centimetre, own_unit = Unit::centimetre;      // of the placement, and of the file
@@ -37,12 +38,12 @@ struct PlacedFile {
   riis_surface_options where = defaults<riis_surface_options>();  // the placement
   Json parameters, warp;                                          // null: the valve has no warp
 };
-// `root` is the content of the file. Without `unit`, the placement keeps the unit of the file.
+// `root` is the content of the file. Without `unit`, the placement stays in the unit of the file.
 PlacedFile read_placed(const std::string &path, const Json &root, std::optional<Unit> unit = std::nullopt);
 
-// If --valve is a disease or the file of a placed valve, replaces it by the kind. The file's placement replaces the options for
-// the placement, and options that the file already contains are refused. set_own_parameters sets the parameters of the disease
-// or of the file. Leaves other valves as they are.
+// If --valve is a disease or the file of a placed valve, replaces it by the valve's kind. The file's placement becomes the
+// placement of the options. An option that the file already contains is refused. set_own_parameters sets the parameters of the
+// disease or of the file. Other valves are left unchanged.
 void use_named_valve(ValveOptions &options);
 void set_own_parameters(const ValveOptions &options, riis_valve *valve);
 

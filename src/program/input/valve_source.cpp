@@ -39,7 +39,7 @@ Valve valve_of(const ValveOptions &options, OpeningCheck opening) {
   return opening == OpeningCheck::yes ? valve.take() : valve.take_unchecked();
 }
 
-// Checks the status of reading a file. If riis_vtk cannot read the file, adds to the refusal a command that converts it.
+// Checks the status of reading a file. If riis_vtk cannot read the file, the refusal also has a command that converts the file.
 void check_read(riis_status status, const std::string &path, Content content) {
   try {
     check(status);
@@ -123,7 +123,7 @@ SurfaceFile read_surface_file(const std::string &path, const char *leaflets) {
   return file;
 }
 
-// Returns the cell array of --leaflets, or NULL if there is none.
+// Returns the name of the cell array that --leaflets gives, or NULL without this option.
 const char *array_of_leaflets(const ValveOptions &options) {
   return options.leaflets.empty() || options.leaflets == "connected" ? nullptr : options.leaflets.c_str();
 }
@@ -154,8 +154,8 @@ Surface surface_at(riis_valve *valve, double opening, const riis_surface_options
   return surface;
 }
 
-// Tries the valve at opening 1 only. A valve that is valid at 0 and refused at 1 has only one state. Other faults are reported
-// when the surface is made.
+// Tries the valve only at opening 1. A valve that is accepted at opening 0 but refused at opening 1 has only one state. Other
+// faults are reported when the surface is made.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
   check(riis_valve_set_scalar(valve, "opening", 1));
   Surface surface;
@@ -181,7 +181,7 @@ void set_surface(ValveOptions &options, const std::vector<std::string> &files, c
   if (files.size() > 1) options.surface += " and " + std::to_string(files.size() - 1) + " more";
   for (const std::string &file : files)
     if (moves(file) != moves(files.front()))
-      refuse_usage(subject + ": one of " + files.front() + " and " + file + " moves, the other one does not");
+      refuse_usage(subject + ": one of " + files.front() + " and " + file + " moves, and the other file does not");
 }
 
 bool is_motion(const ValveOptions &options) {
@@ -222,13 +222,13 @@ Surface make_surface(const ValveSource &source, FileVelocity velocity) {
 
 namespace {
 
-// The name of a leaflet in files, and its name for people.
+// The name of a leaflet in files, and the name that users see.
 struct LeafletName {
   std::string in_files, shown;
 };
 using LeafletNames = std::vector<LeafletName>;  // by leaflet_id
 
-// Returns the names of a kind's leaflets, or none for a file of patches.
+// Returns the names of a kind's leaflets. A file of patches has no names of leaflets.
 LeafletNames names_of_kind(const std::string &kind) {
   static const LeafletNames coronary = {{"right", "right"}, {"left", "left"}, {"non_coronary", "non-coronary"}},
                             numbered = {{"cusp_0", "cusp 0"},
@@ -321,24 +321,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The endings that a tool converts. tests/cli/test_cli_conversions.c tests each ending if the tool is installed.
+// The endings of files that a tool converts. tests/cli/test_cli_conversions.c tests each ending if the tool is installed.
 const std::set<std::string> meshes_of_gmsh = {".unv", ".bdf", ".nas"};
-// gmsh 4 leaves the prisms of a .mesh out, without a word.
+// gmsh 4 silently leaves out the prisms of a .mesh file.
 const std::set<std::string> meshes_of_meshio = {".inp", ".su2",  ".med", ".mesh", ".meshb", ".avs", ".dat", ".f3grid",
                                                 ".h5m", ".mdpa", ".vol", ".node", ".ele",   ".xml", ".post"};
-// ParaView opens the files with these endings. Such files hold blocks, or grids that are not unstructured.
+// Endings of files that ParaView opens. The files contain blocks, or grids that are not unstructured.
 const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".pvti", ".pvtr",
                                                   ".pvts", ".plt",  ".tec",   ".vtmb",   ".vtpc", ".vtpd"};
-// CAD files, which gmsh fills with cells or covers with triangles.
+// Endings of CAD files. gmsh fills a CAD model with cells, or covers it with triangles.
 const std::set<std::string> cad_files = {".step", ".stp", ".iges", ".igs", ".brep"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2", ".med", ".wrl"};
 const std::set<std::string> surfaces_of_meshio = {".off"};
-// meshio writes all faces of such files to a .vtu. To a .stl, meshio writes triangles only.
+// Endings of surface files from which meshio writes all faces to a .vtu file. To a .stl file, meshio writes only triangles.
 const std::set<std::string> faces_of_meshio = {".xdmf", ".xmf", ".inp", ".e", ".exo", ".avs", ".mdpa", ".vol"};
 const std::set<std::string> surfaces_of_paraview = {".vtkhdf", ".pvtp", ".vtm"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
 
-// Returns the path as a shell reads it, and a program does not read it as an option.
+// Returns the path in a form that a shell reads as one word and no program takes for an option.
 std::string path_in_shell(const std::string &path) { return shell_word(path[0] == '-' ? "./" + path : path); }
 
 std::string with_ending(const std::string &path, const char *ending) {
@@ -350,7 +350,7 @@ std::string by_gmsh(const std::string &path, const char *format) {
          with_ending(path, format);
 }
 
-// gmsh writes elements of order 3 and more to a .vtk with their nodes in another order than VTK's.
+// gmsh writes elements of order 3 and more to a .vtk file with their nodes in the wrong order.
 std::string at_order_2(const std::string &path) {
   if (path.find_first_of("'\"\\") != std::string::npos) return "";
   const std::string lowered = fs::path(path).replace_extension().string() + "_order2.msh";
@@ -379,7 +379,8 @@ std::string first_bytes_of(const std::string &path, std::size_t n) {
   return bytes;
 }
 
-// Returns the end of a refusal, such as ", such as step0.vtu", with the first mesh of a .pvd. "" if the .pvd names none.
+// Returns the end of a refusal that names the first mesh of a .pvd file, such as ", such as step0.vtu". Returns "" if the .pvd
+// file names no mesh.
 std::string first_file_of_list(const std::string &path) {
   constexpr std::size_t most_bytes = 65536;
   const std::string text = first_bytes_of(path, most_bytes), begin = " file=\"";
@@ -392,8 +393,8 @@ std::string first_file_of_list(const std::string &path) {
   return ", such as " + path_in_shell((fs::path(path).parent_path() / name).string());
 }
 
-// A .msh may be of another version of gmsh, or of Ansys Fluent. A damaged file cannot be converted. SimVascular calls the
-// description of a mesh .msh, which is XML.
+// A .msh file may be from another version of gmsh, or from Ansys Fluent. A damaged .msh file cannot be converted. SimVascular
+// also uses the ending .msh, for an XML file that describes a mesh.
 std::string hint_for_msh(const std::string &path, const std::string &refusal) {
   if (has_text(refusal, "is of gmsh's type")) return at_order_2(path);
   if (has_text(refusal, "of gmsh's format;")) return by_gmsh(path, "vtk");
@@ -408,12 +409,13 @@ std::string hint_for_msh(const std::string &path, const std::string &refusal) {
 
 std::string conversion_hint(const std::string &path, Content wanted, const std::string &refusal) {
   const std::string ending = ending_of(path);
-  // A refusal replaces control characters. A path with control characters gets no hint, because the command would not work.
+  // In a refusal, question marks replace control characters. If a path has control characters, there is no hint, because the
+  // printed command would not work.
   if (std::any_of(path.begin(), path.end(), is_control) || has_text(refusal, "Git LFS")) return "";
   if (wanted == Content::mesh) {
     if (ending == ".msh") return hint_for_msh(path, refusal);
     if (meshes_of_gmsh.count(ending) != 0) return by_gmsh(path, "vtk");
-    // meshio 5.3 fails to write the names of MED's groups to a .vtu.
+    // meshio 5.3 cannot write the group names of a MED file to a .vtu file.
     if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, ending == ".med" ? "xdmf" : "vtu");
     if (meshes_of_paraview.count(ending) != 0) return by_paraview(path);
     if (has_text(refusal, "holds multiblock")) return by_paraview(path);
@@ -431,7 +433,7 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
     const bool is_surface = surfaces_only.count(ending) != 0 || refusal.find("holds polydata") != std::string::npos;
     return is_surface ? "; --surface takes a surface" : "";
   }
-  // gmsh writes points and lines beside the faces. A damaged .vtk file cannot be converted.
+  // Besides faces, gmsh writes points and lines to a .vtk file. A damaged .vtk file cannot be converted.
   if (ending == ".vtk") return refusal.find("; a surface has") != std::string::npos ? by_gmsh(path, "stl") : "";
   if (surfaces_of_gmsh.count(ending) != 0) return by_gmsh(path, "stl");
   if (faces_of_meshio.count(ending) != 0) return by_meshio(path, "vtu");

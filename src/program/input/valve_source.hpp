@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: the description of a valve, from the command line or from a case. Out: the valve or the file with its surface, and the
-// surface itself.
+// surface.
 #pragma once
 
 #include <string>
@@ -32,8 +32,8 @@ class NewValve {
   // `valve` is a kind, or a file of patches. `subject` begins the refusal of an unknown kind.
   NewValve(const std::string &valve, const std::string &subject);
   operator riis_valve *() const { return valve_; }
-  // Gives up the valve. Refuses an opening if the valve's file lacks an open state, because the library's message would advise
-  // another valve.
+  // Hands over the valve. Refuses an opening if the valve's file has no open state. The library's message would advise another
+  // valve.
   Valve take();
   Valve take_unchecked() { return std::move(valve_); }
 
@@ -44,54 +44,55 @@ class NewValve {
 };
 // `subject` begins the refusal of an unknown kind.
 Valve make_kind(const std::string &kind, const std::string &subject);
-// `yes`: make_valve refuses a file of patches that cannot open far enough. `no`: such a file is refused only when the surface is
-// made.
+// `yes`: make_valve refuses a file of patches whose valve cannot open as far as needed. `no`: the file is refused later, when the
+// surface is made.
 enum class OpeningCheck { no, yes };
-// Makes the valve of --valve, --params and the options that belong to them. `moving` receives the warp. With NULL, a warp that
-// moves is refused.
+// Makes the valve of --valve, and applies --params and the other options of a valve. `moving` receives the warp. If `moving` is
+// NULL, a warp that moves is refused.
 Valve make_valve(const ValveOptions &options, OpeningCheck opening = OpeningCheck::yes, WarpSource *moving = nullptr);
-// Returns how refusals of a valve's shape begin: with its file, or "" for a kind.
+// Returns the beginning of refusals of a valve's shape: the valve's file, or "" for a kind.
 std::string subject_of(const ValveOptions &options);
 double opening_of(const riis_valve *valve);
 // Returns n openings from 0 to 1.
 std::vector<double> openings_from_0_to_1(std::int32_t n);
 Valve copy_of(const riis_valve *valve);
-// Returns the surface at an opening that the user did not request, or null if the valve cannot have that opening. The call leaves
-// the valve at this opening.
+// Returns the surface at an opening that the program chose, or null if the valve cannot have this opening. After the call, the
+// valve has the opening that was tried.
 Surface surface_at(riis_valve *valve, double opening, const riis_surface_options &how);
-// Returns the library's reason if the valve cannot open, or "" if it can. With these options, the valve must make a surface at
-// opening 0. The call leaves the valve at opening 1.
+// Returns the library's reason why the valve cannot open, or "" if it can. The valve must allow a surface at opening 0 with the
+// options `how`. After the call, the valve has opening 1.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how);
 
-// Checks the status of reading a mesh. If riis_vtk cannot read the file, adds to the refusal a command that converts it.
+// Checks the status of reading a mesh. If riis_vtk cannot read the file, the refusal also has a command that converts the file.
 void check_mesh_read(riis_status status, const std::string &path);
-// Checks the status of reading a surface in the same way.
+// Checks the status of reading a surface, as check_mesh_read does for a mesh.
 void check_surface_read(riis_status status, const std::string &path);
-// Takes the files of --surface. Several files are one valve, and each file is a leaflet. `subject` begins refusals.
+// Takes the files of --surface. Several files make one valve, and each file is one leaflet. Refusals begin with `subject`.
 void set_surface(ValveOptions &options, const std::vector<std::string> &files, const std::string &subject);
-// Returns the names of the leaflets of several files, which are the names of the files. Returns none for one file.
+// If the surface has several files, returns their names as the names of the leaflets. For one file, returns no names.
 std::vector<std::string> leaflets_of_files(const ValveOptions &options);
-// Reads the surface of --surface, with its --leaflets.
+// Reads the surface of --surface with the leaflets of --leaflets.
 SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds);
 
 // The velocities that a surface from a file gets.
 enum class FileVelocity { none, zero };
-// Makes the surface. A motion gives the surface the place at options.time, with velocities.
+// Makes the surface. A moving surface is taken at options.time, and it has velocities.
 Surface make_surface(const ValveSource &source, FileVelocity velocity);
 
-// Returns the name of a leaflet, or its number after a word. If each leaflet has a file, its name is that of the file.
+// Returns the name of a leaflet. A leaflet without a name has the given word and its number. If each leaflet has a file, the
+// leaflet's name is the name of the file.
 std::string name_of_leaflet(const ValveOptions &options, const riis_surface_info &surface, std::int32_t leaflet,
                             const char *word = "leaflet ");
-// Returns the name of a leaflet of a kind in letters, digits and _.
+// Returns the name of a kind's leaflet. The name consists of letters, digits and _.
 std::string file_name_of_leaflet(const std::string &kind, std::int32_t leaflet);
 int64_t count_leaflets(const riis_surface *surface);
 
-// --surface FILE.pvd or FILE.dat: the surface of a motion given by frames.
+// --surface FILE.pvd or FILE.dat: a surface whose motion is given by frames.
 
-// Returns whether --surface is a motion. Files of motions end in .pvd or .dat.
+// Returns whether --surface gives a motion. The files of motions end in .pvd or .dat.
 bool is_motion(const ValveOptions &options);
 
-// The motion of --surface, the paths of the files with its frames, and their times.
+// The motion of --surface, the paths of its frames' files, and the times of the frames.
 struct KeyframeFiles {
   Keyframes keyframes;
   std::vector<std::string> files;
@@ -103,8 +104,8 @@ KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds);
 
 enum class Content { mesh, surface };
 
-// Returns a hint such as "; gmsh converts it: gmsh -save in.msh -format vtk -o in.vtk". Returns "" for an ending that can be
-// read or is unknown.
+// Returns a hint such as "; gmsh converts it: gmsh -save in.msh -format vtk -o in.vtk". Returns "" if the program can read the
+// ending, or if the ending is unknown.
 std::string conversion_hint(const std::string &path, Content wanted, const std::string &refusal);
 
 }  // namespace riis::program

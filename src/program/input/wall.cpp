@@ -20,20 +20,21 @@
 namespace riis::program {
 namespace {
 
-// The openings at which the wall must be within reach.
+// The number of openings at which the wall must be near enough.
 constexpr std::int32_t n_openings = 11;
-// Gap and skirt are measured at different points, so the gap may exceed the longest skirt by this share.
+// The gap may be longer than the skirt by a small share, because the two are measured at different points.
 constexpr double most_beyond = 0.01;
-// An open line of the wall is a hole if it is shorter than this share of the attachment. The end of a vessel is longer.
+// The largest length of a hole in the wall, as a share of the attachment's length. A longer open line is the end of a vessel.
 constexpr double longest_hole = 0.3;
 
-// The difference between a wall and the file's wall: a factor of lengths, and the half turn about z between the axes LPS and RAS.
+// A wall that differs from its file: its lengths are multiplied by a factor, or it is turned by half a turn about z, as between
+// the axes LPS and RAS.
 struct Change {
   const char *factor;
   bool is_turned;
 };
 
-// Makes the wall. The wall is already in the mesh's frame, so no other placement applies to it.
+// Makes the wall. The wall is already in the mesh's coordinates, so no other placement applies to it.
 Surface make_wall(const ValveOptions &options, const SurfaceFile &file, Change change = {"1", false}) {
   const auto arrays = get<riis_surface_arrays>(riis_vtk_surface_get_arrays, file);
   auto how = defaults<riis_surface_options>();
@@ -52,7 +53,8 @@ std::string axes_advice(const ValveOptions &options) {
   return std::string("place the valve by riis place --axes ") + (is_ras ? "LPS" : "RAS");
 }
 
-// Returns a hint if the skirt would reach the wall in another unit or with other axes, and "" otherwise. `reaches` tries a wall.
+// Returns a hint if the skirt would reach the wall in another unit or with other axes. Otherwise returns "". The function
+// `reaches` tells whether the skirt reaches a changed wall.
 template <class Reaches>
 std::string hint_of_change(const ValveOptions &options, const SurfaceFile &file, const Reaches &reaches) {
   for (const Change change : {Change{"1", true}, Change{"0.1", false}, Change{"10", false}, Change{"0.01", false},
@@ -60,14 +62,14 @@ std::string hint_of_change(const ValveOptions &options, const SurfaceFile &file,
     if (!reaches(make_wall(options, file, change))) continue;
     if (!change.is_turned)
       return std::string("; with its lengths times ") + change.factor +
-             " the wall would be: save it in the mesh's unit";
+             " the wall would be: save the wall in the mesh's unit";
     return "; after half a turn about z the wall would be, so one of valve and wall is in LPS and the other in RAS: " +
            axes_advice(options);
   }
   return "";
 }
 
-// Prints a warning, but only once for a run, because several stages make the valve anew.
+// Prints a warning only once in a run, because several stages make the valve again.
 void warn_once(const std::string &text) {
   static std::set<std::string> printed;
   if (printed.insert(text).second) warn(text);
@@ -82,7 +84,7 @@ double length_of(const riis_attachment &attachment) {
   return length;
 }
 
-// Warns of holes in the wall, and of a length that is larger than the valve.
+// Warns of holes in the wall, and of a skirt that is longer than the valve.
 void check_sizes(const ValveOptions &options, const riis_surface *wall, const riis_surface *valve) {
   const riis_surface_info info = info_of(valve);
   double largest_side = 0;
@@ -99,7 +101,7 @@ void check_sizes(const ValveOptions &options, const riis_surface *wall, const ri
             ", through which a skirt may pass: close it");
 }
 
-// Refuses a wall that is farther away than --skirt. `when` is such as "at the opening 0.5 ".
+// Refuses a wall that the skirt cannot reach. `when` names the opening, as in "at the opening 0.5 ".
 void check_gap(const ValveOptions &options, const riis_surface *surface, const riis_surface *wall,
                const std::string &when) {
   riis_gap gap;
@@ -109,8 +111,8 @@ void check_gap(const ValveOptions &options, const riis_surface *surface, const r
                 ": the widest gap is " + shown(gap.most) + ", at " + place_text(options, gap.widest_point, 0));
 }
 
-// Checks the wall and the skirt's length for the closed valve. If the valve opens, its attachment may move. The wall is then
-// refused if it is farther away than --skirt at an opening.
+// Checks the wall and the skirt's length for the closed valve. The attachment may move when the valve opens. The wall is
+// therefore also checked at several openings.
 void check_all_openings(const ValveOptions &options, const riis_valve *valve, const riis_surface *wall) {
   const Valve trial = copy_of(valve);
   const auto surface_at = [&](double opening) {
@@ -123,7 +125,7 @@ void check_all_openings(const ValveOptions &options, const riis_valve *valve, co
     check_gap(options, surface_at(opening), wall, "at the opening " + shown(opening) + " ");
 }
 
-// The gap at each end of each attached edge.
+// The gaps at the two ends of each attached edge.
 struct Gaps {
   std::vector<double> distance;
   riis_gap measures;
@@ -168,7 +170,8 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   if (!options.skirt) return;
   if (options.wall.empty()) {
     check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
-    // The library knows the length in the valve's own unit only. The library tests the length before the triangles are made.
+    // The library knows the skirt's length only in the valve's own unit. The library tests the skirt's length before it makes the
+    // triangles.
     riis_surface_options how = options.surface_options;
     how.triangulation = RIIS_TRIANGULATION_ADAPTED;
     Surface trial;

@@ -19,7 +19,7 @@ const std::vector<std::string> warp_keys = {"sources", "targets", "noise",      
 const std::vector<std::string> open_keys = {"sources", "targets", "times", "period", "interpolation"};
 const std::vector<std::string> coordinate_names = {"mesh", "valve"};
 
-// Adds the coordinates of an array of points.
+// Appends the coordinates of the points in a JSON array.
 void add_points(const CaseValues &values, const char *key, const Json &list, std::vector<double> &xyz) {
   if (!list.is_array()) values.refuse(key, "it must be an array of points [x, y, z]");
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -29,7 +29,7 @@ void add_points(const CaseValues &values, const char *key, const Json &list, std
   }
 }
 
-// Landmarks are data of the case, so their refusal names the case.
+// The landmarks are data of the case, so a refusal of landmarks names the case.
 void check_landmarks(riis_status status, const std::string &subject) {
   if (status == RIIS_INVALID_ARGUMENT || status == RIIS_INVALID_PARAMETER)
     refuse_data(subject + ": " + riis_last_error());
@@ -100,7 +100,8 @@ WarpSource::WarpSource(const std::string &path, const std::string &object, const
 
 namespace {
 
-// Reads lines SX,SY,SZ,TX,TY,TZ: a landmark on the valve and its place in the patient. Returns the object of a warp.
+// Reads lines of the form SX,SY,SZ,TX,TY,TZ. Each line has a landmark on the valve and its place in the patient. Returns a JSON
+// object that describes the warp.
 Json json_of_csv(const std::string &path) {
   const CsvFile file = csv_of_text(path, text_of_file(path), {"noise", "coordinates"},
                                    "SX,SY,SZ,TX,TY,TZ, a landmark on the valve and in the patient", 6);

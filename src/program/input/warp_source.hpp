@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the warp of a valve, {"sources": [[x, y, z], ...], "targets": ..., ...}, in a case, in a placed valve, or in a file of its
-// own, which may also be a CSV. Out: the warp at a time.
+// In: the warp of a valve, {"sources": [[x, y, z], ...], "targets": ..., ...}. The warp stands in a case, in a placed valve, or
+// in a separate file, which may also be a CSV. Out: the warp at a time.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@
 
 namespace riis::program {
 
-// Landmarks on the valve, and their targets at one time or at several.
+// Landmarks on the valve, with their targets at one or several times.
 class LandmarkPairs {
  public:
-  // The landmarks are in the mesh's coordinates if the placement is given, and in the valve's own if it is NULL. `factor`
-  // converts lengths of the file to the mesh's unit.
+  // With a placement, the landmarks are in the mesh's coordinates. Without a placement (NULL), the landmarks are in the valve's
+  // coordinates. `factor` converts the file's lengths to the mesh's unit.
   LandmarkPairs(const CaseValues &values, double noise, const riis_surface_options *placement, double factor);
 
   bool moves() const { return times_.size() > 1; }
   const std::vector<double> &sources() const { return sources_; }
   const std::vector<double> &targets() const { return targets_; }  // one time after the other
-  // Takes the landmarks to their places at a time, and returns the warp.
+  // Moves the landmarks to their places at a time, and returns the warp.
   const riis_warp *at(double time);
 
  private:
@@ -35,21 +35,22 @@ class LandmarkPairs {
   std::int64_t n_landmarks_ = 0;
 };
 
-// The warp of a valve. Without landmarks the valve has none.
+// The warp of a valve. Without landmarks, the valve is not warped.
 class WarpSource {
  public:
   WarpSource() = default;
-  // Reads the landmarks of both states from the object of a warp. `placement` places the valve.
+  // Reads the landmarks of the closed and the open state from a JSON object that describes the warp. `placement` is the placement
+  // of the valve.
   WarpSource(const std::string &path, const std::string &object, const Json &warp,
              const riis_surface_options &placement, double factor = 1);
 
   bool is_empty() const { return pairs_.empty(); }
   bool moves() const;
-  // The landmarks of the closed state, and of the open state if it has its own.
+  // Returns the landmarks of the closed state, followed by the landmarks of the open state if there are any.
   const std::vector<LandmarkPairs> &pairs() const { return pairs_; }
   bool is_in_mesh() const { return is_in_mesh_; }  // whether the landmarks are in the mesh's coordinates
   double noise() const { return noise_; }
-  // Gives the valve its warp at a time.
+  // Gives the valve its warp at the given time.
   void apply(double time, riis_valve *valve);
 
  private:
@@ -59,7 +60,7 @@ class WarpSource {
   double noise_ = 0;
 };
 
-// Reads the warp of --warp, or that of a placed valve. Refuses both together.
+// Reads the warp of --warp or of a placed valve. Refuses two warps.
 WarpSource read_warp(const ValveOptions &options);
 
 }  // namespace riis::program

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int n_openings = 101;
 
-// Finds the crossings and returns their list. The list's arrays are gone when this function returns.
+// Finds the crossings and returns their list. The arrays of the list are destroyed when this function returns.
 riis_crossing_list crossings_of(const ValveOptions &options, const riis_surface *surface) {
   auto how = defaults<riis_crossing_options>();
   how.n_threads = options.n_threads;
@@ -27,8 +27,8 @@ riis_crossing_list crossings_of(const ValveOptions &options, const riis_surface 
   return found;
 }
 
-// Returns options that measure distances to triangles. Crossings do not depend on the method for distances, and this method is
-// the fastest to prepare.
+// Returns options that measure distances to triangles. Crossings do not depend on how distances are measured, and distances to
+// triangles are the fastest to prepare.
 riis_surface_options by_triangles(const ValveOptions &options, std::int32_t triangulation) {
   riis_surface_options how = options.surface_options;
   how.triangulation = triangulation;
@@ -57,7 +57,7 @@ void sweep_openings(const ValveOptions &options, riis_valve *valve, CrossingRepo
   }
 }
 
-// --quiet does not silence this warning, because such a valve cannot exist, and its normals contradict each other.
+// --quiet does not silence this warning. A valve whose leaflets cross cannot exist, and its normals contradict each other.
 void warn_of_crossings(const ValveOptions &options, const riis_surface_info &surface, const CrossingReport &report,
                        const std::string &part, const std::string &advice) {
   const riis_crossing_list &found = report.found;
@@ -67,8 +67,8 @@ void warn_of_crossings(const ValveOptions &options, const riis_surface_info &sur
                     second = name_of_leaflet(options, surface, found.deepest_leaflet_id[1], "");
   const std::string who =
       is_one_leaflet ? "leaflet " + first + " crosses itself" : "leaflets " + first + " and " + second + " cross";
-  // place_text rounds by an edge's length. The mean length of a pair's intersection stands for the edge length, because both are
-  // about equal.
+  // place_text rounds a position by the length of an edge. The mean length of the triangles' intersections is about an edge's
+  // length.
   warn((part.empty() ? "" : part + ": ") + who + at + ": " + counted(found.n_pairs, "pair") +
        " of triangles go through each other, along a length of " + shown(found.total_length) + "; the deepest is " +
        shown(found.deepest_depth) + " deep, at " +
@@ -96,7 +96,7 @@ std::optional<CrossingReport> check_shape(const ValveOptions &options, const rii
                                           const std::string &part) {
   if (!is_valve_file(options.valve) && !has_open_state && has_default_values(valve, {"opening"})) return std::nullopt;
   const Valve copy = copy_of(valve);
-  // Hinges reach into recesses of the housing, and the model of the housing lacks these recesses. Crossings with the housing
+  // Hinges reach into recesses of the housing. The model of the housing has no recesses. Crossings of leaflets with the housing
   // therefore do not count.
   if (options.valve == "bileaflet") check(riis_valve_set_scalar(copy, "ring_height", 0));
   const riis_surface_options how = by_triangles(options, RIIS_TRIANGULATION_ADAPTED);

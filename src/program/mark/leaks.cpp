@@ -38,7 +38,7 @@ Surface with_half_thickness(const MarkOptions &options, const riis_valve *valve,
 
 namespace {
 
-// Rounds up to three digits, so that the number also closes the leaks when the user types it as printed.
+// Rounds up to three digits. The printed number thus also closes the leaks when the user types it.
 double rounded_up(double x) {
   const double unit = power_of_ten(decimal_exponent(x) - 2);
   for (int steps = 0;; ++steps) {
@@ -52,7 +52,8 @@ double rounded_up(double x) {
 
 }  // namespace
 
-// Each candidate must be tried, because a valve's triangles depend on the half thickness. The triangles of a file do not.
+// Each half thickness must be tried, because the triangles of a valve depend on the half thickness. The triangles of a file do
+// not depend on the half thickness.
 double closing_half_thickness(const riis_valve *valve, double half_thickness, const Left &left) {
   constexpr int n_tries = 8;
   double wanted = rounded_up(half_thickness);
@@ -64,8 +65,8 @@ double closing_half_thickness(const riis_valve *valve, double half_thickness, co
       wanted = rounded_up(std::max(*needed, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // The warning is valid even without advice. For example, a half thickness that allows no surface gets no advice, and neither
-    // does a passage with an end in the thicker band.
+    // A warning without advice is still valid. Advice is missing if the half thickness allows no surface, or if the thicker band
+    // contains an end of the passage.
   }
   return 0;
 }
@@ -92,7 +93,7 @@ double closing_skirt(const MarkOptions &options, const riis_surface *surface, do
 
 namespace {
 
-// Returns the numbers of a list of leaks. Its pointers are null.
+// Returns the numbers of a list of leaks. The list's pointers are null.
 riis_leak_list summary_of(const std::vector<KeyedEdge> &edges) {
   riis_leak_list list{};
   list.n_edges = view(edges).size();
@@ -117,8 +118,8 @@ void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const s
       (is_one ? "1 edge of length " + length + " crosses it between two unmarked nodes"
               : grouped(leaks.n_edges) + " edges cross it between two unmarked nodes, the longest (" + length + ")") +
       " at " + place_text(options, leaks.longest_middle, leaks.longest_length);
-  // From a band with an offset, shorter edges leak at sharp corners of a rim, and still shorter ones where a rim turns sharply
-  // (docs/theory/marks.md, "Offset").
+  // If the band has an offset, shorter edges leak at sharp corners of a rim, and the shortest edges leak where a rim turns
+  // sharply (docs/theory/marks.md, "Offset").
   const double offset = options.surface_options.offset, safe = 2 * std::sqrt((1 - offset) * (1 + offset));
   std::string advice = "; ";
   if (report.closing_half_thickness > 0)
@@ -153,7 +154,7 @@ void MeshLeaks::add(Piece &piece, riis_marks *marks) {
 
 void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks, double half_thickness,
                     bool is_complete, std::vector<KeyedEdge> &to) const {
-  // Short edges may also leak where marks may be missing or distances are not distances to the triangles.
+  // Short edges may also leak if the search can miss nodes, or if distances are not measured to the triangles.
   const bool is_exact = is_complete && options_.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const std::int32_t n_threads = options_.mark_options.n_threads;
   Adjacency adjacency;
@@ -201,7 +202,7 @@ void MeshLeaks::judge(ValveReport &report) {
          " are unknown: " + why_unknown(leaks, options_.mesh));
 }
 
-// Marks the pieces near the surface again with another half thickness.
+// Marks the pieces near the surface a second time, with another half thickness.
 std::optional<double> MeshLeaks::left(const riis_surface *surface, double half_thickness) const {
   const riis_surface_info info = info_of(surface);
   std::vector<KeyedEdge> found;

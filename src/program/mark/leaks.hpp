@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a marked mesh. Out: the number of the mesh's edges that cross the surface between unmarked nodes, and a half thickness that
+// In: a marked mesh. Out: the number of mesh edges that cross the surface between unmarked nodes, and a half thickness that
 // closes these leaks.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace riis::program {
 
-// An edge between two nodes that may be in several pieces.
+// An edge between two nodes. The two nodes may be in several pieces of the mesh.
 struct KeyedEdge {
   NodeKey p, q;  // p < q
   double length, distance, middle[3];
@@ -28,36 +28,36 @@ struct KeyedEdge {
   bool operator==(const KeyedEdge &other) const { return p == other.p && q == other.q; }
 };
 KeyedEdge edge_between(NodeKey p, NodeKey q, double length);
-// Returns the edges of all ranks in order, each once.
+// Returns the edges of all ranks in ascending order, and each edge only once.
 std::vector<KeyedEdge> gathered(const std::vector<KeyedEdge> &own);
 
-// Returns the half thickness that the surface needs, or nothing if the given half thickness closes the surface.
+// Returns the half thickness that the surface needs. Returns nothing if the given half thickness closes all leaks.
 using Left = std::function<std::optional<double>(double half_thickness)>;
-// Returns a half thickness that closes the surface, or 0 if none is found. `valve` is null for a surface from a file.
+// Returns a half thickness that closes all leaks, or 0 if none was found. For a surface from a file, `valve` is null.
 double closing_half_thickness(const riis_valve *valve, double half_thickness, const Left &left);
 // Makes the surface of a valve with another half thickness.
 Surface with_half_thickness(const MarkOptions &options, const riis_valve *valve, double half_thickness);
 
-// Returns the length of a skirt that closes a surface from a file, or 0 if none of the tried lengths does. The given half
-// thickness closes the surface, and is about as large as the gaps to the wall. `closes` tells whether a surface has no leak.
-// Without a file or with a skirt, the call returns 0.
+// Returns the length of a skirt that closes the leaks of a surface from a file, or 0 if no tried length closes them. The given
+// half thickness closes the leaks, and is about as large as the gaps to the wall. `closes` tells whether a surface has no leak.
+// Returns 0 for a parametric valve, and for a surface that has a skirt.
 double closing_skirt(const MarkOptions &options, const riis_surface *surface, double half_thickness,
                      const std::function<bool(const riis_surface *)> &closes);
 
-// The leaks of one surface. The surface must be the same in each call.
+// The leaks of one surface. All calls must use the same surface.
 class MeshLeaks {
  public:
-  // `name` is the surface's name in the warning.
+  // In the warning, `name` names the surface.
   MeshLeaks(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface, const riis_valve *valve,
             std::string name);
-  // Adds the leaks of a piece that was marked with this surface.
+  // Adds the leaks of a piece. The piece must already be marked with the surface.
   void add(Piece &piece, riis_marks *marks);
-  // Puts the leaks of all ranks into the report, and warns of leaks, or if leaks are unknown. If two points are checked,
-  // PassageCheck warns instead. The report has the marks, the surface and the numbers of volume cells.
+  // Puts the leaks of all ranks into the report. Warns of leaks, and also if leaks are unknown. Leaves the warning to
+  // PassageCheck if two points are checked. The report must already have the marks, the surface and the numbers of volume cells.
   void judge(ValveReport &report);
 
  private:
-  // Adds the leaks of a marking with a half thickness.
+  // Adds the leaks of a marking with the given half thickness.
   void add(Piece &piece, const riis_surface *surface, riis_marks *marks, double half_thickness, bool is_complete,
            std::vector<KeyedEdge> &to) const;
   std::optional<double> left(const riis_surface *surface, double half_thickness) const;
@@ -72,33 +72,34 @@ class MeshLeaks {
   std::vector<KeyedEdge> found_;
 };
 
-// In: a mesh and two points. Out: whether unmarked nodes join the points, the place of the widest passage, and a half thickness
-// that closes it.
+// In: a mesh and two points. Out: whether unmarked nodes join the points, where the widest passage is, and a half thickness that
+// closes it.
 
-// The end of a passage: of the nodes with a neighbour, the nearest to a point of the user.
+// The end of a passage: the node that is nearest to a point of the user. Nodes without a neighbour do not count.
 struct PieceEnd {
   NodeKey key;
   double point[3], distance, longest_edge;  // distance to the user's point
   std::int64_t piece, node, id;
 };
 
-// Whether unmarked nodes of all pieces join the two points of options.check_leaks. Without points, it does nothing.
+// Checks whether unmarked nodes of all pieces join the two points of options.check_leaks. Without the two points, the check does
+// nothing.
 class PassageCheck {
  public:
   PassageCheck(const MarkOptions &options, const MeshPieces &mesh) : options_(options), mesh_(mesh) {}
-  // Notes the nodes of the piece that are nearest to the points. The piece has its neighbours.
+  // Stores the nodes of the piece that are nearest to the two points. The neighbours of the piece's nodes must be known.
   void add(const Piece &piece);
-  // Writes report.passage, and warns if the points are joined. `valve` is null if the surface is not that of one valve. `name` is
-  // the surface's name in the warning. The report has the numbers of volume cells.
+  // Writes report.passage, and warns if the points are joined. If the surface is not that of one valve, `valve` is null. In the
+  // warning, `name` names the surface. The report must already have the numbers of volume cells.
   void judge(const riis_surface *surface, const riis_valve *valve, const std::string &name, const MeshCounts &counts,
              Report &report);
 
  private:
-  // Returns the node of all pieces that is nearest to an end. The longest edge of this node may be in another piece.
+  // Of the nodes of all pieces, returns the node nearest to an end. The longest edge at the node may be in another piece.
   std::optional<PieceEnd> nearest(int end, bool has_ids) const;
   PassageReport find(const riis_surface *surface) const;
   double longest_edge_at(const riis_passage &found, const MeshCounts &counts) const;
-  // Finds the opening at which unmarked nodes first join the ends. Each opening reads all pieces.
+  // Finds the opening at which unmarked nodes first join the two ends. All pieces are read again for each opening.
   riis_first_passage first_of(const riis_valve *valve) const;
 
   const MarkOptions &options_;
@@ -107,17 +108,18 @@ class PassageCheck {
   PieceEnd ends_[2] = {};
 };
 
-// In: the marked pieces of a mesh. Out: measures of one valve's band for a flow: the mesh edges across it, and the open
-// regions that it separates.
+// In: the marked pieces of a mesh. Out: measures of one valve's band for a flow: the number of mesh edges across the band, and
+// the open regions that the band separates.
 class BandMeasures {
  public:
-  // Adds a piece, which has its neighbours. Returns the open region of each node.
+  // Adds a piece, whose nodes' neighbours must be known. Returns the open region of each node.
   std::vector<std::int64_t> add(const Piece &piece, const riis_marks *marks, const riis_mark_options &options);
   // Writes the measures of all ranks into the report.
   void judge(const MatchedNodes &matched, double half_thickness, FlowReport &report) const;
 
  private:
-  // Lengths of the edges with a marked node. The sum is long, so that the mean hardly depends on the pieces.
+  // The lengths of the edges that have a marked node. The sum is a long double. The mean thus hardly depends on the division into
+  // pieces.
   using Lengths = EdgeLengths<long double>;
   void add_lengths(const Piece &piece, const riis_mark_list &marked);
 

@@ -20,7 +20,7 @@
 namespace riis::program {
 namespace {
 
-// Returns one surface of all valves at their present positions, or null for one valve. Refuses valves of different half
+// Joins all valves, at their present positions, to one surface. Returns null for one valve. Refuses valves with different half
 // thicknesses or offsets.
 Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valves) {
   if (valves.size() == 1) return nullptr;
@@ -43,7 +43,7 @@ Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valv
   return joined_surface(valves, &together);
 }
 
-// Adds the numbers of a piece or a rank to the sums. NodeCounts counts the nodes.
+// Adds the numbers of a piece or of a rank to the sums. The nodes are counted by NodeCounts.
 void combine(riis_mark_stats &all, const riis_mark_stats &stats) {
   if (all.n_threads == 0) all.search = stats.search;
   all.complete = all.complete && stats.complete;
@@ -51,12 +51,13 @@ void combine(riis_mark_stats &all, const riis_mark_stats &stats) {
   all.n_threads = std::max(all.n_threads, stats.n_threads);
 }
 
-// Tells whether the closed area can be measured: the valve is closed or a surface from a file, and the band lies in its middle.
+// Returns whether the closed area can be measured. The band must have no offset, and the valve must be closed or come from a
+// file.
 bool is_closed(const MovingValve &valve) {
   return valve.opening().value_or(0) == 0 && valve.options().surface_options.offset == 0;
 }
 
-// Returns by how much a measured distance may be too large. Minimisation may end beside the nearest point.
+// Returns by how much a measured distance may be too large. Minimisation may end at a point that is not the nearest point.
 double error_of_distances(const ValveOptions &options) {
   return options.surface_options.measure == RIIS_MEASURE_MINIMIZATION ? std::numeric_limits<double>::infinity() : 0;
 }
@@ -69,7 +70,7 @@ void report_leak(const MovingValve &valve, FlowReport &flow) {
   double leak = 0;
   check(riis_surface_get_leak(valve.surface(), &how, 1, &leak), "--resistance");
   if (flow.closed_area) leak = info_of(valve.surface()).half_thickness / *R * *flow.closed_area;
-  // The leak is per unit of the user's pressure, which is Pa if the unit of the mesh is known.
+  // The leak is given per unit of pressure, which is Pa if the unit of the mesh is known.
   const std::optional<Unit> &unit = valve.options().unit;
   flow.leak_per_drop = unit ? leak * factor_from_si(a_pressure, *unit) : leak;
   const std::optional<Amount> &drop = valve.options().given_drop;
@@ -83,7 +84,7 @@ ResistanceReport report_of_resistance(const MarkOptions &own, const MarkOptions 
   ResistanceReport report{own.given_resistance->number};
   if (own.unit) report.R_unit = a_resistance.si;
   if (of_case.output.empty()) return report;
-  // OpenFOAM's field has no "riis_" before its name.
+  // The name of OpenFOAM's field has no "riis_" at its beginning.
   report.K_name = own.density && of_case.prefix == "riis" ? "K" : of_case.prefix + "_K";
   report.K_unit = own.K_unit;
   if (own.density) report.density = own.density->number;
@@ -102,7 +103,7 @@ void check_new_arrays(const MarkOptions &options, const std::vector<std::string>
   }
 }
 
-// Returns PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and the names of the arrays of the given fields.
+// Returns the names PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and the names of the arrays of the given fields.
 std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields) {
   std::vector<std::string> names = {prefix + "_marked", prefix + "_distance", prefix + "_leaflet"};
   if (fields & RIIS_FIELD_NORMAL) names.push_back(prefix + "_normal");
@@ -111,7 +112,8 @@ std::vector<std::string> names_of_marks(const std::string &prefix, int32_t field
   return names;
 }
 
-// Moves each valve to the first of the times whose opening is the first in an order.
+// Moves each valve to the time with the least or the largest opening, as `order` says. Among times with equal openings, chooses
+// the first time.
 template <class Order>
 void move_to_first(const std::vector<double> &times, std::vector<MovingValve> &valves, Order order) {
   for (MovingValve &valve : valves) {
@@ -197,10 +199,10 @@ ValveReport Marking::report_of(std::size_t i) {
 
 // ---- Times ----
 
-// Leaks matter where a valve is least open. An open valve is not meant to stop the flow.
+// Leaks are judged when a valve is least open. An open valve is not meant to stop the flow.
 void Marking::move_to_least_openings() { move_to_first(times_, valves_, std::less<>()); }
 
-// The leaflets of both the closed and the open valve may reach beyond the wall.
+// The leaflets of the closed valve or of the open valve may reach beyond the wall.
 void Marking::take_states_for_outside() {
   for (std::size_t i = 0; i < valves_.size(); ++i) sums_[i].outside.emplace_back(valves_[i]);
   if (!all_.is_series()) return;
@@ -252,7 +254,7 @@ void Marking::measure(Piece &piece) {
     for (MovingValve &valve : valves_) valve.mark(*piece.mesh, 0);
   }
   const Stage stage("looking for leaks", options().quiet);
-  // The neighbours are of use only if all edges of the piece are known.
+  // The neighbours are used only if all edges of the piece are known.
   const riis_vtk_sharing &cells = piece.nodes.counts();
   const bool has_edges = cells.n_cells_left_out == 0 && (cells.n_volume_cells > 0 || !mesh_.is_whole());
   if (options().check_leaks || (wants_measures_ && has_edges))
@@ -262,7 +264,8 @@ void Marking::measure(Piece &piece) {
     combine(sums.marks, valves_[i].stats());
     sums.leaks.add(piece, valves_[i].result());
     for (LeafletsOutside &state : sums.outside) state.add(piece);
-    // The closed valve matters only if the open valve is outside. In a mesh in pieces, this is known after the last piece.
+    // The closed valve is judged only if the open valve is outside the mesh. If the mesh is in pieces, only the last piece tells
+    // whether the open valve is outside.
     const bool may_be_outside =
         !mesh_.is_whole() || std::any_of(sums.outside.begin(), sums.outside.end(), [](const LeafletsOutside &state) {
           return state.share_so_far() > most_outside;
@@ -284,19 +287,20 @@ void Marking::measure(Piece &piece) {
 void Marking::find_neighbors_for_search(Piece &piece) {
   if (!needs_adjacency(options().mark_options.search)) return;
   if (piece.mesh->is_grid())
-    refuse_usage("--search: " + options().mesh +
-                 " is a grid, whose nodes are not stored, so no search walks from one to the next; leave --search out");
+    refuse_usage(
+        "--search: " + options().mesh +
+        " is a grid, whose nodes are not stored, so this search cannot walk from node to node; leave --search out");
   const Stage stage("finding the nodes' neighbours", options().quiet);
   piece.mesh->find_neighbors(options().mark_options.n_threads);
   report_.seconds.adjacency += stage.seconds();
 }
 
-// Also notes the nodes near the motion, and the box around the whole motion.
+// Also stores the nodes near the moving valve, and enlarges the box around the whole motion.
 void Marking::mark_at_all_times(Piece &piece) {
   const Stage stage("marking", options().quiet || all_.is_series());
   std::vector<std::uint8_t> is_near(all_.is_series() ? static_cast<std::size_t>(piece.nodes.n()) : 0);
   std::optional<StepProgress> progress;
-  if (all_.is_series()) progress.emplace("finding the nodes near the sweep", times_.size(), options().quiet);
+  if (all_.is_series()) progress.emplace("finding the nodes near the moving valve", times_.size(), options().quiet);
   for (std::size_t step = 0; step < times_.size(); ++step) {
     if (progress) progress->begin(step);
     for (std::size_t i = 0; i < valves_.size(); ++i) {
@@ -364,7 +368,7 @@ void Marking::judge() {
   report_.seconds.leaks += stage.seconds();
 }
 
-// Fills the report of a valve. The marks were found at the valve's least opening.
+// Fills the report of a valve. The marks belong to the valve's least opening.
 void Marking::report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts) {
   ValveReport &report = report_.valves[i];
   const MovingValve &valve = valves_[i];
@@ -389,7 +393,7 @@ void Marking::report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts
   report.leaks.n_cells_left_out = counts.n_cells_left_out;
 }
 
-// Warns of suspicious marks. Judges each valve at the time when it marks most nodes.
+// Warns of suspicious marks. Each valve is judged at the time when it marks the most nodes.
 void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
   std::vector<Warning> warnings;
   bool are_complete = true;
@@ -409,12 +413,12 @@ void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
   }
   if (!are_complete)
     warn(
-        "the marks may be incomplete: --search paper misses nodes that are not connected to its one start; --search "
-        "neighbor finds them");
+        "the marks may be incomplete: --search paper misses nodes that are not connected to its start node; --search "
+        "neighbor finds these nodes");
   warn(warnings);
 }
 
-// Reports the state of which most is outside, and warns if the valve is in the mesh at all.
+// Reports the state with the largest share outside the mesh. Warns only if the valve is in the mesh at all.
 void Marking::report_outside(std::size_t i, const MeshCounts &counts) {
   std::optional<OutsideReport> &report = report_.valves[i].outside;
   std::optional<OutsideReport> closed;
@@ -434,7 +438,7 @@ void Marking::report_outside(std::size_t i, const MeshCounts &counts) {
 
 namespace {
 
-// Returns the surface of a valve at its present position, but in another unit.
+// Returns the surface of a valve at its present position, converted to another unit.
 Surface surface_in_unit(const MovingValve &valve, const PossibleUnit &unit) {
   riis_surface_options how = valve.options().surface_options;
   const double factor = unit.scale / how.scale;
@@ -473,7 +477,7 @@ void Marking::compare_units(std::size_t i, const std::vector<PossibleUnit> &unit
   print_line(all_.before(i) + "the unit is not sure: " + text);
 }
 
-// Measures the orifices. In a series, each valve is measured where it is most open.
+// Measures the areas of the orifices. In a series, each valve is measured at its largest opening.
 void Marking::report_orifices() {
   if (!wants_measures_) return;
   if (all_.is_series()) move_to_first(times_, valves_, std::greater<>());

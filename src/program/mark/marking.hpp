@@ -21,7 +21,7 @@
 
 namespace riis::program {
 
-// Returns the numbers of no marking at all.
+// Returns the numbers of a marking that has marked nothing.
 riis_mark_stats no_stats();
 
 class Marking {
@@ -29,9 +29,11 @@ class Marking {
   // Makes the surfaces of the valves. The case and the mesh must outlive this object.
   Marking(Case &all, const MeshPieces &mesh);
 
-  // Marks a piece by all valves at all times, and notes the numbers for the report. Without a series, the piece gets its arrays.
+  // Marks a piece with all valves at all times, and stores the numbers for the report. Without a series, the marks are stored as
+  // arrays of the piece.
   void measure(Piece &piece);
-  // Completes the report, except for times and files, and warns. All ranks must have measured their pieces.
+  // Completes the report, except for the times and the files, and prints warnings. Before this call, all ranks must have measured
+  // their pieces.
   void judge();
   // Moves the valves to a step of a series.
   void move_to_step(std::size_t step);
@@ -41,12 +43,12 @@ class Marking {
   std::vector<MovingValve> &valves() { return valves_; }
   Report &report() { return report_; }
   const std::vector<double> &times() const { return times_; }
-  // The next two functions need a judged marking. n_marked is the number of marked nodes of all pieces.
+  // The next two functions may be called after judge(). `n_marked` is the number of marked nodes in all pieces.
   std::int64_t n_marked(std::size_t step, std::size_t valve) const { return view(n_marked_)[marked_at(step, valve)]; }
   bool has_marks() const;
-  // Returns the nodes of the last piece that are within the distance limit at some time of a series.
+  // Returns the nodes of the last piece to which the valves came near at some time of a series.
   const std::vector<std::int64_t> &near_nodes() const { return near_; }
-  // Returns the box around all surfaces at all times, for a movie.
+  // Returns the box around all surfaces at all times. A movie needs this box.
   const Box &swept() const { return swept_; }
 
  private:
@@ -62,19 +64,21 @@ class Marking {
   };
 
   const MarkOptions &options() const { return all_.options; }
-  // A single time has no earlier time, and thus no velocities.
+  // Velocities need an earlier time, so a single time has no velocities.
   bool has_velocities() const { return times_.size() > 1; }
   std::int32_t fields() const;
   std::vector<std::string> names_of_arrays() const;
   // Returns the report of a valve's surface at its present position.
   ValveReport report_of(std::size_t i);
-  // Kinds of node counts: the marked nodes at each step, then those within the limit at the least opening.
+  // The node counts have several kinds: the marked nodes at each step, and the nodes within the distance limit at the least
+  // opening.
   std::size_t marked_at(std::size_t step, std::size_t valve) const { return step * valves_.size() + valve; }
   std::size_t within_limit(std::size_t valve) const { return marked_at(times_.size(), valve); }
 
   void move_to_least_openings();
   void take_states_for_outside();
-  // Returns the closed state of a valve that is always open. NULL if the valve closes, or if its sizes allow no closed valve.
+  // Returns the closed state of a valve that is always open. Returns NULL if the valve closes at some time, or if its sizes allow
+  // no closed valve.
   LeafletsOutside *closed_state(std::size_t i);
   void find_neighbors_for_search(Piece &piece);
   void mark_at_all_times(Piece &piece);
@@ -82,7 +86,7 @@ class Marking {
   void report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts);
   void warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts);
   void report_outside(std::size_t i, const MeshCounts &counts);
-  // Prints the number of marked nodes for each possible unit, with the valve at its present position.
+  // For the valve at its present position, prints the number of marked nodes in each possible unit.
   void compare_units(std::size_t i, const std::vector<PossibleUnit> &units) const;
   void report_orifices();
 
@@ -104,16 +108,18 @@ class Marking {
   PassageCheck passage_;
 };
 
-// The driver of riis mark, surface, check leaks and check crossings. A run is valves x times x pieces. A whole mesh is one piece,
-// one state is one time, and the valve of the command line is a case of one valve. Without a mesh there are no pieces.
+// The common code of riis mark, riis surface, riis check leaks and riis check crossings. A run works on all its valves, at all
+// its times, in all its pieces. A whole mesh counts as one piece, a single state as one time, and a valve of the command line as
+// a case with one valve. Without a mesh there are no pieces.
 //     case -> surfaces -> pieces, read one by one -> marks, leaks, measures -> files -> report
 
 // Reads the case or the valve of the options, marks the mesh, writes the files and prints the report. Returns exit_none_marked if
-// no node was marked at any time and the user did not allow that. Returns exit_warned if a check found its fault, and exit_fine
+// no node was marked at any time, unless the user allowed this. Returns exit_warned if a check found a fault, and exit_fine
 // otherwise. Throws a Refusal.
 ExitCode run_mark(const MarkOptions &options);
 
-// Marks a mesh of the caller's. Checks no options and prints no report. all.options.mesh is the path of the mesh.
+// Marks a mesh that the caller has read. The function checks no options and prints no report. `all.options.mesh` must be the path
+// of the mesh.
 Report mark_case(Case &all, const MeshPieces &mesh);
 
 }  // namespace riis::program

@@ -21,7 +21,7 @@
 namespace riis::program {
 namespace {
 
-// Refuses options that need the whole mesh at once.
+// Refuses options that need the whole mesh in memory.
 void check_options_of_pieces(const MarkOptions &options) {
   const auto refuse_if = [&](bool is_given, const std::string &option, const std::string &why) {
     if (is_given) refuse_usage(option + ": " + why + ", and " + options.mesh + " is read in pieces");
@@ -34,7 +34,7 @@ void check_options_of_pieces(const MarkOptions &options) {
             "this search walks through the whole mesh");
 }
 
-// Refuses options that have an effect only in a series, if there is no series.
+// If there is no series, refuses the options that have an effect only in a series.
 void check_one_time(const MarkOptions &options) {
   const SeriesOptions &series = options.series;
   const auto refuse_if = [&](bool is_given, const std::string &option) {
@@ -45,13 +45,14 @@ void check_one_time(const MarkOptions &options) {
   refuse_if(series.all_cells && !options.at_cells, "--all-cells");
 }
 
-// Refuses --first-passage unless there is one valve that opens.
+// Refuses --first-passage for several valves, and for a valve that cannot open.
 void check_first_passage(const Case &all) {
   if (!all.options.first_passage) return;
   if (!all.valves[0].options.surface.empty())
     refuse_usage("--first-passage needs a valve; a surface from a file does not open");
   if (all.valves.size() > 1)
-    refuse_usage("--first-passage takes one valve, because each of several may close the way of another");
+    refuse_usage(
+        "--first-passage takes one valve, because one of several valves may close the passage through another");
 }
 
 MeshFile part_of(const riis_vtk_mesh *file, const std::vector<std::int64_t> &node_ids) {
@@ -64,8 +65,7 @@ MeshFile copy_of_mesh(const riis_vtk_mesh *file, std::int64_t n_nodes) {
   return part_of(file, all);
 }
 
-// The times of the first steps do not count, because these steps sort the mesh's nodes and allocate memory that later steps
-// reuse.
+// The first steps are not timed, because they sort the mesh's nodes and allocate memory that later steps use again.
 constexpr int n_first_steps = 2;
 
 double median(std::vector<double> values) {
@@ -74,9 +74,9 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Measures for --steps the cost of a time step of a moving valve, in a mesh that is prepared for many markings. The function
-// moves the opening of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step.
-// Throws a Refusal for a valve that cannot move.
+// For --steps, measures how long a step of a moving valve takes. The mesh is prepared for many markings. The function moves the
+// opening of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step. Throws a
+// Refusal for a valve that cannot move.
 StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file) {
   const Stage stage("timing " + std::to_string(options.n_steps) + " steps", options.quiet);
   const riis_mark_options &how = options.mark_options;
@@ -139,7 +139,7 @@ class MarkingRun {
         [&](Piece &piece) {
           if (UnbrokenWrite::has_signal()) return;
           marking_.measure(piece);
-          // The warnings about a whole mesh come before its files are written, which may take long.
+          // Warnings about a whole mesh are printed before its files are written, because writing may take long.
           if (mesh_.is_whole()) marking_.judge();
           write(piece);
         },
@@ -152,7 +152,7 @@ class MarkingRun {
   bool has_marks() const { return marking_.has_marks(); }
 
  private:
-  // Refuses early, before the marking.
+  // A bad output is refused before the marking.
   void find_earlier() {
     if (!all_.is_series()) return;
     std::vector<std::string> parts;
@@ -162,8 +162,8 @@ class MarkingRun {
   }
 
   void begin_writing() {
-    // In a series, a signal such as Ctrl-C waits for the end of a step. The lists are thus written, and the movie's frames
-    // removed, even after a signal.
+    // In a series, a signal such as Ctrl-C takes effect at the end of a step. Even after a signal, the lists are therefore
+    // written and the movie's frames are removed.
     if (all_.is_series()) unbroken_.emplace();
     if (ranks::is_first()) {
       files_.make_folder();
@@ -204,13 +204,13 @@ class MarkingRun {
     try {
       RunPictures(all_, std::move(file), marking_.swept()).draw(0, valves_, report_);
     } catch (const Refusal &) {
-      // The statistics are written even if drawing failed, because the marks are valid.
+      // The statistics are written even if a picture could not be drawn, because the marks are valid.
       write_stats(all_.options, report_);
       throw;
     }
   }
 
-  // Writes the part of a piece at each time. A piece that the valves do not come near has no files.
+  // Writes the piece's file for each time. If no valve comes near a piece, the piece has no files.
   void write_steps(Piece &piece) {
     if (!mesh_.is_whole() && !(files_.is_wanted() && piece.mesh)) return;
     if (!unbroken_) unbroken_.emplace();
@@ -219,7 +219,7 @@ class MarkingRun {
     MeshFile file =
         all_.options.series.all_cells ? std::move(piece.file) : part_of(piece.file.get(), marking_.near_nodes());
     std::optional<RunPictures> pictures;
-    // Pictures get a mesh of their own, because they show the whole mesh and store other arrays in it.
+    // Pictures use a separate mesh, because they show the whole mesh and store other arrays in it.
     if (RunPictures::are_wanted(all_.options))
       pictures.emplace(all_, piece.file ? std::move(piece.file) : copy_of_mesh(file.get(), n_of_piece),
                        marking_.swept());
@@ -260,7 +260,7 @@ class MarkingRun {
     }
   }
 
-  // Prints the estimated size of all files. The estimate comes from the first step's file.
+  // Prints the estimated size of all files. The first step's file gives the estimate.
   void announce(FileNodes &nodes, riis_vtk_mesh *file, std::int64_t n_nodes_of_mesh) {
     if (!files_.has_list()) return;
     if (!all_.options.series.all_cells) report_.n_written = nodes.n();
@@ -274,7 +274,7 @@ class MarkingRun {
                files_.folder());
   }
 
-  // Writes the surfaces of a step, at which the valves are, and notes that the step is complete.
+  // Writes the surfaces of a step, and notes that the step is complete. The valves must already be at this step.
   void finish_step(std::size_t step) {
     for (std::size_t i = 0; surfaces_.is_wanted() && i < valves_.size(); ++i)
       if (ranks::is_first())
@@ -302,7 +302,7 @@ class MarkingRun {
     if (!table.empty() && (is_last || can_be_replaced(table))) write_text(table, csv_of(report_));
   }
 
-  // Judges and lists the files, after all ranks have written their pieces. Returns whether all pieces are written.
+  // Judges and lists the files. All ranks must have written their pieces. Returns whether all pieces are written.
   bool finish_pieces() {
     const bool is_stopped = ranks::sum(UnbrokenWrite::has_signal()) > 0;
     if (!is_stopped) marking_.judge();
@@ -371,7 +371,7 @@ bool is_sealed(const Report &report) {
   });
 }
 
-// Returns whether a check found the fault that it looks for.
+// Returns whether a check found the fault for which it looks.
 bool has_fault(const MarkOptions &options, const Report &report) {
   const bool crosses = std::any_of(report.valves.begin(), report.valves.end(), [](const ValveReport &valve) {
     return valve.crossings && valve.crossings->found.n_pairs > 0;
@@ -410,7 +410,7 @@ ExitCode run_case(Case &all) {
 }  // namespace
 
 ExitCode run_mark(const MarkOptions &options) {
-  // The movie is checked before the case is read, because a case may have many files.
+  // The movie's options are checked before the case is read, because reading a case with many files takes long.
   check_movie(options.series.movie);
   Case all = options.series.case_file.empty() ? case_of_command_line(options) : read_case(options);
   return run_case(all);

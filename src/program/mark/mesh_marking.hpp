@@ -16,18 +16,18 @@ namespace riis::program {
 Marks new_result();
 // Marks the nodes of a mesh by a surface.
 Marks marks_of(const riis_surface *surface, riis_mesh *mesh, const riis_mark_options &how);
-// Returns the options for a surface other than that of the user's marks: any search, up to a limit.
+// Returns options for marks by a surface that the user did not choose. Any search is allowed, and distances go up to a limit.
 riis_mark_options how_to_mark_again(const MarkOptions &options, double limit = RIIS_AUTO);
 
 bool needs_adjacency(int32_t search);
 
-// K and K u_surface at every node, summed over the valves that have a resistance.
+// K and K u_surface at every node. Each of the two fields is a sum over the valves that have a resistance.
 class ResistanceSum {
  public:
   enum class WithVelocity { no, yes };
   ResistanceSum(int64_t n_nodes, WithVelocity with_velocity);
   void add(const MarkOptions &options, const riis_marks *result);
-  // Sets PREFIX_K and PREFIX_K_u_surface. Sets no array if no valve had a resistance.
+  // Sets PREFIX_K and PREFIX_K_u_surface. If no valve had a resistance, sets no array.
   void set_arrays(const std::string &prefix, riis_vtk_mesh *file) const;
 
  private:
@@ -40,7 +40,7 @@ class ResistanceSum {
 
 double distance_between(const double *p, const double *q);
 
-// The coordinates of the nodes of a file. A rectilinear grid has only axes.
+// The coordinates of the nodes of a file. A rectilinear grid has only the coordinates along its axes.
 class NodePoints {
  public:
   using Point = std::array<double, 3>;
@@ -67,19 +67,19 @@ class NodePoints {
 // The nodes of a mesh file as the library takes them, and the neighbours of each node.
 class FileNodes {
  public:
-  // The file must outlive this object. `path` names it in refusals.
+  // The file must outlive this object. Refusals call the file by `path`.
   FileNodes(const riis_vtk_mesh *file, std::string path);
 
   std::int64_t n() const { return points_.n(); }
   NodePoints::Point point(std::int64_t node) const { return points_[node]; }
   riis_mesh *mesh() const { return mesh_.get(); }
-  // Whether the nodes are a grid. The library then knows the neighbours, and stores none.
+  // Returns whether the nodes form a grid. The library computes the neighbours in a grid, so none are stored.
   bool is_grid() const { return points_.axes() != nullptr; }
 
-  // Finds the neighbours, unless they are known.
+  // Finds the neighbours of all nodes if they are not known yet.
   void find_neighbors(std::int32_t n_threads);
   void forget_neighbors() { neighbors_.reset(); }
-  // Both functions need the neighbours.
+  // The next two functions need the neighbours of the nodes.
   template <class Visit>
   void for_each_neighbor(std::int64_t node, const Visit &visit) const {
     if (const riis_grid *const axes = points_.axes()) {
@@ -99,13 +99,13 @@ class FileNodes {
   }
   double longest_edge(std::int64_t node) const;
 
-  // While an object of this type lives, the library's mesh has these neighbours, or other rows. A grid always has its own
-  // neighbours.
+  // While an object of this type lives, the library's mesh has the neighbours of this object, or the given rows of neighbours. A
+  // grid always has the neighbours that follow from its axes.
   class Lent {
    public:
     explicit Lent(const FileNodes &nodes) : Lent(nodes, nodes.rows_) {}
     Lent(const FileNodes &nodes, const riis_csr &rows);
-    // This call changes no error message.
+    // The call leaves the library's last error message unchanged.
     ~Lent() {
       if (mesh_) riis_mesh_set_adjacency(mesh_, nullptr);
     }

@@ -134,7 +134,7 @@ PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const
 
 namespace {
 
-// Returns the moments of the nodes of a grid, from sums along its axes.
+// Returns the moments of a grid's nodes, computed from sums along the grid's axes.
 Moments moments_of(const riis_grid &axes) {
   const std::array<std::int64_t, 3> sizes = {axes.ni, axes.nj, axes.nk};
   const std::array<const void *, 3> x = {axes.x, axes.y, axes.z};
@@ -265,7 +265,8 @@ std::vector<SharedNode> in_one_list(std::vector<std::vector<SharedNode>> by_piec
   return all;
 }
 
-// Shares out nodes among the ranks by their keys. Global ids are dense, so they are mixed to share them out evenly.
+// Distributes nodes among the ranks by their keys. Global ids are dense, so a hash of the id chooses the rank, and the ranks get
+// about equal numbers of nodes.
 template <class Node>
 std::vector<Node> shared_out(std::vector<Node> nodes) {
   const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
@@ -301,10 +302,10 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
       if (!(p == q) && (own.joined.empty() || !(own.joined.back() == joined))) own.joined.push_back(joined);
     }
     if (has_ids && end < nodes.size() && nodes[end].key[0] == first.key[0])
-      refuse_data("the node with the global id " + std::to_string(static_cast<std::int64_t>(first.key[0])) +
-                  " is at one place in " + view(files)[first.piece] + " and at another in " +
-                  view(files)[nodes[end].piece] +
-                  "; ranks of dolfinx write a function's nodes with other last digits: use VTKFile.write_mesh");
+      refuse_data(
+          "the node with the global id " + std::to_string(static_cast<std::int64_t>(first.key[0])) +
+          " is at one place in " + view(files)[first.piece] + " and at another in " + view(files)[nodes[end].piece] +
+          "; on each rank, dolfinx writes the nodes of a function with other last digits: use VTKFile.write_mesh");
     ++own.n_nodes;
     own.n_in_several += in_several;
     if (own.joined.size() > 2 * n_kept) {
@@ -343,8 +344,8 @@ void LooseNodes::check(const MeshPieces &mesh) const {
   const std::int64_t sum = ranks::sum(n);
   if (sum > 0)
     refuse_data(mesh.path() + ": " + std::to_string(sum) +
-                " points are inside one piece, and another piece has them without a cell; "
-                "write each piece with only the points of its own cells");
+                " points are inside one piece, and in another piece they have no cell; write each piece with only the "
+                "points of its own cells");
 }
 
 void release_free_memory() {

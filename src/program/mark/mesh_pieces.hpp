@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a mesh, one file or several pieces. Out: the mesh's pieces, read one by one, and the nodes that a piece shares with other
-// pieces. A mesh of one file is one piece. Each node has a key, and nodes of two pieces are the same node if their keys are
+// In: a mesh, one file or several pieces. Out: the mesh's pieces, which are read one by one, and the nodes that several pieces
+// share. A mesh in one file counts as one piece. Each node has a key. Nodes of two pieces are the same node if their keys are
 // equal.
 #pragma once
 
@@ -29,12 +29,13 @@ namespace riis::program {
 
 using PieceList = Handle<riis_vtk_pieces, riis_vtk_pieces_destroy>;
 
-// Returns whether the path is that of a mesh in pieces.
+// Returns whether the path names a mesh in pieces.
 bool is_in_pieces(const std::string &mesh);
 
 struct Piece;
 
-// A mesh. Each rank takes some of its pieces. A mesh of one file stays in memory until its piece is dropped.
+// A mesh, whose pieces are distributed among the ranks. Each rank takes some of its pieces. A mesh in one file stays in memory
+// until its only piece is dropped.
 class MeshPieces {
  public:
   // Reads the list of a .pvtu file. The options must outlive this object.
@@ -47,10 +48,10 @@ class MeshPieces {
   const std::vector<std::string> &files() const { return files_; }
   bool is_whole() const { return is_whole_; }
   const std::string &cells_where() const { return options_.cells_where; }
-  // Warns of domains that touch, if the user chose none of them. The function needs the pieces that this rank has read.
+  // If the user chose no domain, warns of domains that touch. The warning covers the pieces that this rank has read.
   void warn_of_regions() const;
-  // Calls `work` with each of this rank's pieces, in ascending order, or only with those whose numbers `is_wanted` accepts. A
-  // failure ends all ranks. Adds to the seconds of reading, unless they are NULL.
+  // Calls `work` with each of this rank's pieces in ascending order. With `is_wanted`, calls `work` only for the pieces whose
+  // numbers `is_wanted` accepts. A failure ends the run on all ranks. Adds the time of reading to `seconds`, if this is not NULL.
   void for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds = nullptr,
                     const std::function<bool(std::int64_t)> &is_wanted = nullptr) const;
 
@@ -58,7 +59,7 @@ class MeshPieces {
   MeshPieces(const MarkOptions &options, std::vector<std::string> files)
       : options_(options), files_(std::move(files)) {}
   virtual MeshFile read(std::int64_t piece) const;
-  // Called after the first work with a piece.
+  // The function is called after the first work with a piece.
   virtual void finished(std::int64_t) const {}
 
  private:
@@ -72,12 +73,12 @@ class MeshPieces {
 
 using NodeKey = std::array<std::uint64_t, 2>;
 
-// The nodes of one piece. In a whole mesh, all nodes are inside, and a key is the node's number. In a piece with global ids, a
-// key is the id and a hash of the coordinates. Without, a key is a hash of 128 bits of the coordinates. The probability that two
-// of a billion nodes have equal hashes is below 1e-20.
+// The nodes of one piece, and their keys. In a whole mesh, all nodes are inside, and the key of a node is its number. If a piece
+// has global ids, a key is the id and a hash of the coordinates. If a piece has no global ids, a key is a hash of the coordinates
+// with 128 bits. The probability that two of a billion nodes have equal hashes is below 1e-20.
 class PieceNodes {
  public:
-  // `how` has the mesh of which the file is a piece.
+  // `how` names the mesh to which the file belongs.
   PieceNodes(const riis_vtk_mesh *file, const std::string &path, const MarkOptions &how, bool is_whole);
 
   std::int64_t n() const { return points_.n(); }
@@ -87,15 +88,15 @@ class PieceNodes {
   bool is_loose(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_LOOSE; }
   bool is_inside(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_INSIDE; }
   bool is_ghost(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_GHOST; }
-  // Returns (n) with 0 for ghosts, or NULL if there are no ghosts.
+  // Returns an array (n) with 0 for each ghost node, or NULL if there are no ghosts.
   const std::uint8_t *mask() const { return mask_.empty() ? nullptr : mask_.data(); }
   const riis_vtk_sharing &counts() const { return counts_; }
   bool is_whole() const { return is_whole_; }
-  // Ghosts do not count in the box and the moments.
+  // The box and the moments leave out ghost nodes.
   const Box &box() const { return box_; }
   const Moments &moments() const { return moments_; }
   bool has_ids() const { return counts_.has_global_ids != 0; }
-  // Returns the global id, or the number in the piece if there are no global ids.
+  // Returns the global id of a node. Without global ids, returns the node's number in the piece.
   std::int64_t id(std::int64_t node) const { return has_ids() ? ids_[static_cast<std::size_t>(node)] : node; }
 
  private:
@@ -114,7 +115,7 @@ class PieceNodes {
   riis_vtk_sharing counts_{};
 };
 
-// A piece in memory. Later members borrow from earlier ones.
+// A piece in memory. Later members of the struct borrow from earlier members.
 struct Piece {
   Piece(std::int64_t its_number, std::string its_path, MeshFile its_file, const MarkOptions &how, bool is_whole);
 
@@ -125,7 +126,7 @@ struct Piece {
   std::optional<FileNodes> mesh;  // not set for a piece without nodes
 };
 
-// The numbers of a part of a mesh, such as the pieces of a rank. Shared nodes are counted apart.
+// The numbers of a part of a mesh, such as the pieces of one rank. Nodes that pieces share are counted separately.
 struct MeshCounts {
   std::int64_t n_nodes = 0, n_cells = 0, n_volume_cells = 0, n_cells_left_out = 0;
   std::int64_t n_with_nodes = 0, n_with_ids = 0;  // pieces
@@ -136,14 +137,14 @@ struct MeshCounts {
   void add(const Piece &piece);
   void add(const MeshCounts &other);
 };
-// Returns the sums over all ranks. Refuses a mesh without nodes, and global ids that only some pieces have.
+// Returns the sums over all ranks. Refuses a mesh without nodes, and a mesh in which only some pieces have global ids.
 MeshCounts sum_of(const MeshCounts &own, const MeshPieces &mesh);
 
-// Sets of things that join. At first each thing is a set.
+// Disjoint sets of things, which can be united. At the beginning, each set has one thing.
 template <class Thing>
 class JoinedSets {
  public:
-  // Unites the sets of two things, and returns whether the sets were different.
+  // Unites the sets of two things. Returns whether the two sets were different.
   bool unite(const Thing &a, const Thing &b) { return sets_.unite(number(a), number(b)); }
   bool are_joined(const Thing &a, const Thing &b) { return sets_.root(number(a)) == sets_.root(number(b)); }
 
@@ -158,7 +159,7 @@ class JoinedSets {
   DisjointSets sets_{0};
 };
 
-// A node that several pieces may have, in one of them.
+// A node of one piece that other pieces may also have.
 struct SharedNode {
   NodeKey key;
   std::int32_t region;  // the node's open region, numbered within the piece, or -1
@@ -177,7 +178,7 @@ struct PieceRegion {
   bool operator==(const PieceRegion &other) const { return piece == other.piece && region == other.region; }
 };
 
-// Regions of two pieces with a common node.
+// Two regions in two pieces that have a common node.
 using JoinedRegions = std::array<PieceRegion, 2>;
 
 // The shared nodes of all pieces, each counted once.
@@ -185,41 +186,41 @@ struct MatchedNodes {
   std::int64_t n_nodes = 0, n_in_several = 0;  // all nodes, and the nodes that more than one piece has
   std::vector<JoinedRegions> joined{};
 
-  // Returns how many regions are a part of another region.
+  // Returns by how much the number of separate regions falls when regions are joined.
   std::int64_t n_joins() const;
 };
 
-// Matches the nodes of all ranks. `has_ids` says whether keys have global ids. With ids, one id at two places is refused. `files`
-// names the pieces.
+// Finds equal nodes in the pieces of all ranks. `has_ids` says whether the keys contain global ids. A mesh with one global id at
+// two places is refused. In messages, `files` are the names of the pieces.
 MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has_ids,
                          const std::vector<std::string> &files);
 
-// Warns if no piece shares a node with another.
+// Warns if no node belongs to more than one piece.
 void warn_of_apart(const MeshCounts &counts, const MatchedNodes &matched, const MeshPieces &mesh);
 
-// The nodes that no cell of their piece uses. Such nodes count if no other piece has them inside.
+// The loose nodes: the nodes that no cell of their piece uses. A loose node counts if it is inside no other piece.
 class LooseNodes {
  public:
   void add(const PieceNodes &nodes);
-  // Refuses a mesh in which a loose node is inside another piece, because the node would count twice. Reads the pieces again if
-  // there are loose nodes.
+  // Refuses a mesh in which a loose node is inside another piece, because the node would be counted twice. The pieces are read
+  // again only if there are loose nodes.
   void check(const MeshPieces &mesh) const;
 
  private:
   std::vector<NodeKey> keys_;
 };
 
-// Returns memory that is free in this process to the system. Without this call, large pieces' freed memory would stay between
-// the shared nodes.
+// Returns this process's free memory to the system. Without this call, the freed memory of large pieces would remain between the
+// shared nodes.
 void release_free_memory();
 
-// Counts nodes of several kinds, such as the marked nodes at each time. Nodes inside a piece are counted when the piece is
-// added. Nodes that pieces share are counted at the end, each once.
+// Counts nodes of several kinds, such as the marked nodes at each time. Nodes inside a piece are counted when the piece is added.
+// Nodes that several pieces share are counted once, at the end.
 class NodeCounts {
  public:
   explicit NodeCounts(std::size_t n_kinds) : n_inside_(n_kinds) {}
   void add(const PieceNodes &nodes, const riis_mark_list &list, std::size_t kind);
-  // Returns the number of nodes of each kind in all pieces of all ranks. A node counts once for each kind.
+  // For each kind, returns the number of nodes in all pieces of all ranks. Each node counts at most once for a kind.
   std::vector<std::int64_t> sums() const;
 
  private:

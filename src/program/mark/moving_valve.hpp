@@ -19,15 +19,16 @@ namespace riis::program {
 
 class MovingValve {
  public:
-  // Borrows the source, and makes the surface at the given time. `moves` states whether the valve will have other times, and
-  // velocities.
+  // Keeps a reference to the source, and makes the valve's surface at the given time. `moves` tells whether the valve will move
+  // to other times and have velocities.
   MovingValve(ValveSource &source, double time, bool moves);
 
-  // Moves the surface to a time. If an earlier time is given, also computes the mean velocities since then.
+  // Moves the surface to a time. If an earlier time is given, the surface also gets its mean velocities since that time.
   void move_to(double time, std::optional<double> since = std::nullopt);
-  // Marks with `fields`, a sum of RIIS_FIELD_*. Velocities need a last move with an earlier time.
+  // Marks the nodes and computes `fields`, a sum of constants RIIS_FIELD_*. Velocities are known only if the last call of move_to
+  // had the argument `since`.
   void mark(FileNodes &nodes, int32_t fields);
-  // Forgets the last marks. With the old marks, a search in another mesh would begin at wrong nodes.
+  // Forgets the marks of the last call. With the old marks, a search in another mesh would begin at wrong nodes.
   void forget_marks() { result_ = new_result(); }
 
   const MarkOptions &options() const { return source_.options; }
@@ -41,9 +42,9 @@ class MovingValve {
   std::optional<CrossingReport> crossings{};  // set if crossings were looked for
 
  private:
-  // Sets the opening and the warp of a time.
+  // Gives the valve its opening and its warp at a time.
   void set_time(double time, riis_valve *valve);
-  // Returns the name for refusals.
+  // Returns the name of the valve for refusals.
   const std::string &subject() const { return source_.subject.empty() ? options().valve : source_.subject; }
 
   ValveSource &source_;
@@ -54,16 +55,16 @@ class MovingValve {
   bool is_at_rest_ = false, has_velocities_ = false;
 };
 
-// Makes the valves of a case, at the first time, and looks for crossings in their shapes. Tries each valve's options on a single
+// Makes the valves of a case at the first time, and looks for crossings in their shapes. Tries each valve's options on a single
 // node, so that bad options are refused early.
 std::vector<MovingValve> moving_valves(Case &all);
 
-// Triangles of several surfaces, or of one surface at several times.
+// The triangles of several surfaces, or of one surface at several times.
 class JoinedTriangles {
  public:
-  // Adds triangles, whose leaflets are numbered from `first_leaflet` on.
+  // Adds the triangles of a surface. The ids of the surface's leaflets begin at `first_leaflet`.
   void add(const riis_triangles &triangles, std::int32_t first_leaflet);
-  // Returns arrays that borrow all triangles.
+  // Returns arrays that refer to all triangles.
   riis_surface_arrays arrays() const;
 
  private:
@@ -72,15 +73,14 @@ class JoinedTriangles {
   std::vector<std::int32_t> leaflets_;
 };
 
-// In: the surfaces of several valves. Out: one surface with the triangles of all. The numbers of a valve's leaflets follow those
-// of the previous valve.
+// In: the surfaces of several valves. Out: one surface with the triangles of all valves. The leaflets of each valve are numbered
+// after the leaflets of the valves before it.
 
 // Returns the largest leaflet id plus one.
 int32_t n_leaflets_of(const riis_surface *surface);
-// Returns the number of each valve's first leaflet among the leaflets of all valves. The last entry is the number of all
-// leaflets.
+// For each valve, returns the number of its first leaflet in the joined surface. The last entry is the number of all leaflets.
 std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves);
-// `options` may be NULL. Then the defaults apply.
+// If `options` is NULL, the defaults apply.
 Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surface_options *options = nullptr);
 
 }  // namespace riis::program

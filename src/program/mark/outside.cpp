@@ -29,7 +29,7 @@ LeafletsOutside::LeafletsOutside(const MarkOptions &options, const riis_surface 
       is_outside_(samples_.area.size(), 1) {}
 
 void LeafletsOutside::add(const Piece &piece) {
-  // Cells reach beyond the box of their centres.
+  // If centres are marked, the box of the nodes is not used, because cells reach beyond the box of their centres.
   if (options_.at_cells || piece.nodes.box().meets(box_of(info_).widened(info_.half_thickness)))
     check(riis_vtk_mesh_find_outside(piece.file, view(is_outside_).size(), samples_.xyz.data(), info_.half_thickness,
                                      is_outside_.data()),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a surface and the pieces of a mesh. Out: the share of the leaflets' area that lies more than the half thickness outside the
+// In: a surface and the pieces of a mesh. Out: the share of the leaflets' area that is farther than the half thickness from the
 // mesh. Skirts and the housing of a bileaflet valve do not count, because they may reach beyond the wall.
 #pragma once
 
@@ -17,15 +17,15 @@ namespace riis::program {
 
 class LeafletsOutside {
  public:
-  // Takes the surface where the valve is now.
+  // Takes the surface at the valve's present position.
   explicit LeafletsOutside(const MovingValve &valve);
-  // Takes another surface of a valve with these options.
+  // Takes another surface of a valve with the given options.
   LeafletsOutside(const MarkOptions &options, const riis_surface *surface, std::optional<double> opening);
   void add(const Piece &piece);
   std::optional<double> opening() const { return opening_; }
-  // Returns the share that is outside this rank's pieces so far.
+  // Returns the share of the area that is outside all pieces of this rank so far.
   double share_so_far() const { return share_of(is_outside_); }
-  // Returns the shares of all ranks' pieces.
+  // Returns the shares of the area that are outside the pieces of all ranks.
   OutsideReport report() const;
 
  private:
@@ -38,8 +38,9 @@ class LeafletsOutside {
   std::vector<std::uint8_t> is_outside_;  // of all pieces so far
 };
 
-// Warns if more than a small share is outside. Open leaflets may lie against the wall and reach into it at the right place, so
-// `closed` decides whether the valve stands wrongly. For a surface from a file, `closed` is empty. `name` is the surface's name.
+// Warns if more than a small share of the leaflets is outside the mesh. Open leaflets may rightly lie against the wall and reach
+// into it. The closed state, `closed`, therefore decides whether the valve stands in a wrong place. A surface from a file has no
+// `closed`. In the warning, `name` names the surface.
 void warn_of_outside(const OutsideReport &report, const std::optional<OutsideReport> &closed, double half_thickness,
                      const std::string &name);
 // Returns a text such as "26 % of the leaflets' area (right 61 %)".

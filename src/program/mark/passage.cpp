@@ -20,13 +20,15 @@ namespace riis::program {
 
 namespace {
 
-// Returns the point's numbers as the user wrote them.
+// Returns the coordinates of a point as the user wrote them.
 std::string text_of(const double *point) { return numbers_text(point, 3, " "); }
 
-// Refuses an end that is outside the mesh or has no node near it. `why_none` is the reason to give if no node has a neighbour.
+// Refuses an end that is outside the mesh, and an end without a near node. If no node has a neighbour, `why_none` gives the
+// reason.
 void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd> &nearest, const std::string &name,
                const Box &box, const std::string &why_none) {
-  // A point inside a cell is within one edge length of one of the cell's nodes. This limit allows two.
+  // A point inside a cell is at most one edge length away from a node of the cell. An end of the passage may be up to two edge
+  // lengths away from a node.
   constexpr double edges_away = 2;
   const LeakCheck &asked = *options.check_leaks;
   const double *const point = asked.point(end);
@@ -44,11 +46,11 @@ void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd
 }
 
 // --quiet does not silence this warning, because the valve lets flow through.
-// An open valve is meant to have a passage, so there is no advice.
+// An open valve is meant to have a passage, so its warning has no advice.
 void warn_of_passage(const MarkOptions &options, const PassageReport &report, const std::string &surface,
                      double opening, const std::string &unknown) {
   const LeakCheck &asked = *options.check_leaks;
-  // With an offset, the passage is as wide as the half thickness that closes it.
+  // If the band has an offset, the width of a passage is the half thickness that closes the passage.
   const bool has_offset = options.surface_options.offset != 0;
   const std::string ends = text_of(asked.point(0)) + " and " + text_of(asked.point(1));
   const riis_passage &found = report.found;
@@ -75,7 +77,7 @@ void warn_of_passage(const MarkOptions &options, const PassageReport &report, co
                      : shown(found.distance) + " from the surface"));
 }
 
-// Finds the widest passage by the library, which has the whole mesh.
+// Finds the widest passage in a whole mesh, by a call of the library.
 riis_passage passage_in(const Piece &piece, const MarkOptions &options, const riis_surface *surface,
                         const PieceEnd (&ends)[2]) {
   const riis_mark_options how = how_to_mark_again(options);
@@ -100,15 +102,17 @@ riis_passage passage_in(const Piece &piece, const MarkOptions &options, const ri
 
 // ---- The widest passage in pieces ----
 //
-// Each piece is reduced to the ways between its shared nodes. A node's distance is the least half thickness that marks the node.
-// In a band without an offset, it is the distance from the surface. All nodes beyond a limit are open at first, and their
-// connected regions are labelled. After that, the nearer nodes open one by one, from far to near. A node that joins two sets,
-// each with a shared node or an end, is a link with the node's distance. Regions with a common node are joined. Links are then
-// opened from far to near, until both ends are joined. If the ends are joined before any link opens, the limit was too small.
+// Each piece is reduced to the ways that join its shared nodes. A node's distance is the least half thickness that marks the
+// node. If the band has no offset, the least half thickness is the node's distance from the surface. At first, all nodes beyond a
+// limit are open, and their connected regions are labelled. The nodes within the limit are then opened one by one, from far to
+// near. If a node joins two sets, and each of the two has a shared node or an end, the node becomes a link. A link has the
+// distance of its node. Regions of different pieces are joined if they have a common node. Links are opened from far to near
+// until the two ends are joined. If the two ends are joined before any link is opened, the limit was too small.
 
 namespace {
 
-// A region of a piece beyond the limit, or a node within the limit. A node's piece and region are -1.
+// A place in the mesh: a region of a piece beyond the limit, or a node within the limit. If the place is a node, its piece and
+// its region are -1.
 struct Place {
   PieceRegion region;
   NodeKey key;
@@ -121,7 +125,7 @@ struct PassageNode {
   std::int64_t id, piece;
   NodeKey key;
 
-  // Puts the farthest node first and, among equal distances, the lowest id first.
+  // Sorts nodes from far to near. If distances are equal, sorts by the id.
   bool operator<(const PassageNode &other) const {
     return distance != other.distance ? distance > other.distance
                                       : std::tie(id, piece) < std::tie(other.id, other.piece);
@@ -133,14 +137,14 @@ struct Link {
   PassageNode node;
 };
 
-// The place of an end, and the node of an end within the limit.
+// The place of an end of the passage in the mesh. For an end within the limit, the place is the node of the end.
 struct PlacedEnd {
   std::int64_t end;
   Place place;
   PassageNode node;
 };
 
-// Reduces one piece.
+// Reduces one piece to the ways between its shared nodes.
 class PieceWays {
  public:
   PieceWays(const Piece &piece, const riis_mark_list &within, const Band &band, double limit)
@@ -204,7 +208,7 @@ class PieceWays {
     }
   }
 
-  // Returns the region beyond the limit of each node, or -1.
+  // For each node, returns its region beyond the limit, or -1.
   std::vector<std::int64_t> regions() const { return {region_.begin(), region_.end()}; }
 
  private:
@@ -236,7 +240,7 @@ PassageReport passage_at(const PassageNode &node, double half_thickness, const P
   return passage;
 }
 
-// Refuses an end in the band.
+// Refuses an end of the passage that lies in the band.
 void check_end_is_open(const MarkOptions &options, const MeshPieces &mesh, const PieceEnd (&ends)[2],
                        const PlacedEnd &placed, double half_thickness) {
   if (placed.node.distance > half_thickness) return;
@@ -248,7 +252,7 @@ void check_end_is_open(const MarkOptions &options, const MeshPieces &mesh, const
       shortest(placed.node.distance) + ", is at most the half thickness, " + shortest(half_thickness));
 }
 
-// Returns nothing if the passage is wider than the limit.
+// Returns nothing if the passage is wider than the given limit.
 std::optional<PassageReport> passage_within(const MarkOptions &options, const MeshPieces &mesh,
                                             const riis_surface *surface, const Band &band, const PieceEnd (&ends)[2],
                                             double limit) {
@@ -282,7 +286,7 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
   const auto are_joined = [&] { return ways.are_joined(placed[0].place, placed[1].place); };
   for (const auto &[p, q] : matched.joined) ways.unite({p, {0, 0}}, {q, {0, 0}});
   if (are_joined()) {
-    // The ends are one node, or there is a way beyond the limit.
+    // Both ends are one node, or a way beyond the limit joins the ends.
     if (placed[0].place.is_region()) return std::nullopt;
     return passage_at(placed[0].node, band.half_thickness, ends);
   }
@@ -297,7 +301,7 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
 PassageReport find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
                            const PieceEnd (&ends)[2]) {
   const riis_surface_info info = info_of(surface);
-  // A path comes at least as near to the surface as its ends, and a half thickness below this marks the ends.
+  // An upper limit of the widths of passages: a band with this half thickness contains the two ends of every path.
   double farthest = 0;
   for (const PieceEnd &end : ends)
     for (int k = 0; k < 3; ++k)
@@ -383,7 +387,7 @@ void PassageCheck::judge(const riis_surface *surface, const riis_valve *valve, c
   }
   PassageReport passage = find(surface);
   const riis_passage &found = passage.found;
-  // Unknown edges cannot close an open path, but may make a path where the known edges make none.
+  // Unknown edges cannot close an open path, but they may make a path that the known edges do not have.
   passage.is_unknown = found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
   if (found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty()) {
     passage.closing_half_thickness = closing_half_thickness(valve, found.distance, [&](double wanted) {

@@ -24,7 +24,7 @@ namespace {
 std::int64_t n_printed = 0;
 Cause first_cause = Cause::outside;  // the cause whose advice was printed
 
-// Smaller meshes are not judged, because all nodes of a small mesh may well lie near the surface.
+// Smaller meshes are not judged, because all nodes of a small mesh may lie near the surface.
 constexpr int64_t fewest_judged_nodes = 100;
 
 // Returns a coordinate as text, rounded to a tenth of the edge or finer. The text has no trailing zeros, and 0 has no sign.
@@ -54,7 +54,7 @@ std::string text_of(const Box &box, double edge) {
 
 bool is_parametric(const MarkOptions &options) { return options.surface.empty() && !is_valve_file(options.valve); }
 
-// Returns whether the surface has the size of a valve, as far as its own unit is known.
+// Returns whether the surface has the size of a valve. For a file whose unit is not known, returns false.
 bool has_size_of_valve(const Situation &s) {
   const std::optional<Unit> own = s.options.surface_unit;
   if (is_parametric(s.options)) return true;
@@ -63,8 +63,7 @@ bool has_size_of_valve(const Situation &s) {
 
 bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >= fewest_judged_nodes; }
 
-// Returns whether suspiciously few nodes are marked. A single layer of nodes on the surface would have about area / edge^2
-// nodes.
+// Returns whether suspiciously few nodes are marked. A single layer of nodes on the surface would have about area / edge^2 nodes.
 bool has_hardly_any(const Situation &s) {
   if (s.n_marked == 0 || s.n_nodes < fewest_judged_nodes || s.median_edge == 0) return false;
   return static_cast<double>(s.n_marked) * s.median_edge * s.median_edge < 0.1 * s.area;
@@ -82,7 +81,7 @@ std::string marked_text(const Situation &s) {
   return has_hardly_any(s) ? "only " + text : text + ", which looks wrong";
 }
 
-// Returns a warning that names the positions of mesh and surface. This warning is used if sizes do not explain the marks.
+// Returns a warning with the positions of the mesh and the surface, for marks that the sizes do not explain.
 Warning warning_of_places(const Situation &s) {
   return {Cause::place,
           "the mesh is in " + text_of(s.mesh, s.median_edge) + ", the surface in " + text_of(s.surface, s.median_edge) +
@@ -94,7 +93,8 @@ Warning warning_of_places(const Situation &s) {
 
 std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
 
-// The units of a mesh and of a surface, and the options to write for them. Without units, only a factor is known.
+// The units of a mesh and of a surface, and the options that the user should write for them. If the units are not known, the
+// scale is only a factor.
 struct Cure {
   std::optional<UnitPair> units;
   std::string write;
@@ -116,7 +116,7 @@ Cure cure_for_scale(const Situation &s, double scale) {
   return {pair, option("--unit", pair->mesh) + of_surface};
 }
 
-// Returns the factors of the units that the mesh may have, or all factors if the present scale is that of no unit.
+// Returns the factors of the units that the mesh may have. Returns all factors if the present scale belongs to no pair of units.
 std::vector<double> factors_of_units(const Situation &s) {
   std::vector<double> found;
   for (const double factor : unit_factors())
@@ -124,7 +124,8 @@ std::vector<double> factors_of_units(const Situation &s) {
   return found.empty() ? unit_factors() : found;
 }
 
-// Judges the units. If n nodes are marked, an edge near the surface has about the length of a cube's, of which n fill the band.
+// Judges the units. The length of edges near the surface is estimated from the number n of marked nodes. The estimate is the edge
+// of n equal cubes that fill the band together.
 UnitJudgement judgement_of(const Situation &s, bool is_unit_known) {
   Sizes sizes = s;
   sizes.is_unit_known = is_unit_known;
@@ -143,7 +144,7 @@ std::string text_of_units(const Situation &s, const std::vector<Cure> &cures) {
   return "the mesh looks as if it were in " + joined_by(meshes, " or ") + ", the surface in " + words_of(present);
 }
 
-// Returns the user's own options for the scale, which the user must replace.
+// Returns the user's options for the scale, which other options must replace.
 std::string in_place_of(const MarkOptions &options) {
   if (options.unit && !options.takes_placed_unit) {
     const std::string unit = " in place of " + option("--unit", *options.unit);
@@ -152,7 +153,7 @@ std::string in_place_of(const MarkOptions &options) {
   return options.has_scale ? " in place of --scale " + shown(options.surface_options.scale) : "";
 }
 
-// Returns the option for a half thickness that suits another unit, or "" if the user's suits it.
+// Returns an option with a half thickness that suits another unit. Returns "" if the user's half thickness suits the other unit.
 std::string half_thickness_at(double factor, const Situation &s) {
   if (!s.options.has_half_thickness) return "";
   const Sizes cured = rescaled(s, factor);
@@ -167,7 +168,7 @@ std::string sides_text(const Box &box) {
   return joined_by(sides, " x ");
 }
 
-// Returns a warning if the sizes suggest other units than the present ones. The warning names each possible unit, and the options
+// Returns a warning if the sizes suggest other units than the present units. The warning names each possible unit and the options
 // to write, such as "the mesh looks as if it were in metres, ...: write --unit m".
 std::optional<Warning> warning_of_units(const Situation &s) {
   const UnitJudgement units = judgement_of(s, s.is_unit_known);
@@ -177,7 +178,7 @@ std::optional<Warning> warning_of_units(const Situation &s) {
   std::vector<Cure> cures;
   std::vector<std::string> write;
   for (const double factor : units.factors) {
-    // Scales that are no units are too many to name all.
+    // Scales that belong to no unit are too many to be named one by one.
     if (!cures.empty() && !cures.front().units) break;
     cures.push_back(cure_for_scale(s, s.options.surface_options.scale / factor));
     write.push_back(cures.back().write + half_thickness_at(factor, s));
@@ -187,14 +188,15 @@ std::optional<Warning> warning_of_units(const Situation &s) {
                  ": write " + joined_by(write, " or ") + in_place_of(s.options)};
 }
 
-// Returns a warning if the half thickness is too large or too small. The warning names the option to write.
+// Returns a warning if the half thickness is too large or too small. The warning also names the option that the user should
+// write.
 std::optional<Warning> warning_of_half_thickness(const Situation &s) {
   const bool is_large = is_too_large(s.half_thickness, s);
   if (!is_large && !is_too_small(s.half_thickness, s)) return std::nullopt;
   Warning warning{Cause::half_thickness, "the half thickness is " + shown(s.half_thickness), ""};
   warning.text += is_large ? ", the largest side of the surface " + shown(s.surface.largest_side())
                            : ", the median edge of the mesh " + shown(s.median_edge);
-  // The unit is unknown if the user named none. The half thickness is then the default for centimetres.
+  // If the user named no unit, the unit is unknown, and the half thickness is the default for centimetres.
   const bool is_unknown =
       !is_parametric(s.options) && !s.options.unit && !s.options.has_scale && !s.options.has_half_thickness;
   const auto unit = is_unknown ? unit_of_valve(s.surface.largest_side()) : std::nullopt;
@@ -228,7 +230,7 @@ Situation::Situation(const MarkOptions &marking, const riis_surface_info &info, 
 std::optional<Warning> warning_of(const Situation &s) {
   const bool has_none = s.n_marked == 0 && !s.options.allow_none;
   const bool are_odd = has_none || has_all(s) || has_hardly_any(s) || has_odd_half_thickness(s);
-  // A valve has a known size, so a wrong unit shows even if the marks look right.
+  // The size of a valve is known, so a wrong unit is noticed even if the marks look right.
   const bool has_size = is_parametric(s.options) && s.n_nodes >= fewest_judged_nodes && s.n_marked > 0;
   std::optional<Warning> why = are_odd || has_size ? warning_of_units(s) : std::nullopt;
   if (!why && !are_odd) return std::nullopt;
@@ -291,13 +293,13 @@ std::string place_text(const ValveOptions &options, const double *point, double 
 
 namespace {
 
-// Differences below this share of the outline's area come from the triangles. The area that both valves' bands leave has a
-// smaller error, because this area is mostly 0.
+// Areas count only above a small share of the outline's area, because the triangles are coarse. The area that the bands leave is
+// mostly 0, so its error is smaller.
 constexpr double least_share = 1e-3, least_share_left = 1e-5;
-// The width of a gap is found to this share of the bridge.
+// The width of the gap is found by halving, with a small share of the bridge between the bands as its error.
 constexpr int n_halvings = 10;
 
-// Takes all bumps from their places. Returns whether a bump had a place.
+// Removes all bumps from the valve. Returns whether the valve had a bump with a place.
 bool remove_bumps(riis_valve *valve) {
   bool has_bump = false;
   for (const riis_parameter &parameter : all_parameters(valve)) {
@@ -311,7 +313,7 @@ bool remove_bumps(riis_valve *valve) {
   return has_bump;
 }
 
-// Returns the closed valve with a band that does not step aside, or null if the valve cannot close.
+// Returns the closed valve with a band without offset, or null if the valve cannot close.
 Surface closed_surface(const ValveOptions &options, riis_valve *valve) {
   riis_surface_options how = own_frame(options);
   how.offset = 0;
@@ -321,7 +323,8 @@ Surface closed_surface(const ValveOptions &options, riis_valve *valve) {
   return surface_at(valve, 0, how);
 }
 
-// Returns the orifice. The effective area is the rest of the orifice after its edge along the leaflets has moved inwards.
+// Returns the orifice of a surface. The effective area of the orifice is the area that remains after the edge of the orifice
+// moves inwards along the leaflets.
 riis_orifice orifice_of(const riis_surface *surface, double moved, double rim_reach) {
   auto resistance = defaults<riis_resistance>();
   resistance.half_thickness = moved / rim_reach;
@@ -338,7 +341,7 @@ void warn_of_bridged_gap(const ValveOptions &options, const riis_valve *valve, c
   if (!with_gap || !without_gap) return;
   const double bridged = 1 - options.surface_options.offset;  // in half thicknesses, on either side of the gap
   const double reach = bridged * info_of(with_gap).half_thickness;
-  // The share of the half thickness by which a rim's band reaches inwards is the same for all half thicknesses.
+  // A rim's band reaches inwards by a share of the half thickness. The share is equal for all half thicknesses.
   const auto resistance = defaults<riis_resistance>();
   const double rim_reach = get<riis_orifice>(riis_surface_get_orifice, with_gap, &resistance).rim_reach;
   const riis_orifice whole = orifice_of(with_gap, reach, rim_reach), usual = orifice_of(without_gap, reach, rim_reach);

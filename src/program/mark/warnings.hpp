@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints and counts all warnings of the program. Texts about leaks are in leaks.cpp.
-// In: the number of marks, and all sizes. Out: lines that name the suspicious values and the options to use instead.
+// Prints and counts all warnings of the program. The texts of warnings about leaks are in leaks.cpp.
+// In: the number of marks, and all sizes. Out: lines that name the suspicious values and the options to write instead.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -17,7 +17,7 @@ namespace riis::program {
 
 struct MeshCounts;
 
-// The result of a marking with the sizes of its mesh and surface, in the mesh's unit.
+// The result of a marking with the sizes of the mesh and the surface, in the mesh's unit.
 struct Situation : Sizes {
   Situation(const MarkOptions &marking, const riis_surface_info &info, const MeshCounts &counts);
 
@@ -27,12 +27,12 @@ struct Situation : Sizes {
   int64_t n_nodes = 0, n_marked = 0;
 };
 
-// The possible causes, in the order in which to correct them. A wrong unit also makes the half thickness wrong, and both can
-// cause leaks. All these causes may put a part of the leaflets outside the mesh.
+// The possible causes of wrong marks, in the order in which the user should correct them. A wrong unit also makes the half
+// thickness wrong. A wrong unit or a wrong half thickness can cause leaks, or can put a part of the leaflets outside the mesh.
 enum class Cause { units, half_thickness, place, leaks, outside };
 
-// The texts of a warning, without line breaks. The advice begins with the punctuation that joins it to the text, such as ":
-// write --unit m".
+// The text of a warning and its advice, without line breaks. The advice begins with the punctuation that follows the text, as in
+// ": write --unit m".
 struct Warning {
   Cause cause;
   std::string text, advice;
@@ -41,39 +41,40 @@ struct Warning {
 // Returns a warning, or nothing if the marks look right.
 std::optional<Warning> warning_of(const Situation &situation);
 
-// Returns a warning if the half thickness is too large for a surface. It needs no mesh.
+// Returns a warning if the half thickness is too large for a surface. The function needs no mesh.
 std::optional<Warning> warning_of_thickness(const MarkOptions &options, const riis_surface_info &info);
 
-// A unit that a mesh may have: the options that the user writes for it, the placement, and the half thickness.
+// A unit that a mesh may have, with the options that the user writes for it, the placement, and the half thickness.
 struct PossibleUnit {
   std::string write;
   double scale, half_thickness;
   double placement;  // the factor of the placement's lengths
 };
 
-// Returns the other possible units of a run whose unit the user named, or none. The present unit comes first. A run without a
-// unit advises the same units.
+// If the user named a unit, returns the units that the mesh may have, or none if only the named unit is possible. The present
+// unit comes first. A run without a unit advises the same units.
 std::vector<PossibleUnit> units_left_open(const Situation &situation);
 
-// Prints the line on stderr, on the first rank.
+// The first rank prints the line on stderr.
 void print_line(const std::string &text);
-// Prints the line, and counts it for --strict. --quiet does not silence it, because wrong marks look like right ones.
+// Prints a warning, and counts it for --strict. --quiet does not silence a warning, because wrong marks look like right ones.
 void warn(const std::string &text);
-// Prints the texts of all warnings, but advice only for the first cause. Later calls omit the advice for later causes. The
-// first advice may correct everything, and a second one could contradict it.
+// Prints the texts of all warnings, but only the advice for the first cause. Later calls leave out the advice for later causes.
+// The first advice may correct all causes, and a second advice could contradict it.
 void warn(std::vector<Warning> warnings);
 std::int64_t n_warnings();
 
-// Returns a position as text for a warning, with its unit if the user named it. Coordinates are rounded to a tenth of the edge's
-// length or finer, so the two ends of the edge differ. If the length is 0, coordinates have six digits.
+// Returns a position as text for a warning. If the user named a unit, the text includes the unit. Coordinates are rounded to a
+// tenth of the edge's length or finer, so the texts of the edge's two ends differ. If the given length is 0, coordinates have six
+// digits.
 std::string place_text(const ValveOptions &options, const double *point, double edge);
 
-// Returns a number as a user would write it.
+// Returns the text of a number as a user would write it.
 std::string shown(double number);
 
-// Warns if bumps (docs/theory/bumps.md) leave a gap in the closed valve that is nowhere wider than the bridge between two bands.
-// The gap is that of the orifice, seen along its axis. The slits that the valve also has without bumps do not count. `part`
-// begins the warning.
+// Warns if bumps (docs/theory/bumps.md) leave a gap in the closed valve, but the gap is nowhere wider than the bridge between two
+// bands. The gap is measured in the orifice, as seen along its axis. Slits that the valve has without bumps do not count. The
+// warning begins with `part`.
 void warn_of_bridged_gap(const ValveOptions &options, const riis_valve *valve, const std::string &part);
 
 }  // namespace riis::program

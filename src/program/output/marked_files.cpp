@@ -26,28 +26,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The line that begins the lists that riis writes. Only files that such a list names were written by riis.
+// The first line of the lists that riis writes. A file counts as written by riis only if a list with this first line names the
+// file.
 const std::string list_of_riis =
     "<?xml version=\"1.0\"?>\n<!-- written by riis -->\n"
     "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n";
 
-// Returns a number with zeros before it.
+// Returns a number with leading zeros.
 std::string padded(std::size_t number, std::size_t n_digits) {
   const std::string digits = std::to_string(number);
   return std::string(std::max(n_digits, digits.size()) - digits.size(), '0') + digits;
 }
 
-// The name STEM_PART_0012.vtu of a step's file, or STEM_0012.vtu.
+// Returns the name of a step's file: STEM_PART_0012.vtu, or STEM_0012.vtu if there are no parts.
 struct StepName {
   std::string part, digits, ending;
 
-  // Returns whether the part names a piece of a mesh, such as p0012.
+  // Returns whether this part of a file's name stands for a piece of a mesh. An example is p0012.
   bool is_of_piece() const {
     return part.size() >= 5 && part[0] == 'p' && part.find_first_not_of("0123456789", 1) == std::string::npos;
   }
 };
 
-// Returns the values of all attributes "file" of a list, as they stand in the file.
+// Returns the values of all attributes "file" of a list, without changes.
 std::set<std::string> files_named_in(const std::string &text) {
   static const std::string begin = " file=\"";
   std::set<std::string> names;
@@ -71,7 +72,7 @@ bool is_file(const fs::path &path) {
   return fs::is_regular_file(path, error);
 }
 
-// Refuses to remove files that a list of another name has.
+// Refuses to remove files that another list names.
 void check_other_lists(const fs::path &list, const std::set<std::string> &removed) {
   std::error_code error;
   const fs::path folder = list.has_parent_path() ? list.parent_path() : fs::path(".");
@@ -196,7 +197,8 @@ void SeriesLists::end() {
   write_(true);
 }
 
-// After each writing, the thread pauses twenty times as long as the writing took. Lists therefore take little of the run's time.
+// After writing, the thread pauses twenty times as long as the writing took. Writing the lists therefore takes little of the
+// run's time.
 void SeriesLists::follow() {
   using Clock = std::chrono::steady_clock;
   constexpr Clock::duration longest_pause = std::chrono::milliseconds(500);
@@ -275,7 +277,8 @@ void MarkedFiles::list_pieces() {
   if (!is_wanted()) return;
   std::vector<Written> written = ranks::gather(written_);
   std::sort(written.begin(), written.end());
-  // The lists name the arrays of a file with nodes. The first rank that has such a file writes the lists.
+  // The lists of a mesh in pieces name the arrays of a file that has nodes. The first rank that has a file with nodes writes the
+  // lists.
   const std::vector<int> have = ranks::gather(std::vector<int>{sample_ ? 1 : 0});
   const bool is_writer = std::find(have.begin(), have.end(), 1) - have.begin() == ranks::rank();
   const UnbrokenWrite unbroken;

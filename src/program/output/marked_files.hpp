@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of a run: the marked mesh and the surfaces, at one time or at many, whole or in pieces, and the lists of these files.
+// The files of a run: the marked mesh, the surfaces, and the lists of these files. A run has one time or many, and a whole mesh
+// or pieces.
 #pragma once
 
 #include <condition_variable>
@@ -27,24 +28,24 @@ class SeriesFiles {
   const std::string &pvd() const { return pvd_; }
   const std::string &folder() const { return folder_; }
   bool is_wanted() const { return !pvd_.empty(); }
-  // Refuses a folder that cannot be written to, and a path that is a file.
+  // Refuses a folder without permission to write, and a path that is a file.
   void check_folder() const;
-  // Finds files of an earlier run that would be taken for further steps of this run's series. Such files are of steps that this
-  // run does not write, and an earlier list by riis names these files. Refuses further steps that this list does not name, and
-  // files that another list names. `parts` are those of path_of, and `has_pieces` says whether each step also has files of
-  // pieces, whose parts are p0000 and so on.
+  // Finds files of further steps: steps that an earlier run wrote and this run does not write. Files of further steps would look
+  // like a part of this run's series. An earlier list by riis must name the files of further steps. Refuses files of further
+  // steps that the earlier list does not name, and files that a list of another series names. `parts` are the parts that path_of
+  // accepts. `has_pieces` says whether each step also has files of pieces, whose parts are p0000, p0001 and so on.
   void find_earlier(const std::vector<std::string> &parts, bool has_pieces);
-  // Makes the folder if it is wanted and does not exist, and removes the files of an earlier run.
+  // Makes the folder if the user wants one and it does not exist. Removes the files of an earlier run.
   void make_folder() const;
-  // Returns the path of a step's file. If a step has several files, `part`, a valve's name, distinguishes them. Otherwise it is
-  // "".
+  // Returns the path of a step's file. If a step has several files, `part`, the name of the valve, distinguishes these files. If
+  // a step has one file, `part` is "".
   std::string path_of(std::size_t step, const std::string &part) const;
-  // Adds a file to the list, once the file is complete.
+  // Adds a file to the list. The file must be complete.
   void add(double time, std::size_t part_number, const std::string &path);
   std::size_t n_written() const { return entries_.size(); }
-  // Writes the list of all complete files, if there are some.
+  // Writes the list of all complete files if there is at least one.
   void write_list() const;
-  // Adds the list to the report, if it is wanted.
+  // Adds the list to the report if the user wants a list.
   void report(Report &report) const;
 
  private:
@@ -59,19 +60,20 @@ class SeriesFiles {
   std::vector<std::string> earlier_;  // files of an earlier run
 };
 
-// Writes the lists of a series within half a second after its files, even during a long step. A killed process thus leaves lists
-// of nearly all its files. The lists are not written after every file, because writing a long list takes longer than writing a
-// file.
+// Writes the lists of a series within half a second after the series' files, even during a long step. If the process is killed,
+// its lists therefore name nearly all files. The lists are not written after every file, because writing a long list takes longer
+// than writing a file.
 
 class SeriesLists {
  public:
-  // `write` must write all lists. The object's thread calls the function with false, and end() calls it with true.
+  // The function `write` must write all lists. The thread of this object calls `write` with false, and end() calls it with true.
   explicit SeriesLists(std::function<void(bool is_last)> write);
   ~SeriesLists();
   SeriesLists(const SeriesLists &) = delete;
   SeriesLists &operator=(const SeriesLists &) = delete;
 
-  // Calls `note`, which adds to the lists, while the thread does not write them. Rethrows an exception of `write`.
+  // Calls `note`, which adds files to the lists. During the call, the thread does not write the lists. If `write` has thrown an
+  // exception in the thread, the call throws the exception again.
   void add(const std::function<void()> &note);
   // Ends the thread, and writes the lists for the last time.
   void end();
@@ -88,8 +90,8 @@ class SeriesLists {
   std::thread thread_;
 };
 
-// The files of the marked mesh. In a series, there is a file for each time. A mesh in pieces has a file for each piece, and a
-// .pvtu that lists those of a time.
+// The files of the marked mesh. In a series, there is a file for each time. A mesh in pieces has a file for each piece, and for
+// each time a .pvtu file that lists the pieces.
 class MarkedFiles {
  public:
   MarkedFiles(const Case &all, const MeshPieces &mesh);
@@ -97,14 +99,14 @@ class MarkedFiles {
   bool is_wanted() const { return !path_.empty(); }
   // Returns whether the files of a series are in a list.
   bool has_list() const { return is_wanted() && is_series_ && !is_foam_case_; }
-  // For a series, finds the files that an earlier run left.
+  // If the run has a series, finds the files that an earlier run left behind.
   void find_earlier();
-  // Makes the folder of the files, if there is more than one file.
+  // Makes the folder of the files if there are several files.
   void make_folder() const;
   void write(std::int64_t piece, std::size_t step, const riis_vtk_mesh *file);
-  // Adds a complete file of a whole mesh to the list of the series.
+  // Adds the complete file of a whole mesh to the list of the series.
   void add(std::size_t step);
-  // Writes a .pvtu for each time, after all ranks have written their pieces.
+  // Writes a .pvtu file for each time. All ranks must have written their pieces.
   void list_pieces();
   void write_list() const;
   const std::string &folder() const { return steps_.folder(); }

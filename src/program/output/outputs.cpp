@@ -44,7 +44,8 @@ void check_ending(const std::string &path, const std::string &ending, const std:
   refuse_data(path + ": cannot be written: " + reason);
 }
 
-// Returns whether the path is a device or a pipe. The program writes into such files, and replaces any other file as a whole.
+// Returns whether the path is a device or a pipe. The program writes into a device or a pipe. Any other file is replaced as a
+// whole.
 bool is_special(const std::string &path) {
   std::error_code error;
   return fs::exists(path, error) && !fs::is_regular_file(path, error);
@@ -55,7 +56,7 @@ void check_place(const std::string &path) {
   if (fs::is_directory(path, error)) refuse_data(path + ": is a directory");
   const fs::path folder = folder_of(place_of(path));
   if (!fs::is_directory(folder, error)) cannot_be_written(path, "the folder " + folder.string() + " does not exist");
-  // A new file is written next to the old one and then replaces it.
+  // A new file is written beside the old file, and then replaces it.
   if (!is_special(path) && access(folder.c_str(), W_OK | X_OK) != 0) {
     cannot_be_written(path, "the folder " + folder.string() + ": " + system_text(errno));
   }
@@ -92,7 +93,7 @@ NamedFiles inputs_of(const MarkOptions &options, const std::vector<std::string> 
   return inputs;
 }
 
-// Returns the file of an .xdmf file's numbers.
+// Returns the path of the file with the numbers of an .xdmf file.
 std::string numbers_of(const std::string &xdmf) { return fs::path(xdmf).replace_extension("h5").string(); }
 
 NamedFiles outputs_of(const MarkOptions &options) {
@@ -109,8 +110,8 @@ NamedFiles outputs_of(const MarkOptions &options) {
   return outputs;
 }
 
-// Returns a text that is the same for all paths to one file. The text consists of the device and the inode, or of the path if the
-// file does not exist.
+// Returns a text that is the same for all paths that lead to one file. The text consists of the device and the inode, or of the
+// path if the file does not exist.
 std::string identity_of(const std::string &path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
@@ -129,7 +130,8 @@ KnownFiles known(const NamedFiles &files) {
   return known;
 }
 
-// Refuses a folder for the steps' files that contains an input or a link to one, because a step's file could replace it.
+// Refuses a folder for the steps' files if the folder contains an input, or a link to an input. A step's file could replace the
+// input.
 void check_folder_of_steps(const std::string &option, const std::string &folder, const KnownFiles &inputs) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
@@ -159,7 +161,7 @@ OutputLocks locks_of(const NamedFiles &outputs) {
   return OutputLocks(written);
 }
 
-// Refuses a picture early, before all other work, if there is neither a display nor a program that makes one.
+// Refuses a picture before all other work if the machine has neither a display nor a program that makes one.
 void check_display() {
   const char *display = std::getenv("DISPLAY");
   if (!display || !*display) check_virtual_display();
@@ -197,13 +199,13 @@ fs::path folder_of(const fs::path &place) { return place.has_parent_path() ? pla
 
 namespace {
 
-// Returns whether the output is of a format without points, and the mesh may have been read as axes.
+// Returns whether the output's format stores no points, although the mesh may have been read as axes.
 bool is_grid_of(const std::string &mesh, const std::string &output) {
   if (!has_ending(output, ".vti") && !has_ending(output, ".vtr")) return false;
   return has_ending(mesh, ".vti") || has_ending(mesh, ".vtr") || has_ending(mesh, ".vtk");
 }
 
-// Checks --output: a file, a time of a case of OpenFOAM or, for a series, the case itself.
+// Checks --output, which names a file, a time of an OpenFOAM case or, for a series, a whole OpenFOAM case.
 void check_output(const MarkOptions &options, bool is_series, bool has_pieces) {
   const std::string &path = options.output;
   if (path.empty()) return;
@@ -219,7 +221,7 @@ void check_output(const MarkOptions &options, bool is_series, bool has_pieces) {
     check_ending(path, has_pieces ? ".pvtu" : ".vtu", "--output");
 }
 
-// Checks that files can be written.
+// Checks that all outputs can be written.
 void check_files(const NamedFiles &outputs) {
   for (const auto &[option, path, ending] : outputs) {
     if (path.empty()) continue;
@@ -231,7 +233,7 @@ void check_files(const NamedFiles &outputs) {
 }  // namespace
 
 OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs) {
-  // The ranks of a run share their outputs. The first object checks and locks the files.
+  // The ranks of a run share their outputs. In a process, the first object of this type checks and locks the files.
   if (!ranks::is_first()) return OutputLocks({});
   const KnownFiles inputs = known(inputs_of(options, more_inputs));
   const NamedFiles outputs = outputs_of(options);
@@ -254,7 +256,7 @@ OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::str
 
 namespace {
 
-// Checks the outputs of a command that writes texts. One of the texts may be "-", stdout.
+// Checks the outputs of a command that writes only texts. One of the outputs may be "-", which stands for stdout.
 OutputLocks check_texts(const NamedFiles &inputs, const NamedFiles &texts) {
   NamedFiles files;
   std::string on_stdout;
@@ -337,19 +339,20 @@ TemporaryFolder::~TemporaryFolder() {
 
 namespace {
 
-// The lock files of this process. Only the process's first OutputLocks object has lock files. This object fills the list before
-// the signal handlers are set.
+// The lock files of this process. Only the first OutputLocks object of a process has lock files. The first object fills the list
+// before the signal handlers are set.
 std::vector<std::string> held_locks;
 
-// A file of this process and its folder, which a signal that ends the process removes. Empty names stand for none.
+// A file of this process, and the folder that contains it. A signal that ends the process removes the file and the folder. An
+// empty name stands for no file or no folder.
 char scratch_file[PATH_MAX], scratch_folder[PATH_MAX];
 
 void remove_held() {
   for (const std::string &path : held_locks) unlink(path.c_str());
 }
 
-// Removes the locks and raises the signal again. The signal is blocked until the handler returns, and then its default action
-// follows.
+// Removes the lock files, and raises the signal again. The signal is blocked until the handler returns. After the return of the
+// handler, the signal ends the process.
 void remove_and_end(int signal) {
   remove_held();
   unlink(scratch_file);
@@ -368,8 +371,8 @@ void set_handlers(void (*from)(int), void (*to)(int)) {
   }
 }
 
-// While an object of this type lives, signals that end the process are blocked. No signal can therefore come after a lock file is
-// made and before the handlers are set.
+// While an object of this type lives, signals that end the process are blocked. Therefore no signal can come between the making
+// of a lock file and the setting of the handlers.
 class SignalsWait {
  public:
   SignalsWait() {
@@ -406,12 +409,12 @@ bool is_at(int file, const std::string &path) {
          opened.st_dev == there.st_dev;
 }
 
-// Takes the lock, and returns the file of the lock. Returns -1 on a file system without locks.
+// Takes the lock, and returns the descriptor of the lock file. Returns -1 if the file system has no locks.
 int take(const std::string &output, const std::string &lock) {
   for (;;) {
     int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    // The lock file may be left from a killed run of another user. In this case the present user may only read the file, which
-    // suffices for a lock.
+    // The lock file may be left over from another user's run that was killed. Read permission for the lock file suffices for a
+    // lock.
     if (file < 0 && errno == EACCES) file = open(lock.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) refuse_lock(output, "its lock " + lock + " cannot be made: " + system_text(errno));
     if (flock(file, LOCK_EX | LOCK_NB) == 0) {
@@ -443,7 +446,7 @@ OutputLocks::OutputLocks(const std::vector<std::string> &paths) {
   try {
     for (const std::string &path : paths) {
       const std::string lock = lock_of(path);
-      // A lock may serve several outputs with long names, because only the ends of such names are used.
+      // Several outputs with long names may have one lock, because the lock's name has only the end of the output's name.
       if (std::find(held_locks.begin(), held_locks.end(), lock) != held_locks.end()) continue;
       const int file = take(path, lock);
       if (file < 0) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program's outputs. Before any long work, the program checks that the outputs can be written. A text is written completely
+// The program's outputs. Before any long work, the program checks that the outputs can be written. A text is written completely,
 // or not at all.
 #pragma once
 
@@ -12,10 +12,11 @@
 
 namespace riis::program {
 
-// Names a file of this process and its folder. Signals that end the process remove file and folder. Empty names stand for none.
+// Stores the names of a file of this process and of the folder that contains it. A signal that ends the process then also removes
+// this file and this folder. An empty name stands for no file or no folder.
 void remove_if_ended(const std::string &folder, const std::string &file);
 
-// A folder among the temporary files. The destructor removes the folder with its content.
+// A temporary folder. The destructor removes the folder with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -31,12 +32,13 @@ class TemporaryFolder {
 
 // Locks on the program's outputs. Of two runs that would replace the same file, only the first run continues.
 
-// For each output NAME, holds an empty file .riis-NAME.lock next to it, locked by flock. When the process ends for any reason,
-// the kernel releases the lock. The destructor removes the file, and so do the handlers of SIGINT, SIGTERM and SIGHUP. A killed
-// run leaves the file behind, and the next run takes it over.
+// For each output NAME there is an empty file .riis-NAME.lock beside the output, which this process locks by flock. When the
+// process ends for any reason, the kernel releases the lock. The destructor removes the lock file. The handlers of SIGINT,
+// SIGTERM and SIGHUP also remove the lock file. A killed run leaves its lock file behind, and the next run uses the lock file
+// again.
 class OutputLocks {
  public:
-  // Throws a Refusal if another run holds the lock of one of these files. The paths must not be devices or pipes.
+  // Throws a Refusal if another run has locked one of the outputs. The paths must not be devices or pipes.
   explicit OutputLocks(const std::vector<std::string> &paths);
   ~OutputLocks();
   OutputLocks(OutputLocks &&other) noexcept = default;
@@ -49,12 +51,13 @@ class OutputLocks {
   std::vector<int> files_;  // empty after this object was moved from
 };
 
-// Delays Ctrl-C and similar signals while a file is written. Every file is first written under a temporary name and then moved.
-// If the process ended in between, the unfinished file would stay behind.
+// Delays Ctrl-C and similar signals while a file is written. Every file is first written under a temporary name, and then gets
+// its final name. If the process ended before the file has its final name, the unfinished file would stay behind.
 
-// While an object of this type lives, the first SIGINT, SIGTERM or SIGHUP waits. The waiting signal ends the process when the
-// object is destroyed. A second signal acts at once. Signals that were ignored stay ignored. Objects made during another object's
-// life do nothing. Other threads may make objects only during the life of one.
+// While an object of this type lives, the first signal SIGINT, SIGTERM or SIGHUP has to wait. When the object is destroyed, the
+// waiting signal ends the process. A second signal ends the process at once. A signal that was ignored before stays ignored. If
+// another object of this type is alive, a new object does nothing. Threads other than the first may make objects only while
+// another object is alive.
 class UnbrokenWrite {
  public:
   UnbrokenWrite();
@@ -64,33 +67,35 @@ class UnbrokenWrite {
 
   // The signals that end the process.
   static constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
-  // Returns whether a signal waits. After such a signal, callers that work in several parts stop after the present part.
+  // Returns whether a signal is waiting. A caller whose work has several parts should then stop after the present part.
   static bool has_signal();
 
  private:
   struct sigaction before_[3];
 };
 
-// Throws a Refusal for an output that would replace an input or another output, has a wrong ending, or has no writable folder.
-// Also throws a Refusal for a picture without a display, and for an output that another run is writing. The caller must
-// keep the returned locks until everything is written. more_inputs are other files that were read.
+// Throws a Refusal for an output that would replace an input or another output. Also refuses a wrong ending, and a folder that is
+// not writable. Also throws a Refusal for a picture without a display, and for an output that another run is writing. The caller
+// must keep the returned locks until all outputs are written. more_inputs are other files that the run has read.
 [[nodiscard]] OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs = {});
 [[nodiscard]] OutputLocks check_outputs(const SizeFieldOptions &options, const std::vector<std::string> &more_inputs);
 [[nodiscard]] OutputLocks check_outputs(const StatesOptions &options);
 [[nodiscard]] OutputLocks check_outputs(const AreaOptions &options);
 [[nodiscard]] OutputLocks check_outputs(const PlaceOptions &options);
 
-// place_of follows links to existing files, and returns the path of the file itself. folder_of returns the folder of a path, or
-// "." if the path has no folder.
+// place_of follows links to an existing file, and returns the path of the file. folder_of returns the folder of a path, or "." if
+// the path has none.
 std::filesystem::path place_of(const std::string &path);
 std::filesystem::path folder_of(const std::filesystem::path &place);
 
-// Throws a Refusal for an output that is one of these files. `what` describes the files in the message.
+// Throws a Refusal if an output is one of the given files. In the message, `what` describes the files.
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options);
 
-// Returns whether a later text can replace an earlier one. Replacing is impossible on stdout, in a device and in a pipe.
+// Returns whether an output is a file that can be replaced. On stdout, in a device or in a pipe, a later text cannot replace an
+// earlier text.
 bool can_be_replaced(const std::string &path);
-// Writes a file, or stdout if the path is "-", on the first rank. Afterwards the file is complete or, after a failure, unchanged.
+// The first rank writes the text to a file, or to stdout if the path is "-". Afterwards the file is complete. After a failure,
+// the file is unchanged.
 void write_text(const std::string &path, const std::string &text);
 
 }  // namespace riis::program

@@ -26,7 +26,7 @@ namespace riis::program {
 
 namespace {
 
-// Returns whether the valve is the paper's aortic valve. The picture's title then says that this valve does not close
+// Returns whether the valve is the aortic valve of the paper. The title of the picture then says that this valve does not close
 // (docs/meshes.md).
 bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve) {
   if (!valve || options.valve != "aortic") return false;
@@ -34,8 +34,9 @@ bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve
   return has_default_values(valve, {"open_radius_ratio", "commissure_expansion"});
 }
 
-// Returns the unit for the scale bar and the captions, or none if it is not known. Without --unit, the centimetres of a valve's
-// parameters and the scale of its placement tell the unit of the mesh. If two valves tell different units, the unit is not known.
+// Returns the unit for the scale bar and the captions, or none if the unit is not known. Without --unit, the unit of the mesh
+// follows from the scale of a valve's placement, because a valve's parameters are in centimetres. If two valves imply different
+// units, the unit is not known.
 std::optional<Unit> unit_of_mesh(const std::optional<Unit> &given, const std::vector<MovingValve> &valves) {
   if (given) return given;
   std::optional<Unit> told;
@@ -80,7 +81,7 @@ std::string title_of_valve(const ValveOptions &options) {
   return title;
 }
 
-// Returns the title of a picture. It begins with the title of the valve, in place of the report's name.
+// Returns the title of a picture. The title begins with the title of the valve. The report begins with the valve's name instead.
 std::string picture_title(const ValveOptions &options, const riis_valve *valve, const ValveReport &report) {
   std::string title = surface_title(report);
   const bool is_kind = report.opening && !is_valve_file(report.surface_name);
@@ -89,8 +90,8 @@ std::string picture_title(const ValveOptions &options, const riis_valve *valve, 
   return title;
 }
 
-// Returns the largest number of decimals of the times. All times in a movie are shown with this number, so their texts have the
-// same length.
+// Returns the largest number of decimals of the times. All times of a movie are shown with this number of decimals, so that their
+// texts have equal lengths.
 int decimals_of(const std::vector<double> &times) {
   constexpr std::size_t most = 6;
   std::size_t n = 0;
@@ -106,8 +107,9 @@ std::string fixed(double number, int decimals) {
   return printed(("%." + std::to_string(decimals) + "f").c_str(), number);
 }
 
-// Returns a text such as ", orifice 2.10 cm2". Returns "" for a surface without an outline. Slits of a closed valve do not count.
-// If the unit of the mesh is known, areas are in cm2 and the half thickness is in mm, as people give them.
+// Returns a text about the orifice, such as ", orifice 2.10 cm2". Returns "" for a surface without an outline. Slits of a closed
+// valve do not count as an orifice. If the unit of the mesh is known, areas are in cm2 and the half thickness is in mm, as is
+// usual for heart valves.
 std::string orifice_text(const riis_surface *surface, const std::optional<Unit> &unit) {
   const auto orifice = get<riis_orifice>(riis_surface_get_orifice, surface, nullptr);
   if (orifice.outline == RIIS_OUTLINE_NONE) return "";
@@ -116,7 +118,8 @@ std::string orifice_text(const riis_surface *surface, const std::optional<Unit> 
   return ", orifice " + (unit ? fixed(area * factor * factor, 2) + " cm2" : printed("%.3g", area));
 }
 
-// Returns the line of a title about the half thickness, after a line break. Returns "" if the valves have several.
+// Returns the line of a title with the half thickness. The line begins with a line break. Returns "" if the valves have different
+// half thicknesses.
 std::string half_thickness_line(const std::vector<MovingValve> &valves, const std::optional<Unit> &unit) {
   const double first = info_of(valves[0].surface()).half_thickness;
   for (const MovingValve &valve : valves)
@@ -125,7 +128,7 @@ std::string half_thickness_line(const std::vector<MovingValve> &valves, const st
   return "\nhalf thickness " + printed("%.3g", first * factor) + (unit ? " mm" : "");
 }
 
-// The marks of several valves together. A node gets the leaflet of its nearest valve.
+// The marks of all valves together. A node gets the leaflet of its nearest valve.
 struct JoinedMarks {
   explicit JoinedMarks(std::size_t n) : marked(n, 0.0), distance(n, RIIS_FAR_DISTANCE), leaflet(n, -1.0) {}
 
@@ -143,7 +146,7 @@ struct JoinedMarks {
   std::vector<double> marked, distance, leaflet;
 };
 
-// Returns the names of all leaflets. Leaflets without names get their numbers.
+// Returns the names of all leaflets. A leaflet without a name gets its number.
 std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<MovingValve> &valves) {
   std::vector<std::string> texts;
   for (std::size_t valve = 0; valve < valves.size(); ++valve) {
@@ -169,8 +172,8 @@ bool RunPictures::are_wanted(const MarkOptions &options) {
   return !options.pictures.empty() || !options.series.movie.empty();
 }
 
-// riis_vtk draws the arrays with the default names. The output's arrays, which may have other names, are in another mesh or
-// already written.
+// riis_vtk draws arrays by their default names. The output's arrays may have other names, but they are in another mesh, or
+// already written to a file.
 void RunPictures::set_marks_of(std::vector<MovingValve> &valves) {
   if (!mesh_) return;
   if (all_.is_series())
@@ -209,7 +212,7 @@ std::string RunPictures::title(std::size_t step, const std::vector<MovingValve> 
          orifice_text(first.surface(), unit) + second_line;
 }
 
-// Only a single valve has views by its axes, which the placement of the first valve gives.
+// Views by the axes of the valve exist only for a single valve. The placement of the first valve gives the axes.
 riis_vtk_picture_options RunPictures::how(const std::vector<MovingValve> &valves) const {
   const riis_surface_options &placement = valves[0].options().surface_options;
   riis_vtk_picture_options how;
@@ -245,8 +248,8 @@ void RunPictures::draw_pictures(const std::vector<MovingValve> &valves, const st
   const UnbrokenWrite unbroken;
   riis_vtk_picture_options options = how(valves);
   options.title = title.c_str();
-  // Draws the leaking edges of a single valve in red. If no edge leaks, and the edges of all cells are known, the picture states
-  // that there is no leak.
+  // Draws the leaking edges of a single valve in red. If the edges of all cells are known and none leaks, the picture says that
+  // there is no leak.
   static constexpr int64_t none = 0;
   const LeakReport &leaks = report.valves[0].leaks;
   if (valves.size() == 1 && mesh_ && !all_.is_series()) {
@@ -260,7 +263,7 @@ void RunPictures::draw_pictures(const std::vector<MovingValve> &valves, const st
   report.seconds.picture = stage.seconds();
 }
 
-// Without a display that can be used, makes a virtual one and tries again.
+// If no display can be used, makes a virtual display and tries again.
 void RunPictures::with_display(const std::function<riis_status()> &draw) {
   riis_status status = draw();
   if (status == RIIS_UNAVAILABLE && !display_) {
@@ -309,14 +312,15 @@ namespace {
   refuse_data(path + ": the movie cannot be made: " + reason);
 }
 
-// Returns the name of a frame's file. The name contains the frame's number in the form that ffmpeg reads.
+// Returns the name of a frame's file. The name contains the number of the frame, in the form that ffmpeg reads.
 std::string frame_name(std::size_t number) {
   char text[32];
   std::snprintf(text, sizeof text, "frame_%06zu.png", number);
   return text;
 }
 
-// Returns ffmpeg's pattern for the frames. A % in the folder's name is doubled, because % has a meaning in the pattern.
+// Returns the pattern by which ffmpeg finds the frames. A % in the folder's name is doubled, because a single % has a meaning in
+// the pattern.
 std::string frame_pattern(const std::string &folder) {
   std::string pattern;
   for (const char c : folder) pattern += c == '%' ? std::string("%%") : std::string(1, c);
@@ -325,8 +329,7 @@ std::string frame_pattern(const std::string &folder) {
 
 std::vector<std::string> encoding_of(const std::string &path, bool has_size) {
   if (has_ending(path, ".gif")) {
-    // The movie repeats for ever, and all its frames share one palette of colours. The movie is small unless the user gave a
-    // size.
+    // The movie plays in a loop, and all its frames use one palette of colours. If the user gave no size, the movie is small.
     return {"-filter_complex",
             std::string(has_size ? "" : "scale='min(800,iw)':-2:flags=lanczos,") +
                 "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",
@@ -335,7 +338,7 @@ std::vector<std::string> encoding_of(const std::string &path, bool has_size) {
             "-f",
             "gif"};
   }
-  // H.264 with these options plays in every player.
+  // Every player can play a movie in H.264 with these options.
   return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"};
 }
 
@@ -366,7 +369,7 @@ void Movie::encode() const {
   if (end.status == 0 && std::rename(temporary.c_str(), place.c_str()) == 0) return;
   const int error = errno;
   std::remove(temporary.c_str());
-  // The user's Ctrl-C also reaches ffmpeg. After Ctrl-C the failure needs no message.
+  // If the user presses Ctrl-C, the signal also reaches ffmpeg. The failure of ffmpeg then needs no message.
   if (UnbrokenWrite::has_signal()) return;
   if (end.status == 0) refuse_movie(path_, system_text(error));
   refuse_movie(path_, "ffmpeg ends with status " + std::to_string(end.status) + ": " + end.last_message.substr(0, 200));

@@ -20,24 +20,24 @@
 
 namespace riis::program {
 
-// Refuses views by the valve's axes for several valves, and for a file of triangles, which has no axes. `valve` has the options
-// of the first valve.
+// Refuses views by the valve's axes if there are several valves, or if a file of triangles has no axes. `valve` must have the
+// options of the first valve.
 void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOptions &valve);
 
-// In: frames, which are files in a folder of their own. Out: a movie, made by the program ffmpeg.
+// In: the movie's frames, which are files in a temporary folder. Out: a movie, which the program ffmpeg makes.
 
-// Refuses a movie that is neither .mp4 nor .gif. Refuses any movie if ffmpeg is missing. Does nothing if the path is "".
+// Refuses a movie whose ending is not .mp4 or .gif. Refuses every movie if ffmpeg is missing. Does nothing if the path is "".
 void check_movie(const std::string &path);
 
 class Movie {
  public:
-  // `has_size` tells whether the user gave the size of the frames. A .gif without a given size is made small.
+  // `has_size` tells whether the user gave the size of the frames. If the user gave no size, a .gif is made small.
   Movie(const std::string &path, double frame_rate, bool has_size)
       : path_(path), frame_rate_(frame_rate), has_size_(has_size) {}
 
-  // Returns the path of the next frame. The caller must write a .png file there.
+  // Returns the path for the next frame. The caller must write a .png file at this path.
   std::string next_frame();
-  // Makes the movie from the frames. Afterwards the movie's file is complete or, after a failure, unchanged.
+  // Makes the movie from its frames. Afterwards the file of the movie is complete. After a failure, the file is unchanged.
   void encode() const;
 
  private:
@@ -48,18 +48,18 @@ class Movie {
   std::size_t n_frames_ = 0;
 };
 
-// Draws the pictures of a run at its first time, and the movie of a series. Pictures and movie show all valves as one surface,
-// and the marks in the whole mesh.
+// Draws the pictures of a run at its first time. In a series, also draws the movie. The pictures and the movie show all valves as
+// one surface, and the marks of the whole mesh.
 
 class RunPictures {
  public:
-  // The mesh gets the arrays that pictures show, so it must not be written to a file. It may be null. `box` must contain the
-  // surfaces at all times.
+  // The mesh gets the arrays that pictures show, so it must not be written to a file afterwards. Without a mesh, the pointer is
+  // null. The box `box` must contain the surfaces at all times.
   RunPictures(const Case &all, MeshFile mesh, const Box &box);
   // Returns whether the user wants a picture or a movie.
   static bool are_wanted(const MarkOptions &options);
-  // Draws the pictures at the first step, and a frame of the movie at each step. The valves must be at the step's time. In a
-  // series, the call changes the valves' marks.
+  // Draws the pictures at the first step, and a frame of the movie at each step. The valves must be at the time of the step. In a
+  // series, the call changes the marks of the valves.
   void draw(std::size_t step, std::vector<MovingValve> &valves, Report &report);
   void encode(Report &report);
 

@@ -26,7 +26,7 @@ std::string bytes_text(double n) {
 }
 
 bool has_slits(const riis_orifice &orifice) {
-  // The perimeter is less than that of a circle with a hundredth of the area.
+  // An orifice consists of slits if a circle with a hundredth of its area has a longer perimeter.
   const bool has_no_rim = orifice.perimeter * orifice.perimeter < 4 * pi * 0.01 * orifice.area;
   return has_no_rim && orifice.area > 1e-3 * orifice.outline_area && orifice.effective_area < 0.5 * orifice.area;
 }
@@ -39,13 +39,14 @@ std::ostringstream table_stream() {
   return out;
 }
 
-// Returns the beginning of a line of the table. `name` may be "".
+// Returns the beginning of a line in the table. The valve's name, `name`, may be "".
 std::string line(std::string label, const std::string &name) {
   label.resize(10, ' ');
   return label + (name.empty() ? "" : name + ": ");
 }
 
-// Returns the same for a valve at an opening, which is missing if it is the opening of the marks.
+// Returns the beginning of a line in the table, for a valve at an opening. The opening is left out if it is also the opening of
+// the marks.
 std::string line(const std::string &label, const ValveReport &valve, const std::optional<double> &opening) {
   std::ostringstream state = table_stream();
   state << valve.name;
@@ -57,8 +58,8 @@ void add_surface(const ValveReport &valve, std::ostringstream &out) {
   out << line("surface", valve.name) << surface_title(valve) << ": " << counted(valve.surface.n_triangles, "triangle");
   if (valve.n_leaflets > 0) out << ", " << counted(valve.n_leaflets, "leaflet");
   out << ", area " << valve.surface.area;
-  // Triangles without area are mentioned only for a surface from a file, which should have none. A valve has such triangles at
-  // every collapsed side.
+  // Triangles without area are mentioned only for a surface from a file, which should have no such triangles. A valve has
+  // triangles without area at every side of a patch that collapses to a point.
   if (!valve.opening && valve.surface.n_zero_area > 0)
     out << ", " << grouped(valve.surface.n_zero_area) << " without area left out";
   out << "\n";
@@ -80,7 +81,7 @@ std::string from_to(const std::string &least, const std::string &most) {
   return least == most ? least : least + " to " + most;
 }
 
-// Adds the line of a series: openings, marked nodes and speed.
+// Adds the line of a series, with openings, marked nodes and speed.
 void add_times(const ValveReport &valve, std::ostringstream &out) {
   TimeReport least = valve.times.front(), most = least;
   for (const TimeReport &time : valve.times) {
@@ -154,7 +155,7 @@ const char *state_name(int32_t state) {
   return state == RIIS_PASSAGE_OPEN ? "open" : state == RIIS_PASSAGE_CLOSED ? "closed" : "none";
 }
 
-// Returns the value, or null.
+// Returns the value for JSON, or null if there is no value.
 nlohmann::ordered_json if_known(bool is_known, const nlohmann::ordered_json &value) {
   return is_known ? value : nlohmann::ordered_json();
 }
@@ -181,7 +182,7 @@ void add_flow(const ValveReport &valve, std::ostringstream &out) {
         << flow.orifice->effective_area << " effective: the band takes " << flow.orifice->rim_reach
         << " half thicknesses along a perimeter of " << flow.orifice->perimeter
         << (has_slits(*flow.orifice) ? slits_text : "")
-        << (flow.orifice->outline == RIIS_OUTLINE_BOUNDARY ? "; the outline is that of the open edges" : "") << "\n";
+        << (flow.orifice->outline == RIIS_OUTLINE_BOUNDARY ? "; the outline consists of the open edges" : "") << "\n";
   if (flow.first) {
     out << line("opens", valve.name);
     if (flow.first->state == RIIS_FIRST_PASSAGE_FOUND)
@@ -190,7 +191,7 @@ void add_flow(const ValveReport &valve, std::ostringstream &out) {
       out << "always: the mesh has a passage at opening 0";
     else
       out << (flow.first->state == RIIS_FIRST_PASSAGE_NEVER ? "never: the mesh has no passage at any opening tried"
-                                                            : "unknown: the mesh itself has no path");
+                                                            : "unknown: the mesh has no path between the points");
     out << "\n";
   }
   if (flow.leak_per_drop && flow.drop) {
@@ -344,7 +345,7 @@ void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {
                {"outside", valve.outside ? json_of_outside(*valve.outside) : nlohmann::ordered_json()}});
 }
 
-// Returns the keys of a valve. The only valve also gets the keys of the run.
+// Returns the JSON keys of a valve. If there is only one valve, the keys of the run are added.
 nlohmann::ordered_json json_of_valve(const Report &report, const ValveReport &valve, bool is_only) {
   nlohmann::ordered_json json;
   if (is_only) json["version"] = riis_version_string();
@@ -407,7 +408,7 @@ std::string json_of(const Report &report) {
   return json.dump(2) + "\n";
 }
 
-// A series has a line about its times for each valve. One state has lines about surface and marks.
+// In a series, each valve has a line about its times. Without a series, there are lines about the surface and the marks.
 std::string table_of(const Report &report) {
   std::ostringstream out = table_stream();
   const bool is_series = !report.times.empty(), has_mesh = !report.mesh_name.empty();

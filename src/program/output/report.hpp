@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the results and times of a run. Out: JSON for programs, and a short table for people.
+// In: the results and times of a run. Out: JSON for programs, and a short table for the user.
 #pragma once
 
 #include <riis/riis.h>
@@ -10,10 +10,10 @@
 
 namespace riis::program {
 
-// The change of the opening in a step of --steps. The valve opens in 50 steps.
+// The change of the opening from one step of --steps to the next. The valve opens in 50 steps.
 inline constexpr double opening_of_step = 0.02;
 
-// The medians over the steps of --steps.
+// The median times of a step, from all steps of --steps.
 struct StepTimes {
   std::int32_t n_steps;
   std::int32_t search;      // RIIS_SEARCH_*
@@ -53,7 +53,7 @@ struct LeakReport {
   bool has_all_edges() const { return n_volume_cells > 0 && n_cells_left_out == 0; }
 };
 
-// R with its unit, and the unit of K in the output. Units are "" if that of the mesh is not known.
+// R with its unit, and the unit of K in the output. If the unit of the mesh is not known, these two units are "".
 struct ResistanceReport {
   double R = 0;
   std::string R_unit{}, K_unit{};
@@ -61,7 +61,7 @@ struct ResistanceReport {
   std::optional<double> density{};  // by which K is divided, in kg/m3 or in the units of the mesh
 };
 
-// Measures of the valve and the mesh that matter for a flow.
+// The measures of the valve and the mesh that matter for a flow.
 struct FlowReport {
   std::optional<riis_orifice> orifice;        // set if the surface has an outline
   std::optional<double> orifice_opening;      // set if the orifice has another opening than the marks
@@ -73,7 +73,7 @@ struct FlowReport {
   std::string leak_unit{}, drop_unit{};       // "" if not known
 };
 
-// The shares of the area that is farther than the half thickness outside the mesh.
+// The shares of the leaflets' area that lie farther than the half thickness outside the mesh.
 struct OutsideReport {
   struct Leaflet {
     std::string name;
@@ -87,10 +87,11 @@ struct OutsideReport {
 // Returns a text such as "12.3 MB".
 std::string bytes_text(double n);
 
-// Returns whether an orifice has an area but hardly a perimeter, because slits have no perimeter, and the text about slits.
+// has_slits returns whether an orifice has an area but hardly a perimeter, because slits have no perimeter. slits_text is the
+// text about slits.
 bool has_slits(const riis_orifice &orifice);
 inline constexpr const char *slits_text =
-    ", where slits narrower than a fifth of the half thickness do not count: they are in the open area only";
+    ", where slits narrower than a fifth of the half thickness do not count: only the open area contains them";
 
 struct CrossingReport {
   int n_openings = 0;             // number of openings checked, or 0 if only the given surface was checked
@@ -106,7 +107,7 @@ struct TimeReport {
   double largest_speed;
 };
 
-// One valve of a run. In a series, the numbers hold at the valve's least opening.
+// One valve of a run. In a series, the numbers belong to the valve's least opening.
 struct ValveReport {
   std::string name;               // the valve's name among several, or "" for the only one
   std::string surface_name;       // the valve's kind, or a file
@@ -140,20 +141,20 @@ struct Report {
   std::optional<StepTimes> step;
 };
 
-// Returns a number as text with commas, such as "15,745".
+// Returns a number as text with commas between thousands, such as "15,745".
 std::string grouped(int64_t n);
 // Returns a number with its noun in the singular or plural, such as "1 node".
 std::string counted(int64_t n, const char *singular);
 // Returns a text such as "mitral valve, opening 0.5".
 std::string surface_title(const ValveReport &valve);
-// Returns a reason why leaks are unknown, such as "MESH has no volume cells". Returns "" if all edges of the mesh are known.
+// Returns the reason why leaks are unknown, such as "MESH has no volume cells". Returns "" if all edges of the mesh are known.
 std::string why_unknown(const LeakReport &leaks, const std::string &mesh);
 // Returns the table's line about the passage, or "" if no points were checked.
 std::string line_of_passage(const Report &report);
 std::string json_of(const Report &report);
 std::string table_of(const Report &report);
-// Returns the table of a series, with a line for each complete step. The columns are time, opening, n_marked, largest_speed and
-// seconds. Each of several valves has its own columns, NAME_opening and so on.
+// Returns the table of a series. Each complete step has one line. The columns are time, opening, n_marked, largest_speed and
+// seconds. If there are several valves, each valve has columns that begin with its name, such as NAME_opening.
 std::string csv_of(const Report &report);
 
 }  // namespace riis::program

@@ -32,7 +32,7 @@ Json numbers_of(const SolverCase &solver, const Ends &ends, int n_steps) {
       pressures[outlet.name] = keys_of(pressure_of_filling_ventricle());
       continue;
     }
-    // Several outlets share the blood by their areas.
+    // Several outlets share the flow of blood in proportion to their areas.
     const double share = outlet.area / ends.outlet_area;
     windkessels[outlet.name] = {{"numbers",
                                  {body.proximal_resistance / share, body.distal_resistance / share,

@@ -24,7 +24,7 @@ using FlatPart = flat_parts::Part;
 // The largest number of flat parts that a refusal lists.
 constexpr std::size_t most_listed = 6;
 
-// Chooses the ends among the flat parts.
+// Chooses the ends of the vessel among the flat parts of the wall.
 class EndChoice {
  public:
   EndChoice(const std::string &path, const ClosedSurface &surface, const EndPoints &points)
@@ -94,7 +94,7 @@ class EndChoice {
     return std::any_of(b.triangles.begin(), b.triangles.end(), [&](std::int64_t i) { return of_a.count(i) > 0; });
   }
 
-  // Says which flat part would be the next end. The parts are sorted by area.
+  // Tells the user which flat part would be the next end. The parts are sorted by area.
   void remark_unclear(PatientWall &wall) const {
     const auto is_unclear = [&](const FlatPart &part) {
       return part.is_large && part.is_disc() && !part.is_facet &&
@@ -107,13 +107,13 @@ class EndChoice {
                            " is taken as wall; if it is an end, name all ends by --inlet=X,Y,Z --outlet=X,Y,Z");
   }
 
-  // Takes the clear ends that no point chose.
+  // Takes the flat parts that are clearly ends and that no point of the user chose.
   void take_clear_ends(const std::string &name) {
     for (const FlatPart &part : parts_)
       if (part.is_clear() && !is_chosen(part)) chosen_.push_back({name, part});
   }
 
-  // Chooses the flat part nearest to a point.
+  // Chooses the flat part that is nearest to a point of the user.
   void choose(const std::string &option, const Vector3 &point, const std::string &name) {
     const std::string text = option + "=" + point_text(point, finder_.size());
     std::int64_t nearest = -1;
@@ -162,7 +162,7 @@ class EndChoice {
     }
   }
 
-  // Refuses holes that are not ends.
+  // Refuses holes in the wall that are not ends.
   void refuse_holes() const {
     for (const FlatPart &part : parts_)
       if (part.was_open && !is_chosen(part))
@@ -221,7 +221,7 @@ Triangles triangles_in(const PatientWall &wall) {
   return triangles;
 }
 
-// Returns whether the point lies inside: the triangles cover the whole sphere of directions.
+// Returns whether a point is inside the wall. From a point inside, the triangles cover all directions.
 bool is_in_wall(const Triangles &triangles, const Vector3 &point) {
   double angle = 0;
   for (std::int64_t i = 0; i < triangles.n(); ++i) {
@@ -238,7 +238,7 @@ bool is_in_wall(const Triangles &triangles, const Vector3 &point) {
   return angle > 2 * pi;
 }
 
-// Returns the first triangle on a ray from inside, or -1.
+// Returns the first triangle on a ray that begins inside the wall, or -1.
 std::int64_t first_wall_hit(const Triangles &triangles, const Vector3 &from, const Vector3 &direction) {
   std::int64_t hit = -1;
   double nearest = std::numeric_limits<double>::infinity();
@@ -257,7 +257,7 @@ std::int64_t first_wall_hit(const Triangles &triangles, const Vector3 &from, con
   return hit;
 }
 
-// Returns the end that is first on the way along the edges from a triangle, among those without a name.
+// Starts at a triangle, follows the edges, and returns the first end that has no name yet.
 std::int32_t first_end_from(const PatientWall &wall, const Triangles &triangles, std::int64_t from) {
   if (view(wall.end_of)[from] >= 0) return view(wall.end_of)[from];
   std::vector<std::vector<std::int64_t>> beside(triangles.points.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the file of a patient's wall. Out: a closed surface whose triangles face outwards, and its flat ends, at which the vessels
+// In: the file of a patient's wall. Out: a closed surface whose triangles face outwards, and the flat ends at which the vessels
 // were cut.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace riis::program {
 
-// A flat end of the blood.
+// A flat end of the blood, at which a vessel was cut.
 struct FlatEnd {
   std::string name{};  // "inlet", "outlet", "outlet_2", ...; "" until name_ends, unless --inlet or --outlet chose it
   std::array<double, 3> centre{};
@@ -21,7 +21,7 @@ struct FlatEnd {
   bool was_open = false;  // the file has a hole here, which read_patient_wall closed by a flat end
 };
 
-// A wall with flat ends: a closed surface around the blood. Lengths have the file's unit, unless scale_wall changed them.
+// A wall with its flat ends: a closed surface around the blood. Lengths are in the file's unit until scale_wall changes them.
 struct PatientWall {
   std::string path;
   std::vector<double> xyz;            // (3, n_vertices); no two vertices are equal, and each has a triangle
@@ -33,24 +33,24 @@ struct PatientWall {
   std::vector<std::string> remarks;   // what was changed in the surface, a line each, such as "... are turned outwards"
 };
 
-// The points of --inlet and --outlet, in the unit of the wall's file. Each point chooses the nearest flat part.
+// The points of --inlet and --outlet, in the unit of the wall's file. Each point chooses the flat part that is nearest to it.
 struct EndPoints {
   std::optional<std::array<double, 3>> inlet{};
   std::vector<std::array<double, 3>> outlets{};  // if there are some, no other flat part is an outlet
 };
 
-// Reads a wall from a surface's file or from a volume mesh, whose boundary then is the wall. Finds the wall's flat ends by plane:
-// any number of ends, in any direction. Closes flat holes at its ends. Turns triangles outwards. Refuses a surface with other
-// holes, with several pieces or with edges of more than two triangles. Refuses a wall with unclear ends, with the list of flat
-// parts and the options that choose among the parts.
+// Reads a wall from the file of a surface, or of a volume mesh. The boundary of the volume mesh is the wall. Finds the flat parts
+// of the wall that are ends. A wall may have any number of ends, in any direction. Closes flat holes at the ends. Turns triangles
+// outwards. Refuses a surface with other holes, with several pieces, or with edges that belong to more than two triangles.
+// Refuses a wall whose ends are unclear. The message lists the flat parts and the options that choose among them.
 PatientWall read_patient_wall(const std::string &path, const EndPoints &points = {});
 
-// Multiplies all lengths, such as by 0.001 from millimetres to metres.
+// Multiplies all lengths by a factor, such as 0.001 from millimetres to metres.
 void scale_wall(PatientWall &wall, double factor);
 
-// Names the ends that have no name yet. Blood comes from the inlet: the first end on the way along the wall from the place
-// upstream of the valve. The other ends are outlet, outlet_2, ..., the largest first. `centre` is the middle of the valve's
-// annulus, and `flow` the direction of the blood through the open valve. Refuses a centre outside the wall.
+// Names the ends that have no name yet. The inlet is the first end along the wall, from the place upstream of the valve. All
+// other ends are called outlet, outlet_2 and so on, beginning with the largest. `centre` is the middle of the valve's annulus,
+// and `flow` is the direction of the blood through the open valve. Refuses a centre that is outside the wall.
 void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std::array<double, 3> &flow);
 
 // Writes all triangles as a binary .stl file.

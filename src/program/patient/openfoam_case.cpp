@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The files of the case, and their texts.
+// The files of the case, with the names of their texts.
 constexpr std::pair<const char *, const char *> foam_files[] = {
     {"0/U", "openfoam/U"},
     {"0/p", "openfoam/p"},
@@ -36,7 +36,7 @@ constexpr std::pair<const char *, const char *> foam_files[] = {
 
 std::string point_of(const std::array<double, 3> &point) { return "(" + numbers_text(point.data(), 3, " ") + ")"; }
 
-// Returns the text with four more levels of spaces before each line.
+// Returns the text with four more spaces at the beginning of each line.
 std::string indented(const std::string &text) {
   std::string made;
   for (const std::string &line : split(text, "\n"))
@@ -44,7 +44,7 @@ std::string indented(const std::string &text) {
   return made;
 }
 
-// The entries of 0/p for the ends, and the pressure at which the case begins.
+// The entries of the ends in 0/p, and the pressure at the beginning of the run.
 struct Pressures {
   std::string patches;
   double start;
@@ -54,7 +54,7 @@ class PressureWriter {
  public:
   explicit PressureWriter(double density) : density_(density) {}
 
-  // The kinematic pressure of a pressure in Pa.
+  // Returns the kinematic pressure for a pressure in Pa.
   double kinematic(double pressure) const { return pressure / density_; }
 
   std::string curve(const std::string &name, const char *what, const PressureCurve &curve) const {
@@ -74,7 +74,7 @@ class PressureWriter {
            ";\n        value uniform " + number(pressure) + ";\n    }\n";
   }
 
-  // The arteries behind an outlet with this share of the area of all outlets.
+  // Returns the arteries behind an outlet. `share` is the outlet's share of the area of all outlets.
   std::string arteries(const std::string &name, double share) const {
     const auto entry = [](const char *key, double value) {
       return "        " + std::string(key) + " " + printed("%.6g", value) + ";\n";
@@ -110,7 +110,7 @@ Pressures pressures_of(const SolverCase &the, const Ends &ends) {
   return made;
 }
 
-// The function objects that sum the flow through each end.
+// Returns the function objects that add up the flow through each end.
 std::string flows_of(const Ends &ends) {
   std::string text =
       "    flow_inlet // postProcessing/flow_inlet/TIME/surfaceFieldValue.dat: the flow out of the blood [m3/s]\n    "
@@ -131,7 +131,8 @@ void write_openfoam_case(const SolverCase &the) {
   const Pressures pressures = pressures_of(the, ends);
   const std::string placed = (fs::path(the.folder) / "placed.json").string();
   const std::string valve = foam_valve_of(placed, parse_json_file(placed, "a placed valve"), the.skirt);
-  // The backflow of a mitral valve in a rigid ventricle is larger, so this valve begins to close before the flow reverses.
+  // In a rigid ventricle, much blood flows back through a mitral valve. A mitral valve therefore begins to close before the flow
+  // reverses.
   const std::map<std::string, std::string> values = {
       {"NAME", the.name},
       {"DENSITY", shortest(the.density)},

@@ -51,7 +51,7 @@ std::string foam_valve_of(const std::string &path, const Json &root, double long
     const std::string name = parameter.name;
     if (name == "skirt_length" && values[0] == 0 && longest > 0)
       skirt = "skirt\n{\n    patch           wall;\n    longest         " + shortest(longest) + ";\n}\n";
-    // A parameter that follows another one need not be written. The same holds for a parameter without a rule that has its
+    // A parameter need not be written if it follows from another parameter. Any other parameter need not be written if it has its
     // default.
     std::int32_t is_set = 0;
     check(riis_valve_is_set(valve, parameter.name, &is_set));

@@ -9,13 +9,14 @@
 
 namespace riis::program {
 
-// The longest skirt that OpenFOAM accepts unless the user says otherwise, in metres. The gaps of patients are below 3 mm, and
-// walls of other chambers are farther away.
+// The longest skirt that OpenFOAM accepts by default, in metres. Gaps in patients are below 3 mm, and the walls of other chambers
+// are farther away.
 inline constexpr double longest_foam_skirt = 6e-3;
 
-// Returns the entries valve, placement, warp and skirt. OpenFOAM's lengths are metres. `root` is the content of the file, and
-// `longest` the longest skirt in metres, or 0 for none. The skirt ends at the mesh's patch wall. A valve whose parameter
-// skirt_length is set keeps this skirt, and a kind without a skirt gets none. Refuses a warp that moves.
+// Returns the entries valve, placement, warp and skirt. OpenFOAM's lengths are metres. `root` is the content of the file.
+// `longest` is the length of the longest skirt in metres, or 0 for no skirt. The skirt ends at the patch `wall` of the mesh. A
+// valve whose parameter skirt_length is set keeps its own skirt. If a kind of valve cannot have a skirt, there is no skirt.
+// Refuses a warp that changes in time.
 std::string foam_valve_of(const std::string &path, const Json &root, double longest);
 
 }  // namespace riis::program

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis patient: the commands of docs/patient.md in one.
+// riis patient: one command that does the work of all commands of docs/patient.md.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -36,23 +36,27 @@ using Words = std::vector<std::string>;
 
 // Defaults of lengths, in millimetres.
 constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6, usual_noise = 0.3;
-// A half thickness outside this range has a wrong unit, or closes the open valve.
+// Limits of the half thickness. A value beyond the limits has a wrong unit, or would close the open valve.
 constexpr double least_half_thickness_mm = 0.1, most_half_thickness_mm = 4, most_skirt_mm = 30;
-// A person sets landmarks within the first distance of their wall on average. Beyond the second they are doubtful.
+// The largest usual average distance of landmarks from the wall, for landmarks that a person sets. Above the second distance,
+// landmarks are doubtful.
 constexpr double usual_distance_mm = 1, doubtful_distance_mm = 2;
 constexpr double usual_band_edge = 0.95, usual_largest_edge = 3;
-// svMultiPhysics spreads K over elements, so that its closed valve leaks much in a coarser mesh (docs/export.md).
+// svMultiPhysics spreads K over whole elements. In a coarser mesh, svMultiPhysics' closed valve would therefore leak much
+// (docs/export.md).
 constexpr double uris_band_edge = 0.55;
 constexpr double usual_resistance = 1e4;  // kg/(m s)
-// Where an edge leaks, edges of the second mesh are shorter by this factor.
+// If an edge leaks, a second mesh with shorter edges is made.
 constexpr double shorter_by = 0.9;
-// Flow solvers on one computer take meshes up to about this size.
+// The largest usual number of nodes for a flow solver on one computer.
 constexpr std::int64_t many_nodes = 40000;
-// The number of nodes grows with this power of 1 / (edge length in the band), by meshes of a root and of a ventricle.
+// The number of nodes grows with a power of 1 / (edge length in the band). The power was found by meshes of a root and a
+// ventricle.
 constexpr double power_of_nodes = 2.5;
 constexpr int n_marked_openings = 11;
 
-// The opening of a beat of 0.72 s: times in seconds, as in examples/demo, and the times to be written.
+// The opening of a valve during a beat of 0.72 s. The times are in seconds, as in examples/demo. The text `times` has the times
+// to write.
 struct Beat {
   const char *text, *times;
 };
@@ -63,7 +67,7 @@ const char *const shown_period = "0.72";
 
 bool is_mitral_kind(const std::string &kind) { return kind == "mitral" || kind == "mitral_coapting"; }
 
-// Returns the kind of valve that the landmarks belong to, or "".
+// Returns the kind of valve to which the landmarks belong, or "".
 std::string kind_of_roles(const LandmarkFile &landmarks) {
   const auto n_of = [&](std::int32_t role) { return std::count(landmarks.roles.begin(), landmarks.roles.end(), role); };
   const auto n_nadirs = n_of(RIIS_LANDMARK_NADIR);
@@ -81,7 +85,7 @@ void check_kind(const std::string &kind) {
                "; docs/patient.md has the single commands, which take every kind");
 }
 
-// Returns the ending of a file of landmarks, which tells its format.
+// Returns the ending of a file of landmarks. The ending tells the file's format.
 std::string landmark_ending(const std::string &path) {
   const std::string slicer = ".mrk.json";
   const bool is_slicer =
@@ -89,7 +93,7 @@ std::string landmark_ending(const std::string &path) {
   return is_slicer ? slicer : ending_of(path);
 }
 
-// Returns the numbers that a step wrote.
+// Returns the numbers that a step has written to its report.
 Json stats_of(const std::string &name) { return parse_json_file("logs/" + name + ".json", "stats"); }
 
 // Returns whether the file exists. Pictures and movies may be missing.
@@ -170,8 +174,8 @@ class PatientRun {
     if (!options_.params.empty()) inputs_.push_back(fs::absolute(options_.params, error).string());
   }
 
-  // Returns a length of an option in the folder's unit. Without a unit, a number has the unit of the wall. The limits are in
-  // millimetres.
+  // Returns the length that an option gives, in the unit of the folder. Without a unit, a number has the unit of the wall.
+  // `least` and `most` are in millimetres.
   double length_of(const std::optional<Amount> &given, double usual_mm, double least_mm, double most_mm) const {
     if (!given) return usual_mm * millimetre_;
     const double mm = given->number * (given->has_unit ? 1000 : factor_between(frame_.unit, Unit::millimetre));
@@ -184,7 +188,7 @@ class PatientRun {
   }
 
   std::string in_mm(double length) const { return printed("%.3g", length / millimetre_) + " mm"; }
-  // Return a length in millimetres, rounded upwards, and as the value of an option.
+  // These functions return a length in millimetres, rounded upwards, and the length as an option's value.
   double rounded_mm(double length) const { return std::ceil(100 * length / millimetre_ - 1e-6) / 100; }
   std::string option_mm(double length) const { return "'" + shortest(rounded_mm(length)) + " mm'"; }
 
@@ -240,12 +244,12 @@ class PatientRun {
     const PlacedFile file = read_placed("placed.json", placed, unit_);
     for (std::size_t k = 0; k < 3; ++k) centre_[k] = file.where.translation[k];
     const double *const axis = file.where.rotation_axis;
-    // Mitral valves have their atrium towards z.
+    // The atrium of a mitral valve lies in the direction of z.
     flow_ = turned({0, 0, is_mitral_ ? -1.0 : 1.0}, {axis[0], axis[1], axis[2]}, file.where.rotation_angle);
     name_ends(wall_, centre_, flow_);
   }
 
-  // If the warp folds, tries which noise smooths it enough.
+  // If the warp folds, finds a noise that smooths the warp enough.
   std::string cure_of_folds(const StepEnd &end) {
     const auto says = [&](const char *text) { return end.reason().find(text) != std::string::npos; };
     const bool is_cured = says("--warp smoothed does not fold");  // riis place has tried the landmarks' own noise
@@ -281,7 +285,7 @@ class PatientRun {
     const StepEnd end = steps_.run("crossings", with_valve({"check", "crossings"}, {"--stats", "logs/crossings.json"}));
     if (end.status == exit_warned)
       refuse_data(end.reason() + ". Look for a landmark near there that is not at its place" +
-                  (options_.warp_choice == no_warp ? "" : "; --warp none shows whether the warp does it"));
+                  (options_.warp_choice == no_warp ? "" : "; --warp none shows whether the warp is the cause"));
     if (!end.is_fine()) steps_.refuse("crossings", end, cure_of_missed_wall(end));
     show_warnings(end);
     const Json gap = stats_of("crossings")["gap"];
@@ -292,7 +296,7 @@ class PatientRun {
                end.seconds);
   }
 
-  // Tries which skirt would reach the wall.
+  // Finds the length of a skirt that would reach the wall.
   std::string cure_of_missed_wall(const StepEnd &end) {
     if (end.reason().find("wall.stl: ") != 0) return "";
     for (const double longest : {8, 10, 12, 15, 20}) {
@@ -436,7 +440,7 @@ class PatientRun {
     const Disease *const disease = disease_named(options_.disease);
     std::string text = "the closed valve seals";
     if (closed["passage"]["state"] != "closed")
-      text = "the closed valve leaves a gap, as it is sick";
+      text = "the closed valve leaves a gap, because the valve is sick";
     else if (disease != nullptr && disease->opening == 0 && disease->area > 0)
       text +=
           ", because the band closes the gap of " + options_.disease + ", which a smaller --half-thickness leaves open";
@@ -448,7 +452,7 @@ class PatientRun {
     steps_.say("passage", text, steps_.seconds() - begin);
   }
 
-  // Refuses ends that are on the wrong side of the closed valve.
+  // Refuses ends that lie on the wrong side of the closed valve.
   void check_ends() const {
     if (!sides_.are_apart) return;
     for (const auto &[names, is_before] : {std::pair(sides_.after, false), std::pair(sides_.before, true)})
@@ -485,7 +489,7 @@ class PatientRun {
     }
   }
 
-  // Runs a command that also draws. If the program cannot draw here, prints this, and runs the command that does not draw.
+  // Runs a command that also draws. If the program cannot draw on this machine, says so and runs the command without pictures.
   void run_with_picture(const std::string &name, const Words &with_picture, const Words &words,
                         const std::string &output, const std::string &picture) {
     StepEnd end = steps_.run(name, with_picture);

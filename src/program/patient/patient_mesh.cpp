@@ -31,30 +31,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An end of the new surface may differ by this share in area: the rim has longer edges than before.
+// The area of an end may change a little, because the rim of the new surface has longer edges.
 constexpr double most_area_change = 0.05;
-// The edge length in the middle of an end, as a share of the end's radius. The rim of the end then has at least sixteen edges.
+// The edge length in the middle of an end, as a share of the end's radius. The rim of an end then has at least sixteen edges.
 constexpr double end_edge_share = 0.35;
-// gmsh gets this time, and this time for each triangle, in seconds. A surface that gmsh cannot make anew may keep gmsh busy for
-// hours.
+// The time in seconds that gmsh has: a fixed time, and an additional time for each triangle. If gmsh cannot remesh a surface, it
+// may run for hours.
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
-// The share of this time for the first try, if there is a second one.
+// If gmsh may be run twice, the share of the time for the first run.
 constexpr double first_share = 0.25;
-// The second try moves nodes by at most this share of the wall's size. Files in single precision round by as much.
+// In the second try, nodes are moved by at most a tiny share of the wall's size. The movement is as small as the rounding errors
+// of files in single precision.
 constexpr double moved_share = 1e-7;
-// The wall goes through itself if triangles overlap by more than this share of its size.
+// Triangles that overlap by more than a tiny share of the wall's size count as a self-intersection.
 constexpr double least_crossing_share = 1e-5;
-// The number of triangles of a new patch that are compared with the wall.
+// The number of triangles of each new patch that are compared with the wall.
 constexpr std::size_t n_compared = 9;
 
-// The elements of a file of gmsh, with the numbers of their surfaces or volumes. Nodes are counted from 0.
+// The elements of a gmsh file, with the numbers of their surfaces or volumes. Nodes are counted from 0.
 struct GmshMesh {
   std::vector<Vector3> points;
   std::vector<std::pair<std::int64_t, Corners>> triangles;
   std::vector<std::array<std::int64_t, 4>> cells;
 };
 
-// Reads what gmsh wrote in its ASCII format 2.2. Refuses a file that is not whole.
+// Reads a file that gmsh wrote in its ASCII format 2.2. Refuses an incomplete file.
 class GmshReader {
  public:
   explicit GmshReader(const std::string &path) : path_(path), text_(text_of_file(path)), next_(text_.data()) {}
@@ -125,7 +126,7 @@ class GmshReader {
   const char *next_;
 };
 
-// Writes a mesh of gmsh's format 2.2, in which each element has a physical group and a surface or volume of the same number.
+// Writes a mesh in gmsh's format 2.2. Each element has a physical group, and a surface or volume of the same number.
 class GmshText {
  public:
   explicit GmshText(const std::vector<Vector3> &points) {
@@ -139,7 +140,7 @@ class GmshText {
     names_ += std::to_string(dimension) + " " + std::to_string(group) + " " + quoted(name) + "\n";
     ++n_names_;
   }
-  // `physical` is 0 for an element of no group.
+  // For an element that belongs to no group, `physical` is 0.
   template <class Ids>
   void add(int type, std::int64_t physical, std::int64_t group, const Ids &ids) {
     elements_ += std::to_string(++n_elements_) + " " + std::to_string(type) + " 2 " + std::to_string(physical) + " " +
@@ -171,7 +172,7 @@ std::string id_lines(const std::vector<std::int64_t> &numbers) {
   return text;
 }
 
-// Returns a file of VTK with the arrays that SimVascular's meshes have. Ids count from 1.
+// Returns a VTK file with the arrays that meshes of SimVascular have. Ids count from 1.
 template <class Cell>
 std::string vtk_file_text(const std::vector<Vector3> &points, const std::vector<std::int64_t> &node_ids,
                           const std::vector<Cell> &cells, const std::vector<std::int64_t> &element_ids,
@@ -198,7 +199,7 @@ std::string vtk_file_text(const std::vector<Vector3> &points, const std::vector<
          ">\n</VTKFile>\n";
 }
 
-// Returns the last error of gmsh's log, without the frame that gmsh draws around its summary, or "" if there is none.
+// Returns the last error in gmsh's log, or "" if there is none. gmsh's summary has a frame, which is removed.
 std::string last_error_in(const std::string &log) {
   std::string last;
   for (const std::string &line : split(log, "\n")) {
@@ -271,7 +272,7 @@ class PatientMesher {
     std::string text = "Field[1] = Structured;\nField[1].FileName = \"" + field +
                        "\";\nField[1].TextFormat = 1;\nField[1].SetOutsideValue = 1;\nField[1].OutsideValue = " +
                        shortest(options_.largest_edge) + ";\n";
-    // The edges at a small end are shorter than elsewhere, and grow with the distance from it.
+    // Edges are shorter at a small end, and become longer with the distance from the end.
     int n_fields = 1;
     for (const FlatEnd &end : wall_.ends) {
       const double radius = std::sqrt(end.area / pi), edge = end_edge_share * radius;
@@ -295,9 +296,9 @@ class PatientMesher {
            "Mesh.MeshSizeFromCurvature = 0;\n";
   }
 
-  // Runs gmsh. Returns nothing if gmsh did not end in this time.
+  // Runs gmsh. Returns nothing if gmsh runs longer than the limit.
   static std::optional<ProgramEnd> end_of_gmsh(const std::vector<std::string> &words, double seconds) {
-    // gmsh does not end by SIGTERM. timeout gets whole seconds.
+    // SIGTERM does not end gmsh. The program timeout takes only whole seconds.
     const double limit = std::ceil(seconds);
     std::vector<std::string> limited{"timeout", "--foreground", "--signal=KILL", printed("%.0f", limit)};
     limited.insert(limited.end(), words.begin(), words.end());
@@ -313,8 +314,9 @@ class PatientMesher {
     return end.status < 0 || end.status > signal_status;
   }
 
-  // Runs gmsh on a .geo file. Without a written mesh, refuses with gmsh's last error. `cure` follows that error. If there is
-  // change_input and gmsh does not end in a part of the time, calls it and runs gmsh again for the rest.
+  // Runs gmsh on a .geo file. If gmsh wrote no mesh, refuses with gmsh's last error. In the message, `cure` follows gmsh's error.
+  // If change_input is given, gmsh first gets only a part of the time. If gmsh does not end in time, change_input is called, and
+  // gmsh runs again for the rest of the time.
   GmshMesh run_gmsh(double seconds, const std::string &dimension, const std::string &geo, const std::string &mesh,
                     const std::string &cure, const std::function<void()> &change_input = {}) {
     const std::string log = in_gmsh(fs::path(geo).stem().string() + ".log");
@@ -344,7 +346,7 @@ class PatientMesher {
     return GmshReader(mesh).read();
   }
 
-  // Makes the surface anew, with the edges of the size field, and names its triangles.
+  // Remeshes the surface with the edge lengths of the size field, and names the new triangles.
   void make_surface() {
     write_text(in_gmsh("surface.geo"),
                "// The wall has a surface for each end, and its rims as lines, so no angle is needed.\n"
@@ -354,7 +356,7 @@ class PatientMesher {
                                ? options_.surface_seconds
                                : least_seconds + seconds_per_triangle * static_cast<double>(old_.n());
     write_text(in_gmsh("wall.msh"), text_of_wall(old_.points));
-    // Rarely gmsh divides a clean surface without end, but not if its nodes have other last digits.
+    // In rare cases gmsh refines a clean surface and never stops. If the last digits of the nodes are changed, gmsh succeeds.
     surface_ = run_gmsh(seconds, "-2", in_gmsh("surface.geo"), in_gmsh("surface.msh"), cure_of_surface(),
                         [&] { write_text(in_gmsh("wall.msh"), text_of_wall(moved_points())); });
     name_patches();
@@ -370,7 +372,7 @@ class PatientMesher {
            ", and repair or smooth it, as by Surface Toolbox of 3D Slicer";
   }
 
-  // Says where the wall goes through itself, or "". Most failures of gmsh are at such a crossing.
+  // Tells where the wall intersects itself, or returns "". Most failures of gmsh come from a wall that intersects itself.
   std::string crossing_text() const {
     auto arrays = defaults<riis_surface_arrays>();
     arrays.n_vertices = static_cast<std::int64_t>(old_.points.size());
@@ -425,7 +427,8 @@ class PatientMesher {
     return text.text();
   }
 
-  // gmsh gives its patches new numbers, and turns some patches over. Each patch becomes a part of the boundary under the patch.
+  // gmsh gives new numbers to its patches, and turns some patches over. Each new patch belongs to the part of the boundary that
+  // it covers.
   void name_patches() {
     std::map<std::int64_t, std::vector<std::size_t>> patches;
     for (std::size_t i = 0; i < surface_.triangles.size(); ++i) patches[surface_.triangles[i].first].push_back(i);
@@ -456,14 +459,14 @@ class PatientMesher {
     std::int64_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::int64_t i = 0; i < old_.n(); ++i) {
-      // A triangle whose corner is far away is skipped.
+      // The distance of a triangle is computed only if a corner of the triangle is near.
       const double distance = old_.distance(i, point);
       if (distance < least) least = distance, nearest = i;
     }
     return nearest;
   }
 
-  // Refuses a surface in which a side lacks its neighbour.
+  // Refuses a surface if a triangle has a side without a neighbour.
   void check_closed(const GmshMesh &mesh) const {
     std::set<std::pair<std::int64_t, std::int64_t>> sides;
     std::int64_t n_open = 0;
@@ -476,7 +479,7 @@ class PatientMesher {
                   in_gmsh("surface.log") + "); " + cure_of_surface());
   }
 
-  // Refuses a surface that lost an end or changed its size.
+  // Refuses a surface that lost an end, or whose size changed.
   void check_ends(const GmshMesh &mesh) const {
     std::vector<double> areas(groups_.size(), 0);
     for (const auto &[group, corner] : mesh.triangles) {
@@ -511,7 +514,7 @@ class PatientMesher {
     leave_out_nodes();
   }
 
-  // Turns cells to a positive volume, and measures them.
+  // Turns cells over if their volume is negative, and measures all cells.
   void measure_cells() {
     made_.least_quality = 1;
     for (auto &cell : mesh_.cells) {
@@ -522,7 +525,8 @@ class PatientMesher {
       made_.volume += six_volumes / 6;
       const double surface = norm(cross(a, b)) + norm(cross(b, c)) + norm(cross(c, a)) + norm(cross(b - a, c - a));
       const Vector3 to_middle = dot(a, a) * cross(b, c) + dot(b, b) * cross(c, a) + dot(c, c) * cross(a, b);
-      // The radii are six_volumes / surface and norm(to_middle) / (2 six_volumes).
+      // The radius of the inner sphere is six_volumes / surface. The radius of the outer sphere is norm(to_middle) / (2
+      // six_volumes).
       const double quality = six_volumes > 0 ? 6 * six_volumes * six_volumes / (surface * norm(to_middle)) : 0;
       made_.least_quality = std::min(made_.least_quality, quality);
       for (const Vector3 &edge : {a, b, c, b - a, c - a, c - b})
@@ -530,7 +534,7 @@ class PatientMesher {
     }
   }
 
-  // Finds the cell of each triangle of the boundary, and turns the triangle out of it.
+  // Finds the cell of each boundary triangle, and makes the triangle face outwards.
   void find_faces() {
     std::map<Corners, std::int64_t> group;
     const auto key = [](Corners corner) {
@@ -567,7 +571,7 @@ class PatientMesher {
                   " differ (" + in_gmsh("volume.log") + "); " + cure_of_surface());
   }
 
-  // Leaves out nodes without a cell.
+  // Removes nodes that belong to no cell.
   void leave_out_nodes() {
     std::vector<std::int64_t> number(mesh_.points.size(), -1);
     for (const auto &cell : mesh_.cells)
@@ -663,11 +667,11 @@ std::string require_gmsh() {
   const ProgramEnd end = run_program({"gmsh", "--version"}, nullptr, [&](const std::string &line) { version = line; });
   if (end.error == ENOENT)
     refuse_data(
-        "gmsh: there is no such program in PATH, and meshes are made by it; on Debian and Ubuntu 'sudo apt-get "
-        "install gmsh' installs it");
+        "gmsh: there is no such program in PATH, but gmsh makes the mesh; on Debian and Ubuntu 'sudo apt-get install "
+        "gmsh' installs it");
   if (end.error != 0) refuse_data("gmsh: cannot be run: " + system_text(end.error));
   if (end.status != 0)
-    refuse_data("gmsh: it fails to tell its version" + (end.last_message.empty() ? "" : ": " + end.last_message));
+    refuse_data("gmsh: its option --version fails" + (end.last_message.empty() ? "" : ": " + end.last_message));
   return version.empty() ? end.last_message : version;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a wall with named ends, and a size field of riis size-field. Out: a volume mesh with named boundaries, made by gmsh, in the
-// files that solvers read.
+// In: a wall with named ends, and a size field of riis size-field. Out: a volume mesh with named boundaries, in the files that
+// solvers read. gmsh makes the mesh.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct PatientMeshOptions {
   std::string folder;       // which exists; the files go here
   std::string field;        // the file of riis size-field
   double largest_edge = 0;  // edge length outside the field's grid: --largest-edge of riis size-field
-  // Called with each command before it runs, as a user would type it.
+  // The function that is called with each command before the command runs. The words are the command as a user would type it.
   std::function<void(const std::string &command)> announce = [](const std::string &) {};
   double surface_seconds = 0;  // the time that gmsh has for the surface; 0: by the number of triangles
 };
@@ -31,16 +31,16 @@ struct PatientMesh {
   std::vector<std::string> written;  // paths of the files
 };
 
-// Refuses to go on if there is no gmsh in PATH, and says which package to install. Returns gmsh's version.
+// Throws a Refusal if there is no gmsh in PATH. The message says which package to install. Returns gmsh's version.
 std::string require_gmsh();
 
-// Makes the mesh. gmsh makes the surface anew with the field's edges and keeps the rims of the ends, and then fills it with
-// tetrahedra. All ends need a name. Writes into `folder`
+// Makes the mesh. First gmsh remeshes the surface with the edge lengths of the size field, and keeps the rims of the ends. Then
+// gmsh fills the remeshed surface with tetrahedra. Every end must have a name. Writes into `folder`
 //   mesh.msh        ASCII gmsh 2.2: physical groups of the boundaries, and "blood" of the tetrahedra
 //   mesh.vtu        the tetrahedra, with GlobalNodeID and GlobalElementID
 //   faces/NAME.vtp  the triangles of a boundary, outwards, with GlobalNodeID, GlobalElementID and ModelFaceID
 //   gmsh/           what gmsh reads, and its logs
-// Refuses with gmsh's last message and its log if gmsh fails, and a mesh that is not closed or lost an end.
+// If gmsh fails, the refusal has gmsh's last message and its log. Also refuses a mesh that is not closed or has lost an end.
 PatientMesh mesh_patient(const PatientWall &wall, const PatientMeshOptions &options);
 
 }  // namespace riis::program

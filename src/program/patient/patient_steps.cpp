@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 
 const char *const marker_file = "UNFINISHED.txt", *const report_file = "patient.json";
 
-// What riis patient writes into the folder. Files with other names stay when the folder is taken over.
+// The names of the files that riis patient writes into its folder. If riis patient uses a folder again, other files in the folder
+// stay.
 const char *const own_names[] = {report_file,     "wall.stl",       "placed.json",        "params.json",
                                  "valve.dat",     "gmsh",           "mesh.msh",           "mesh.vtu",
                                  "faces",         "closed.vtu",     "open.vtu",           "closed.png",
@@ -33,7 +34,7 @@ const char *const own_names[] = {report_file,     "wall.stl",       "placed.json
   refuse_data("--output: " + path + ": " + reason);
 }
 
-// Refuses inputs that taking over the folder would remove.
+// Refuses inputs that would be removed when the folder is used again.
 void check_inputs(const fs::path &folder, const std::string &path, const std::vector<std::string> &inputs) {
   for (const std::string &input : inputs)
     for (const char *const name : own_names) {
@@ -57,7 +58,7 @@ std::string taken_folder(const std::string &path, bool replace, const std::vecto
     if (!is_empty && !is_unfinished && !replace)
       refuse_folder(path, "the folder has the results of an earlier run: name another, or write --replace");
     check_inputs(folder, path, inputs);
-    // The report goes first, so that a folder that loses its other files does not look finished.
+    // The report is removed first. A folder that has lost some of its files thus never looks finished.
     for (const char *const name : own_names) fs::remove_all(folder / name, error);
   } else {
     fs::create_directory(folder, error);
@@ -86,7 +87,7 @@ void PatientFolder::finish() {
 
 std::string cure_of_full_disc(const std::string &reason) {
   const auto says = [&](int error) { return reason.find(system_text(error)) != std::string::npos; };
-  // gmsh does not say why it leaves a part of a file.
+  // gmsh does not say why it leaves out a part of a file.
   constexpr std::uintmax_t hardly_any = 1 << 20;
   std::error_code error;
   const fs::space_info space = fs::space(".", error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the folder of riis patient. Out: the steps that fill the folder. A step is a command of riis that the user could also type
-// there.
+// In: the folder of riis patient. Out: the steps that fill the folder. Each step is a command of riis that the user could also
+// type in the folder.
 #pragma once
 
 #include <chrono>
@@ -13,14 +13,14 @@
 
 namespace riis::program {
 
-// The folder of one run, which becomes the present folder of the process. An unfinished folder has the file UNFINISHED.txt. Only
-// such a folder, or the folder of an earlier run, is taken over.
+// The folder of one run, which becomes the working folder of the process. A folder that is not finished contains the file
+// UNFINISHED.txt. A run uses an existing folder only if it is empty, unfinished, or the folder of an earlier run.
 class PatientFolder {
  public:
-  // Makes the folder, or takes an empty or an unfinished one, and with `replace` that of an earlier run. `inputs` are absolute
-  // paths of files that the run reads.
+  // Makes the folder, or uses an empty or unfinished folder. With `replace`, the folder of an earlier run is also allowed.
+  // `inputs` are the absolute paths of the files that the run reads.
   PatientFolder(const std::string &path, bool replace, const std::vector<std::string> &inputs);
-  // Tells that the folder has all its files.
+  // Records that the folder has all its files.
   void finish();
 
  private:
@@ -28,7 +28,8 @@ class PatientFolder {
   OutputLocks locks_;
 };
 
-// Returns the cure if the disc of the present folder is full, which may be why a step fails, or "".
+// If the disc of the working folder is full, returns advice, because a step may have failed for this reason. Otherwise returns
+// "".
 std::string cure_of_full_disc(const std::string &reason);
 
 // The result of a command.
@@ -38,24 +39,24 @@ struct StepEnd {
   double seconds = 0;
 
   bool is_fine() const { return status == exit_fine; }
-  // The last message, which gives the reason if the command failed.
+  // Returns the last message, which gives the reason if the command failed.
   std::string reason() const { return messages.empty() ? "" : messages.back(); }
 };
 
-// Runs commands of riis in the present folder, prints the commands, and keeps their output in the folder `logs`.
+// Runs commands of riis in the working folder, and prints each command. The output of the commands goes to the folder `logs`.
 class PatientSteps {
  public:
   explicit PatientSteps(bool quiet);
 
-  // Prints a line: a label and a result. With `seconds` the line ends with the time.
+  // Prints a line with a label and a result. If `seconds` is given, the line ends with the time.
   void say(const std::string &label, const std::string &text, double seconds = -1);
-  // Prints a command that is about to run.
+  // Prints a command before it runs.
   void announce(const std::string &command);
-  // Runs riis with the words. The name is that of the log.
+  // Runs riis with the words. `name` is the name of the log.
   StepEnd run(const std::string &name, const std::vector<std::string> &words);
   // Runs the command without printing it.
   StepEnd run_silently(const std::string &name, const std::vector<std::string> &words);
-  // Refuses with the message of a command that failed, and a cure or "".
+  // Throws a Refusal with the message of a command that failed, followed by `cure`.
   [[noreturn]] void refuse(const std::string &name, const StepEnd &end, const std::string &cure = "") const;
   // Returns the seconds since the start.
   double seconds() const;

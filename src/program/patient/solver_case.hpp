@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a patient's mesh with named boundaries, and the valve that is placed in it. Out: a folder in which a flow solver runs
-// without changes. riis patient fills a SolverCase, and each solver has one function that writes this folder.
+// In: a patient's mesh with named boundaries, and a valve that is placed in the mesh. Out: a folder in which a flow solver can
+// run without changes. riis patient fills a SolverCase. For each solver, one function writes this solver's folder from the
+// SolverCase.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 
 namespace riis::program {
 
-// A named part of the mesh's boundary. Lengths have the mesh's unit.
+// A named part of the mesh's boundary, with lengths in the mesh's unit.
 struct Boundary {
   std::string name;                 // "inlet", "outlet", "outlet_2", ... or "wall"
   std::int32_t group = 0;           // number of its physical group in mesh.msh
@@ -22,7 +23,7 @@ struct Boundary {
   std::int64_t n_faces = 0;
 };
 
-// What every solver needs to know. Lengths have the mesh's unit; R, density and viscosity are in SI units.
+// The data that every solver needs. Lengths are in the mesh's unit. R, density and viscosity are in SI units.
 struct SolverCase {
   std::string folder;       // of riis patient: mesh.msh, faces/NAME.vtp, wall.stl and placed.json lie here
   std::string solver;       // the solver's own folder, inside of `folder`

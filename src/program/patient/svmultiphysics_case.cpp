@@ -19,8 +19,9 @@ namespace {
 
 constexpr double solver_step = 0.002;  // s
 constexpr int steps_between_files = 10;
-// The triangles of the leaflets, in half thicknesses. K of the solver's own engine is then within 5 %, and riis as its engine is
-// exact (docs/export.md, "How fine the triangles must be"). Finer triangles would take the solver hours.
+// The largest edge of the leaflets' triangles, in half thicknesses. With such triangles, the K that the solver computes is
+// correct to 5 %, and the K that riis computes in the solver is exact (docs/export.md, "How fine the triangles must be"). With
+// finer triangles, the solver would need hours.
 constexpr double largest_edge = 0.5;
 // The measured processor time per cell and step (docs/patient_svmultiphysics.md, "What it costs").
 constexpr double seconds_of_cell = 7e-5;
@@ -33,7 +34,7 @@ std::string element(const std::string &name, const std::string &value) {
   return "<" + name + "> " + value + " </" + name + ">";
 }
 
-// Returns the curve as the solver reads it. The solver makes a Fourier series from this polygon.
+// Returns a pressure curve in the form that the solver reads: a polygon, which the solver approximates by a Fourier series.
 std::string temporal_values(const PressureCurve &curve) {
   std::string text = std::to_string(curve.keys.size()) + ' ' + std::to_string(n_modes) + '\n';
   for (const PressureCurve::Key &key : curve.keys)
@@ -55,7 +56,7 @@ std::string steady(const std::string &face, const std::string &type, double valu
       "    " + element("Time_dependence", "Steady") + "\n    " + element("Value", printed("%.6g", value)) + "\n");
 }
 
-// Returns the Windkessel of an outlet. Several outlets share the blood by their areas.
+// Returns the Windkessel of an outlet. Several outlets share the flow of blood in proportion to their areas.
 std::string windkessel_of(const Boundary &outlet, double share) {
   const Windkessel body;
   std::string lines = "    " + element("Time_dependence", "RCR") + "\n    <RCR_values>\n";
@@ -81,7 +82,7 @@ std::string conditions_of(const SolverCase &solver, const Ends &ends) {
   return text;
 }
 
-// Parses the words as the user would type them, so that the printed command does the same.
+// Parses the words as if the user had typed them, so that the printed command has the same effect.
 ExportOptions export_of(std::vector<std::string> words) {
   std::vector<char *> arguments;
   for (std::string &word : words) arguments.push_back(word.data());
@@ -90,8 +91,8 @@ ExportOptions export_of(std::vector<std::string> words) {
   return std::get<ExportOptions>(request.value());
 }
 
-// Returns the words of the export. The files of the case's folder are in `folder`. The block of the export names the files of the
-// valve as the solver sees them, from its own folder.
+// Returns the words of the command riis export. The files of the case's folder are in `folder`. The block of the export names the
+// valve's files by paths from the solver's folder.
 std::vector<std::string> export_words(const SolverCase &solver, const std::string &folder) {
   std::vector<std::string> words = {"riis", "export", "valve", folder + "/mesh.vtu"};
   const auto add = [&words](const char *option, const std::string &value) {

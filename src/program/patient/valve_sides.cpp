@@ -18,13 +18,13 @@ namespace riis::program {
 namespace {
 
 constexpr std::int32_t n_sides_openings = 11;
-// Radii of the balls in millimetres: the largest that there is room for is taken.
+// The radii of the balls in millimetres. The largest radius for which there is room is used.
 constexpr double ball_radii[] = {4, 3, 2, 1.5, 1};
-// The places that are tried for a ball, in millimetres: steps along the valve's axis and along lines beside the axis.
+// The places where a ball is tried, in millimetres: steps along the valve's axis, and along lines parallel to the axis.
 constexpr int most_along = 150, ring_step = 3, n_rings = 5, n_of_ring = 8;
 
-// Returns places on both sides of the centre, the nearest first. The places depend on the placement only, so pressures in two
-// meshes of a patient are read at the same places.
+// Returns places on both sides of the centre, sorted by their distance from the centre. The places depend only on the placement.
+// In two meshes of a patient, pressures are therefore read at the same places.
 std::vector<double> places_by_distance(const Vector3 &centre, const Vector3 &flow, double millimetre) {
   struct Candidate {
     int along, ring, number;
@@ -104,14 +104,14 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
       if (squared(i) < squared(nearest)) nearest = i;
     return nearest;
   };
-  // Of the places with room for a ball, the first on each side is the middle of a ball. Balls beyond the valve's extent are not
-  // in its jet. A short vessel has room only beside the leaflets.
+  // On each side of the valve, the middle of the ball is the first place that has room for the ball. A ball farther away than the
+  // valve extends is outside the valve's jet. If the vessel is short, there may be room only beside the leaflets.
   ValveSides sides;
   std::int64_t before = -1, after = -1;  // the nodes at the middles
   const auto find = [&](double sign, double radius, double beyond, std::array<double, 3> &middle) {
     for (std::size_t i = 0; i < room.size(); ++i) {
       if (view(room)[i] < radius || sign * along_flow(place(i)) <= beyond) continue;
-      // The wall is closed, so a place is in the blood if a node is nearer than the wall.
+      // A place is in the blood if a node is nearer to it than the wall, because the wall is closed.
       const std::int64_t node = nearest_node(place(i));
       if (norm(at(node) - place(i)) >= radius || view(region)[node] < 0) continue;
       middle = place(i);
@@ -132,7 +132,7 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
                 (before < 0 ? "before it" : "after it") +
                 ", in which its pressure could be read: cut the vessel farther from the valve, or take a smaller "
                 "--half-thickness");
-  // Short numbers are easier to type.
+  // Coordinates with few digits are easier to type.
   const auto rounded = [&](const Vector3 &point) {
     Vector3 made;
     for (std::size_t k = 0; k < 3; ++k)

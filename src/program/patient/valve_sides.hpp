@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a mesh with a placed valve. Out: a point in the blood before the valve and one after it, and on which side the ends are.
+// In: a mesh with a placed valve. Out: a point in the blood before the valve, a point behind the valve, and the side of the valve
+// on which each end lies.
 #pragma once
 
 #include <array>
@@ -18,8 +19,9 @@ struct ValveSides {
   std::vector<std::string> before, after;  // the ends on either side, if the sides are apart
 };
 
-// `marking` has the valve with its skirt and its half thickness. `centre` is the middle of the annulus, and `flow` the direction
-// of the blood. `millimetre` is its length in the mesh. Refuses a mesh without room for the points.
+// `marking` has the options of the valve, with its skirt and its half thickness. `centre` is the middle of the annulus, and
+// `flow` is the direction of the blood. `millimetre` is the length of a millimetre in the mesh's unit. Refuses a mesh that has no
+// room for the two points.
 ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, const std::vector<Boundary> &boundaries,
                           const std::array<double, 3> &centre, const std::array<double, 3> &flow, double millimetre);
 

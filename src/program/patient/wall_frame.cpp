@@ -11,10 +11,9 @@
 namespace riis::program {
 namespace {
 
-// Landmarks on a wall have a smaller mean distance from the wall than this, in millimetres. Cusps and annuli are about 25 mm
-// wide.
+// The largest mean distance of landmarks from their wall, in millimetres. Cusps and annuli are about 25 mm wide.
 constexpr double at_wall = 5;
-// Another frame is excluded if its landmarks are this many times farther away.
+// Another unit or other axes are excluded if the landmarks would then be clearly farther from the wall.
 constexpr double clearly_farther = 2;
 
 std::string mm_text(double length) { return printed("%.3g", length) + " mm"; }
@@ -34,7 +33,7 @@ Surface wall_surface_of(const PatientWall &wall) {
   return create_for<Surface>(wall.path, riis_surface_create_from_arrays, &arrays, &how);
 }
 
-// The place where the closed cusps meet is in the middle of the vessel.
+// The place where the closed cusps meet is in the middle of the vessel, not at the wall.
 bool is_at_wall(std::int32_t role) { return role != RIIS_LANDMARK_COAPTATION && role != RIIS_LANDMARK_HINGE; }
 
 WallFrame frame_with(const riis_surface *wall, const LandmarkFile &given, Unit unit, const std::string &axes) {
@@ -57,7 +56,7 @@ WallFrame frame_with(const riis_surface *wall, const LandmarkFile &given, Unit u
   return frame;
 }
 
-// Returns the options that choose a frame, or words for it.
+// Returns the options that choose a frame's unit and axes, or words for the unit and the axes.
 std::string options_of(const WallFrame &frame, const WallFrame &other) {
   std::vector<std::string> options;
   if (frame.unit != other.unit) options.push_back(std::string("--wall-unit ") + name_of(frame.unit));

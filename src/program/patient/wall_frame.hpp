@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a patient's wall, whose file states neither unit nor axes, and landmarks, whose file states both. Out: the unit and the
-// axes with which the landmarks lie at the wall.
+// In: a patient's wall from a file that states neither a unit nor axes, and landmarks from a file that states both. Out: the unit
+// and the axes with which the landmarks lie at the wall.
 #pragma once
 
 #include <optional>
@@ -19,8 +19,8 @@ struct WallFrame {
   std::string farthest;  // the landmark with this distance
 };
 
-// The wall has the lengths of its file. `unit` and `axes` are the user's statements, if any. Refuses landmarks that are not at
-// the wall, and asks if two units or axes fit about equally well.
+// The lengths of the wall are in the unit of its file. `unit` and `axes` are given if the user stated them. Refuses landmarks
+// that are not at the wall. If two units or axes fit about equally well, refuses to choose one of them.
 WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, std::optional<Unit> unit,
                         const std::string &axes);
 

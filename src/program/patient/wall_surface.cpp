@@ -16,22 +16,22 @@
 namespace riis::program {
 namespace {
 
-// Vertices of open sides are one if they are nearer than this share of the size. Single precision at a metre from the origin has
-// a sixth of it, relative to a root.
+// Two vertices of open sides are joined if their distance is below a tiny share of the wall's size. In single precision, the
+// rounding errors of a root at a metre from the origin are a sixth of the share.
 constexpr double joined_share = 1e-5;
-// A piece below this share of the largest piece's area is an island of the segmentation.
+// A piece is an island of the segmentation if its area is below a small share of the largest piece's area.
 constexpr double island_share = 0.01;
-// A hole is flat if its rim is nearer to a plane than this share of the rim's width.
+// A hole is flat if all points of its rim are close to a plane, compared with the rim's width.
 constexpr double flat_hole_share = 0.02;
 
-// A triangle is thin if its height is below this share of the size. gmsh would go on for hours with such triangles. A side of a
-// thin triangle is short if it is below some heights.
+// A triangle is thin if its height is below a tiny share of the wall's size. With thin triangles, gmsh would run for hours. A
+// side of a thin triangle is short if it is shorter than a few times the height.
 constexpr double thin_share = 2e-6, short_in_heights = 10;
 constexpr int most_thin_rounds = 20;
 
 constexpr const char *how_to_close = "close it, as by the filter Close Holes of MeshLab";
 
-// Repairs a surface step by step.
+// Repairs the surface of a wall in several steps.
 class WallRepair {
  public:
   explicit WallRepair(const std::string &path) : path_(path) {
@@ -58,7 +58,7 @@ class WallRepair {
   void read() {
     const SurfaceFile file = read_wall(path_);
     const auto arrays = get<riis_surface_arrays>(riis_vtk_surface_get_arrays, file);
-    // Surfaces of files have doubles, in turn x, y and z, and ids of 64 bits.
+    // Surfaces from files store x, y and z in turn as doubles, and ids as integers of 64 bits.
     const auto *const xyz = static_cast<const double *>(arrays.x);
     for (std::int64_t i = 0; i < arrays.n_vertices; ++i)
       points().push_back({xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
@@ -73,8 +73,8 @@ class WallRepair {
           if (!std::isfinite(x)) refuse("vertex " + std::to_string(id) + " has a coordinate that is not a number");
   }
 
-  // Gives vertices new numbers, and leaves out triangles whose corners no longer differ, and all but one of equal triangles.
-  // Vertices without a triangle are left out.
+  // Renumbers the vertices. Removes triangles with two equal corners, and keeps only one of several equal triangles. Vertices
+  // that belong to no triangle are removed.
   void renumber(const std::vector<std::int64_t> &number) {
     std::set<Corners> known;
     std::vector<Corners> kept;
@@ -125,7 +125,7 @@ class WallRepair {
     renumber(number);
   }
 
-  // Joins vertices of open sides whose distance is only rounding.
+  // Joins vertices of open sides if only rounding separates them.
   void join_near_points() {
     std::vector<std::int64_t> open;
     for_each_edge(sorted_sides(corners()), [&](const TriangleSide *side, std::size_t n) {
@@ -154,7 +154,7 @@ class WallRepair {
 
   static std::string shortest_of(double x) { return printed("%.2g", x); }
 
-  // Leaves out small islands. Refuses several larger pieces.
+  // Removes small islands. Refuses a surface with several larger pieces.
   void keep_one_piece() {
     const std::int64_t n = made_.triangles.n();
     DisjointSets sets(n);
@@ -203,7 +203,7 @@ class WallRepair {
     leave_out_points();
   }
 
-  // Refuses edges of more than two triangles.
+  // Refuses edges that belong to more than two triangles.
   void refuse_forks() const {
     std::int64_t n_forks = 0, n_most = 0;
     Vector3 place{};
@@ -220,7 +220,7 @@ class WallRepair {
            ": the surface touches itself; repair it, as by the filter Repair non Manifold Edges of MeshLab");
   }
 
-  // Turns all triangles as the first triangle.
+  // Gives all triangles the orientation of the first triangle.
   void turn_alike() {
     const std::int64_t n = made_.triangles.n();
     struct Neighbour {
@@ -249,7 +249,7 @@ class WallRepair {
           stack.push_back(next.triangle);
         } else if (known != wanted) {
           refuse("the surface has one side only, like a Moebius strip, as at " + at(made_.triangles.centre_of(here)) +
-                 ": it is not around blood; make it anew from the segmentation");
+                 ": it does not enclose the blood; make a new surface from the segmentation");
         }
       }
     }
@@ -267,7 +267,7 @@ class WallRepair {
     return longest > 0 ? norm(cross(b - a, c - a)) / longest : 0;
   }
 
-  // Repairs thin triangles: joins the ends of short sides, and gives the longest side the other diagonal.
+  // Repairs thin triangles. Either the ends of a short side are joined, or the longest side is replaced by the other diagonal.
   void repair_thin() {
     least_height_ = thin_share * made_.triangles.size();
     std::int64_t n_repaired = 0;
@@ -281,7 +281,7 @@ class WallRepair {
              (n_repaired == 1 ? "is" : "are") + " repaired");
   }
 
-  // Repairs thin triangles that share no vertex with one that was repaired before. Returns how many.
+  // In one round, repairs thin triangles that have no common vertex. Returns the number of repairs.
   std::int64_t repair_some_thin() {
     std::vector<std::int64_t> thin;
     for (std::int64_t i = 0; i < made_.triangles.n(); ++i)
@@ -332,7 +332,8 @@ class WallRepair {
     for (const std::int64_t id : corner) view(is_locked_)[id] = 1;
   }
 
-  // Returns the triangle that has the side from a to b in this direction, or -1. Either a or b is a vertex of a thin triangle.
+  // Returns the triangle whose side leads from a to b in this direction, or -1. Vertex a or vertex b must belong to a thin
+  // triangle.
   std::int64_t of_side(std::int64_t a, std::int64_t b) const {
     const auto found = around_.find(around_.count(a) > 0 ? a : b);
     for (const std::int64_t i : found->second)
@@ -341,7 +342,7 @@ class WallRepair {
     return -1;
   }
 
-  // Moves the end b of a side to its other end a. Returns whether the surface allows this join.
+  // Moves one end of a side, b, to the other end, a. Returns whether the surface allows the move.
   bool join_side(std::int64_t a, std::int64_t b) {
     const std::int64_t left = of_side(a, b), right = of_side(b, a);
     if (left < 0 || right < 0) return false;
@@ -366,7 +367,8 @@ class WallRepair {
     return true;
   }
 
-  // Gives the quad on both sides of a side its other diagonal. Returns whether the triangles get higher.
+  // Replaces a side by the other diagonal of the quad that its two triangles form. Returns false if the new triangles would not
+  // be higher.
   bool flip_side(std::int64_t i, std::size_t k) {
     const Corners corner = view(corners())[i];
     const std::int64_t a = corner[k], b = corner[(k + 1) % 3], c = corner[(k + 2) % 3];
@@ -387,7 +389,7 @@ class WallRepair {
     return true;
   }
 
-  // A line of open sides that ends where it begins. The triangles are on the left of the line.
+  // A closed line of open sides. The triangles lie to the left of the line.
   using RimLoop = std::vector<std::int64_t>;
 
   std::vector<RimLoop> open_loops() const {
@@ -411,7 +413,7 @@ class WallRepair {
     return loops;
   }
 
-  // Closes holes whose rims are flat. Whether such holes are ends is decided later. Refuses other holes.
+  // Closes holes whose rims are flat. Later steps decide whether the holes are ends. Refuses holes that are not flat.
   void close_holes() {
     std::vector<RimLoop> loops = open_loops();
     std::stable_sort(loops.begin(), loops.end(),
@@ -459,7 +461,7 @@ class WallRepair {
            how_to_close + "; cut an open end flat, as by Plane Cut in the Dynamic Modeler of 3D Slicer");
   }
 
-  // Refuses vertices at which two parts of the surface touch.
+  // Refuses vertices at which two parts of the surface touch each other.
   void refuse_touching_points() const {
     const auto &all = made_.triangles.corners;
     DisjointSets fans(3 * made_.triangles.n());  // the corners of triangles
@@ -488,7 +490,7 @@ class WallRepair {
         ": smooth it a little, or repair it, as by the filter Repair non Manifold Vertices of MeshLab");
   }
 
-  // Turns the whole surface outwards, and says which triangles of the file did not face so.
+  // Turns the whole surface outwards, and reports the triangles of the file that had another orientation.
   void turn_outwards() {
     if (made_.triangles.volume() < 0) {
       for (Corners &triangle : corners()) std::swap(triangle[1], triangle[2]);

@@ -24,12 +24,12 @@ Value product(const Value &a, const Value &b) {
   return c;
 }
 
-// The four barycentric coordinates of a tetrahedron. The last node is the origin, as in the solver.
+// The four barycentric coordinates of a tetrahedron. The last node is the origin of the reference element, as in the solver.
 std::array<Value, 4> tetrahedron_coordinates(const Coordinates &at) {
   return {{{at[0], {1, 0, 0}}, {at[1], {0, 1, 0}}, {at[2], {0, 0, 1}}, {1 - at[0] - at[1] - at[2], {-1, -1, -1}}}};
 }
 
-// The corners that the middle nodes of a quadratic tetrahedron lie between.
+// The two corners beside each middle node of a quadratic tetrahedron.
 constexpr std::size_t edges_of_tetrahedron[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
 Value tetrahedron_shape(std::size_t n_nodes, std::size_t node, const Coordinates &at) {
@@ -71,7 +71,7 @@ Value hexahedron_shape(std::size_t n_nodes, const Coordinates &node, const Coord
     for (std::size_t k = 0; k < 3; ++k) v = product(v, quadratic(node[k], at[k], k));
     return v;
   }
-  // With 20 nodes, a middle node has the factor (1 - x^2) along its edge, and a corner has one more factor.
+  // In a hexahedron with 20 nodes, a middle node has the factor (1 - x^2) along its edge, and a corner has one more factor.
   bool is_middle = false;
   for (std::size_t k = 0; k < 3; ++k) {
     if (node[k] != 0) {
@@ -130,7 +130,7 @@ std::vector<Coordinates> hexahedron_nodes(std::size_t n) {
 
 // ---- Points of integration ----
 
-// Four or fifteen points in a tetrahedron, as the solver has them.
+// Returns the solver's four or fifteen points of integration in a tetrahedron.
 std::vector<ReferencePoint> tetrahedron_gauss(std::size_t n_nodes) {
   if (n_nodes == 4) {
     const double t = (5 - std::sqrt(5.0)) / 20, s = 1 - 3 * t, w = 1.0 / 24;
@@ -180,7 +180,8 @@ std::vector<ReferencePoint> hexahedron_gauss(int n_along) {
   return points;
 }
 
-// The points of a cube, with its sides folded onto the corners of a tetrahedron or a wedge.
+// Returns points of integration in a cube, or in a tetrahedron or a wedge. For a tetrahedron or a wedge, sides of the cube are
+// collapsed.
 std::vector<ReferencePoint> fine_points(Shape shape) {
   std::vector<ReferencePoint> points = hexahedron_gauss(4);
   if (shape == Shape::hexahedron) return points;
@@ -208,7 +209,8 @@ SolverElement element_of(const char *name, std::uint8_t vtk_type, Shape shape, s
   element.gauss = std::move(gauss);
   for (const ReferencePoint &point : element.gauss)
     element.at_gauss.push_back(shapes_at(shape, element.node_places, point.at));
-  // The solver evaluates the gradients of wedges at its first Gauss point only. Linear tetrahedra have the same everywhere.
+  // The solver evaluates the gradients of a wedge only at the first Gauss point. In a linear tetrahedron, the gradients are the
+  // same everywhere.
   if (shape == Shape::wedge)
     for (ShapeFunctions &functions : element.at_gauss) functions.slopes = element.at_gauss[0].slopes;
   element.fine = fine_points(shape);

@@ -30,7 +30,7 @@ namespace riis::program {
 
 namespace {
 
-// The longest edge, in half thicknesses, up to which the solver's sum of delta is within 1 % of the exact sum (docs/export.md).
+// The longest edge, in half thicknesses, for which the solver's sum of delta is within 1 % of the exact sum (docs/export.md).
 constexpr double fine_edges = 0.15;
 
 namespace fs = std::filesystem;
@@ -42,11 +42,12 @@ struct LawWithSpans {
   TimeSpan opening, closing;
 };
 
-// The keys of a cycle. If the cycle has a period, the keys of two periods.
+// The keys of a cycle. A cycle with a period has the keys of two periods.
 class Keys {
  public:
   explicit Keys(const OpeningTable &table) : table_(table) {}
-  // Returns the number of keys, in two periods if there is a period. Two periods contain a span from any key to any other key.
+  // Returns the number of keys. If the cycle has a period, counts the keys of two periods. In two periods, there is a span from
+  // any key to any other key.
   std::size_t size() const { return table_.times.size() * (table_.period > 0 ? 2 : 1); }
   double time(std::size_t i) const { return table_.times[i % n()] + (i < n() ? 0 : table_.period); }
   double opening(std::size_t i) const { return table_.openings[i % n()]; }
@@ -56,8 +57,8 @@ class Keys {
   const OpeningTable &table_;
 };
 
-// Returns the first span from a key with the opening `from` to the next key with the opening `to`. The span starts at the last
-// key with `from` before that key.
+// Returns the span from a key with the opening `from` to a later key with the opening `to`. The span ends at the first key with
+// the opening `to`. The span starts at the last key with the opening `from` before its end.
 std::optional<TimeSpan> way_between(const Keys &keys, double from, double to) {
   std::optional<double> start;
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -85,13 +86,13 @@ LawWithSpans law_of_cycle(const ExportOptions &options) {
   return {law, *opening, *closing};
 }
 
-// Returns the openings of the frames in a span.
+// Returns the openings of the frames in a span of time.
 std::vector<double> frames_of(const OpeningLaw &law, const TimeSpan &span, double step, const char *what) {
   const double length = span.stop - span.start;
   if (step > length * (1 + 1e-9)) {
     refuse_usage("--time-step: " + shortest(step) + " is longer than the " + what + ", " + shortest(length));
   }
-  // If the step divides the span, the small subtractions keep rounding from adding a short step.
+  // If the step divides the span, rounding could add a short step. The small subtractions prevent this.
   const double n_steps = std::max(1.0, std::ceil(length / step * (1 - 1e-12) - 1e-9));
   if (n_steps >= static_cast<double>(most_times)) {
     refuse_usage("--time-step: " + shortest(step) + " makes " + shortest(n_steps + 1) + " frames of the " + what +
@@ -105,7 +106,7 @@ std::vector<double> frames_of(const OpeningLaw &law, const TimeSpan &span, doubl
 
 LawWithSpans law_of_seconds(const ExportOptions &options) {
   auto times = defaults<riis_opening_times>();
-  // The opening ends at time 0, and the closing starts at time 0. This choice makes the times of the four ends of the two ramps
+  // The opening motion ends at time 0, and the closing motion starts at time 0. The start and end times of both motions are then
   // exact.
   times.opening_start = -*options.opening_duration;
   times.opening_duration = *options.opening_duration;
@@ -127,12 +128,13 @@ void warn_of_jump(const char *from, double before, const char *to, double after)
        " begins at " + shortest(after));
 }
 
-// Frames are one time step apart. The last frame is at the end of the span, so the last step may be shorter.
+// Two neighbouring frames are one time step apart. The last frame is at the end of the span, so that the last step may be
+// shorter.
 UrisMotion uris_motion_of(const ExportOptions &options) {
   const LawWithSpans motion = options.cycle.empty() ? law_of_seconds(options) : law_of_cycle(options);
   UrisMotion frames{frames_of(motion.law, motion.opening, options.time_step, "opening"),
                     frames_of(motion.law, motion.closing, options.time_step, "closing")};
-  // A cycle tells the state at the beginning of the run.
+  // The cycle tells whether the valve is closed or open at the beginning of the run.
   const double middle = (frames.opening.back() + frames.closing.back()) / 2;
   frames.starts_closed =
       options.starts.empty() ? options.cycle.empty() || motion.law.at(0) <= middle : options.starts == "closed";
@@ -159,7 +161,7 @@ void check_writable(const std::string &option, const std::string &path, const st
   refuse_folder(option, path, "the folder " + folder + " cannot be written to: " + system_text(errno));
 }
 
-// Refuses a folder that WholeFolder would refuse. Changes nothing.
+// Refuses a folder that WholeFolder would also refuse, but changes nothing on the disc.
 void check_whole_folder(const std::string &given, const std::string &option) {
   const std::string path = without_last_slashes(given);
   std::error_code error;
@@ -176,11 +178,11 @@ void check_whole_folder(const std::string &given, const std::string &option) {
   check_writable(option, path, path);
 }
 
-// A folder that receives its files only when all files are written. Until then the files are in a folder inside it whose name
-// begins with a dot. If take_place() was not called, the destructor removes everything.
+// A folder that receives its files only after all of them are written. While files are being written, they are in a hidden folder
+// inside the folder.
 class WholeFolder {
  public:
-  // Makes the folder, or uses an empty one. The Refusal names the option.
+  // Makes a new folder, or uses an empty folder. A Refusal names the option.
   WholeFolder(const std::string &path, const std::string &option)
       : path_(without_last_slashes(path)), unfinished_(path_ + "/.riis-" + std::to_string(getpid()) + ".tmp") {
     check_whole_folder(path_, option);
@@ -201,7 +203,7 @@ class WholeFolder {
   WholeFolder(const WholeFolder &) = delete;
   WholeFolder &operator=(const WholeFolder &) = delete;
 
-  // Returns the path at which the caller must write the file with this name. The name must be new.
+  // Returns the path at which the caller must write a file with this name. The name must be new.
   std::string new_file(const std::string &name) {
     names_.push_back(name);
     return unfinished_ + "/" + name;
@@ -222,7 +224,7 @@ class WholeFolder {
   std::vector<std::string> names_;
 };
 
-// A file that is written piece by piece, because a long motion does not fit in memory.
+// A file that is written in parts, because a long motion does not fit in the memory.
 class TextFile {
  public:
   explicit TextFile(std::string path) : path_(std::move(path)), file_(path_) { check_written(); }
@@ -249,7 +251,7 @@ class TextFile {
 void append_point(const std::vector<double> &xyz, std::int64_t vertex, std::string &text) {
   char digits[32];
   for (std::int64_t k = 0; k < 3; ++k) {
-    // to_chars gives the shortest text that reads back as the same double.
+    // to_chars gives the shortest text from which the same double can be read.
     text.append(digits, std::to_chars(digits, digits + sizeof digits, view(xyz)[3 * vertex + k]).ptr);
     text += k < 2 ? ' ' : '\n';
   }
@@ -282,8 +284,8 @@ std::string vtu_text(const std::vector<double> &xyz, const UrisLeaflet &leaflet)
          "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-// Stops the export between two frames if a signal waits. The signal ends the process once the files are removed, so the message
-// is never printed.
+// Stops the export after a frame if a signal is waiting. The message is never printed, because the signal ends the process after
+// the files are removed.
 void stop_if_interrupted() {
   if (UnbrokenWrite::has_signal()) refuse_data("riis export: interrupted, and nothing is left");
 }
@@ -306,7 +308,7 @@ void write_frames(UrisLeaflets &leaflets, const std::vector<double> &openings, c
   for (TextFile &file : files) file.close();
 }
 
-// Prints the estimated size of all frames, from that of the first one. Small exports have no line.
+// Prints the estimated size of all frames. The first frame's size gives the estimate. For a small export, nothing is printed.
 void announce(const ExportOptions &options, const UrisMotion &motion, const UrisLeaflets &leaflets,
               const std::vector<double> &first) {
   constexpr double least_announced = 1e7;
@@ -343,15 +345,15 @@ void write_export(const ExportOptions &options, const UrisMotion &motion, UrisLe
   folder.take_place();
 }
 
-// Returns a text whose characters may stand in a name. A dash is also replaced, because two dashes in a row would end the comment
-// in the XML.
+// Returns the text with only the characters that are allowed in a name. A dash is replaced, because two dashes in a row would end
+// the comment in the XML file.
 std::string as_name(std::string text) {
   for (char &c : text) c = c != '-' && is_prefix(std::string(1, c)) ? c : '_';
   return text;
 }
 
-// Returns the name of the valve in the solver's input. The solver also uses the name for arrays and files, so two valves of one
-// run need two names. The folders of the valves differ, so the name is the folder's path.
+// Returns the name of the valve in the solver's input. The solver also uses this name for arrays and files, so two valves in one
+// run need different names. The path of the folder gives the name, because the valves of a run have different folders.
 std::string block_name(const ExportOptions &options) {
   if (!options.name.empty()) return options.name;
   constexpr std::size_t longest = 64;
@@ -366,9 +368,9 @@ std::string title_of(const ExportOptions &options) {
   return is_valve_file(options.valve) ? as_name(fs::path(options.valve).stem().string()) : options.valve;
 }
 
-// Returns the line about the units of the block. Two dashes would end the comment in the XML.
+// Returns the line of the block about units. Two dashes in a row would end the comment in the XML file.
 std::string text_of_units(const ExportOptions &options) {
-  if (!options.unit) return "units are taken as g, cm and s, because none was given";
+  if (!options.unit) return "the units are assumed to be g, cm and s, because no unit was given";
   const std::string units = "units are g, cm and s: R is in g/(cm s)";
   if (options.to_solver == 1) return units;
   return units + "\n     lengths were converted from " + name_of(*options.unit) + ": in its Add_mesh, the mesh in " +

@@ -15,7 +15,8 @@
 namespace riis::program {
 namespace {
 
-// Writes arrays for uris_flow.py to a temporary file, in NumPy's format .npy: version 1.0, by rows, in this machine's byte order.
+// Writes arrays for uris_flow.py to a temporary file. The format is NumPy's .npy, version 1.0, with the rows one after the other,
+// in this machine's byte order.
 class Arrays {
  public:
   Arrays() { check_written(file_.get() != nullptr); }
@@ -35,7 +36,7 @@ class Arrays {
       n *= static_cast<std::size_t>(length);
     }
     std::string head = std::string("{'descr': '=") + type + "', 'fortran_order': False, 'shape': (" + text + "), }";
-    // The numbers begin at a multiple of 64 bytes of the array. Ten bytes come before the head.
+    // In the file, the numbers of an array begin at a multiple of 64 bytes. The ten bytes before the array's head are included.
     head.append(63 - (10 + head.size()) % 64, ' ');
     head += '\n';
     const char start[] = {'\x93', 'N', 'U', 'M', 'P', 'Y', 1, 0, static_cast<char>(head.size()), 0};
@@ -44,7 +45,7 @@ class Arrays {
     write(numbers, bytes * n);
   }
 
-  // Returns the file, at its beginning.
+  // Moves to the beginning of the file, and returns the file.
   std::FILE *file() {
     check_written(std::fflush(file_.get()) == 0);
     std::rewind(file_.get());
@@ -118,7 +119,7 @@ ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances,
     if (step > 0) progress.begin(static_cast<std::size_t>(std::min(step, 99)));
   };
   const std::string python = python_of_user();
-  // The current folder is left out of Python's path, because its files may have the names of modules.
+  // Python must not look for modules in the current folder, because a file there may have the name of a module.
   const std::string script = std::string("import sys; del sys.path[0]\n") + uris_flow_script;
   const ProgramEnd end = run_program({python, "-c", script}, arrays.file(), read);
   if (end.error != 0) throw NoFlow{python + " cannot be run: " + system_text(end.error)};

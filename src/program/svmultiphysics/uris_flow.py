@@ -24,15 +24,15 @@ except ImportError as error:
         raise
     sys.exit(print("lacks", (error.name or "scipy").partition(".")[0]))
 
-# The share of R / eps^2 that resists the flow everywhere. This share replaces the inertia. Otherwise the equations outside the
-# band would have almost no velocity terms. It adds a thousandth to the drop.
+# This share of R / eps^2 resists the flow everywhere. It takes the place of the inertia. Without it, the equations outside the
+# band would have almost no velocity terms. The share adds a thousandth to the drop.
 SHARE_EVERYWHERE = 1e-4
 # The constant of the solver's stabilisation.
 VISCOUS_CONSTANT = 36
-# The equations are solved by parts of about this many nodes. If the iterations fail, larger parts are tried.
+# The equations are solved in parts of about this many nodes. If the iterations fail, larger parts are tried.
 SIZES_OF_PARTS = 150, 1000
 TOLERANCE, RESTART, MOST_RESTARTS = 1e-7, 80, 8
-# Elements are integrated in chunks of about this many values of shape functions, which take 100 MB.
+# The integrals over elements are computed in chunks of about this many values of shape functions. One chunk takes 100 MB.
 VALUES_IN_CHUNK = 1 << 20
 
 
@@ -64,7 +64,7 @@ def faces_of(places):
     """Returns each face's nodes and the number of corners of an element, from the places of its nodes."""
     x, y, z = places.T
     n_corners = {4: 4, 10: 4, 6: 6}.get(len(places), 8)
-    # Each of these functions vanishes on one face.
+    # Each of the following functions is zero on one face.
     of_faces = {4: (x, y, z, 1 - x - y - z), 6: (x, y, 1 - x - y, 1 - z, 1 + z),
                 8: (1 - x, 1 + x, 1 - y, 1 + y, 1 - z, 1 + z)}[n_corners]
     return [np.flatnonzero(abs(function) < 1e-12) for function in of_faces], n_corners
@@ -79,7 +79,8 @@ def region_of(problem):
     position[nodes] = np.arange(n)
     elements = position[problem.elements]
     faces, n_corners = faces_of(problem.places)
-    # All faces of the mesh whose corners belong to the region. Three sorted corners are enough to tell faces apart.
+    # Finds all faces of the mesh whose corners belong to the region. The three smallest node numbers of a face suffice to tell
+    # faces apart.
     keys, owners, numbers = [], [], []
     for number, face in enumerate(faces):
         corners = elements[:, face[face < n_corners]]
@@ -91,7 +92,8 @@ def region_of(problem):
     owners, numbers = np.concatenate(owners), np.concatenate(numbers)
     _, same = np.unique(np.concatenate(keys), return_inverse=True)
     inside = is_inside[owners]
-    # The region ends at a face with one element inside: at a wall if the face has no other element, else at a cut.
+    # The region ends at a face that has only one element of the region. If the face has no other element, it is on a wall,
+    # otherwise on a cut.
     is_end = inside & (np.bincount(same, inside)[same] == 1)
     is_last = np.bincount(same)[same] == 1
     is_wall, is_cut = np.zeros(n, bool), np.zeros(n, bool)
@@ -103,13 +105,13 @@ def region_of(problem):
         is_cut[cut] = True
         starts.append(np.repeat(cut[:, 0], len(face)))
         ends.append(cut.ravel())
-    # Each connected piece of the cut belongs to the side of most of its nodes.
+    # A connected piece of the cut belongs to the side to which most of its nodes belong.
     starts, ends = np.concatenate(starts), np.concatenate(ends)
     joins = sparse.coo_matrix((np.ones(len(starts)), (starts, ends)), shape=(n, n))
     n_pieces, piece = csgraph.connected_components(joins, directed=False)
     size = np.bincount(piece, is_cut, n_pieces)
     balance = np.bincount(piece, is_cut * np.where(problem.is_before[nodes], 1, -1), n_pieces)
-    # A piece with many nodes on each side leads around the valve.
+    # A piece of the cut with many nodes on both sides leads around the valve.
     if (2 * abs(balance) < size).any() or not (balance > 0).any() or not (balance[size > 0] <= 0).any():
         return None
     return Region(problem.xyz[nodes], elements[is_inside], is_wall, is_cut & ~is_wall & (balance[piece] > 0))
@@ -161,7 +163,7 @@ def equations_of(problem, region):
         for i in range(3):
             add(i, i, laplacian + mass)
             for k in range(3):
-                # The transposed part of the viscous stress, and the stabilisation of the divergence.
+                # Adds the transposed part of the viscous stress, and the stabilisation of the divergence.
                 add(i, k, integral(w * mu, gradient[k], gradient[i]) + integral(w * tau_div, gradient[i], gradient[k]))
             add(i, 3, -integral(w, gradient[i], values))
             add(3, i, integral(w, values, gradient[i]) + integral(w * tau * unit * drag, gradient[i], values))
@@ -213,7 +215,7 @@ def solve(matrix, right, part):
         matrix, right, M=linalg.LinearOperator(matrix.shape, factors.solve), restart=RESTART, maxiter=MOST_RESTARTS,
         callback=lambda residual: tell(50 + 50 * min(1, math.log(max(residual, TOLERANCE)) / math.log(TOLERANCE))),
         callback_type="pr_norm", **tolerance)
-    # The residual of the equations themselves, as a NaN is also a failure.
+    # The residual is computed here again, so that a NaN also counts as a failure.
     is_solved = np.linalg.norm(matrix @ solution - right) <= 1e-6 * np.linalg.norm(right)
     return solution if is_solved else None
 

@@ -19,11 +19,12 @@
 namespace riis::program {
 namespace {
 
-// The solver's bands of pressure end at this many half thicknesses.
+// The end of the bands in which the solver measures pressures, in half thicknesses.
 constexpr double band_end = 5;
-// The share of (R / eps) u that is enough, and the largest half thickness that is tried, over the given one.
+// The least sufficient drop, as a share of (R / eps) u. The second number is the largest half thickness that is tried, divided by
+// the given half thickness.
 constexpr double enough = 0.9, most_thickness = 2;
-// A drop above the inverse of this share of (R / eps) u is no forecast.
+// A drop is no forecast if it exceeds (R / eps) u by more than a small share.
 constexpr double least_of_sensible = 0.95;
 
 // Returns whether two corners are the ends of an edge.
@@ -64,9 +65,11 @@ class Forecaster {
       find_drop(motion.closing.back());
     } catch (const NoFlow &no_flow) {
       say("expected drop: not computed, because " + no_flow.reason);
-      warn("the drop across the closed valve was not computed, nor whether the leaflets separate two sides of " +
-           options_.mesh + ", because " + no_flow.reason +
-           "; it needs NumPy and SciPy (Debian: python3-scipy), and RIIS_PYTHON names the Python that has them");
+      warn(
+          "the drop across the closed valve was not computed, and it is not known whether the leaflets separate two "
+          "sides of " +
+          options_.mesh + ", because " + no_flow.reason +
+          "; it needs NumPy and SciPy (Debian: python3-scipy), and RIIS_PYTHON names the Python that has them");
     }
     const std::size_t n = motion.opening.size() + motion.closing.size();
     StepProgress progress("reading frames as the solver does", n, options_.quiet);
@@ -125,7 +128,7 @@ class Forecaster {
     say("each marking of the closed valve measures " +
         shown(static_cast<double>(distances.n_in_box) * static_cast<double>(n_triangles)) + " distances, from " +
         counted(distances.n_in_box, "node") + " of its box to every triangle");
-    say("it opens once the pressure before it exceeds the pressure behind it");
+    say("the valve opens when the pressure before it exceeds the pressure behind it");
     say("  before: " + text_of(before));
     say("  behind: " + text_of(behind));
   }
@@ -135,11 +138,11 @@ class Forecaster {
     if (before.n_nodes == 0)
       refuse_motion("close", "no node of the solver's box is before the open leaflets at a distance of " +
                                  in_mesh(half_thickness_) + " or more, where the solver takes the mean flow");
-    say("it closes once the mean flow before the open leaflets reverses");
+    say("the valve closes when the mean flow before the open leaflets reverses");
     say("  before: " + text_of(before));
   }
 
-  // The expected drop over (R / eps) u, if the equations were solved.
+  // The ratio of the expected drop to (R / eps) u. The drop is valid if the equations were solved.
   struct Expected : ClosedDrop {
     double drop = 0, area = 0;
   };
@@ -160,7 +163,8 @@ class Forecaster {
     warn_of_negative_shapes(distances);
     const std::vector<double> near =
         near_nodes(std::max(band_end * half_thickness_, most_thickness * half_thickness_ + 2 * median_edge_));
-    // The export of a larger half thickness has a larger box, and the sides must be known up to this reach.
+    // With a larger half thickness, the export has a larger box. The signs of distances must be known up to the reach of the
+    // larger box.
     const SolverDistances wide = solver_distances(mesh_, leaflets_, vertices_, true, half_thickness_,
                                                   band_end * most_thickness * half_thickness_ + 4 * median_edge_);
     const Expected expected = expected_at(half_thickness_, distances, wide, near);
@@ -199,14 +203,14 @@ class Forecaster {
     warn("svMultiPhysics will drop " + shown(expected.drop) + " of (R/eps) u across the closed valve; " + needed);
   }
 
-  // Says how stiff the resistance makes the equations.
+  // Returns a sentence about how stiff the resistance makes the equations.
   std::string text_of_stiffness() const {
     const double stiffness = options_.resistance * options_.time_step / (options_.density * half_thickness_);
     return "With --resistance " + shown(options_.resistance) + ", R dt/(rho eps) is " + shown(stiffness) +
            ", but about 1 to 1,000 in flows of blood: look at the unit of --resistance";
   }
 
-  // Finds the half thickness by steps of a quarter, and then by halving the last step twice.
+  // Finds the half thickness in steps of a quarter. The last step is halved twice for a finer result.
   std::string thickness_for(const SolverDistances &wide, const std::vector<double> &near) {
     bool are_found = true;
     const auto is_enough = [&](double factor) {
@@ -232,9 +236,9 @@ class Forecaster {
            text_of_finer_mesh(near, above);
   }
 
-  // Returns the edges that are as good as a half thickness larger by this factor, because the drop depends on the ratio of edge
-  // and half thickness. Elements become shorter by the same length everywhere, as with size fields of different edges in the
-  // band.
+  // Returns the shorter edge length that has the same effect as a half thickness times `factor`. The drop depends on the ratio of
+  // edge and half thickness. All elements are assumed to become shorter by the same length, as with size fields of different
+  // edges in the band.
   std::string text_of_finer_mesh(const std::vector<double> &near, double factor) const {
     std::vector<double> lengths, volumes;
     const SolverElement &element = *mesh_.element;
@@ -255,7 +259,7 @@ class Forecaster {
     double n_nodes = 0;
     for (const double of_node : mesh_.node_volume) {
       const double of_edges = edge * std::cbrt(std::max(of_node, 0.0) / volume);
-      // A node beside the wall has a small volume, but the edges of its neighbours.
+      // A node at the wall has a small volume, but its edges are as long as those of its neighbours.
       const double ratio = std::max(of_edges, edge) / (std::max(of_edges, edge) - shorter);
       n_nodes += ratio * ratio * ratio;
     }
@@ -263,21 +267,22 @@ class Forecaster {
            " times as long as now, in about " + rounded(n_nodes) + " nodes";
   }
 
-  // Returns a count with two digits that are not 0.
+  // Returns a count that is rounded to two significant digits.
   static std::string rounded(double count) {
     const double unit = power_of_ten(std::max(0, decimal_exponent(count) - 1));
     return grouped(static_cast<std::int64_t>(std::llround(count / unit) * std::llround(unit)));
   }
 
-  // The stabilisation can make the drop exceed (R / eps) u a little. A drop far above this value, or below 0, is no forecast.
+  // Because of the stabilisation, the drop can exceed (R / eps) u a little. A drop that is negative or much larger than (R / eps)
+  // u is no forecast.
   static bool is_sensible(double drop) { return drop > 0 && drop <= 1 / least_of_sensible; }
 
-  // Returns a length as the user gives it, in the unit of the mesh.
+  // Returns a length in the unit of the mesh, as the user would write it.
   std::string in_mesh(double length) const {
     return shown(length / options_.to_solver) + (options_.unit ? std::string(" ") + name_of(*options_.unit) : "");
   }
 
-  // Warns of resistance far from the valve, where interpolated distances are negative.
+  // Warns of resistance far from the valve, which negative interpolated distances cause.
   void warn_of_negative_shapes(const SolverDistances &distances) {
     const SolverElement &element = *mesh_.element;
     if (element.n_nodes == element.n_corners) return;
@@ -304,7 +309,7 @@ class Forecaster {
            ',' + shortest(exact_area(mesh_, leaflets_.surface(), near, half_thickness_, options_.n_threads, true));
     for (const SolverBand *band : {&before, &behind})
       row += ',' + std::to_string(band->n_nodes) + ',' + shortest(band->volume);
-    // The first frame of a motion is at rest.
+    // In the first frame of a motion, the valve is at rest.
     const SolverSpeeds speeds = frame == 0 ? SolverSpeeds{}
                                            : solver_speeds(mesh_, leaflets_, distances, vertices_, vertices_before,
                                                            options_.time_step, half_thickness_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: an export and the mesh of the solver's run. Out: what svMultiPhysics will do with the export in this mesh, as lines for the
-// solver's input and as a table of frames.
+// In: an export and the mesh of the solver's run. Out: a forecast of what svMultiPhysics will do with the export in this mesh.
+// The forecast consists of lines for the solver's input and a table of frames.
 #pragma once
 
 #include <string>
@@ -18,14 +18,14 @@ struct UrisForecast {
   std::string failure;  // why the drop was not found; "" if it was found
 };
 
-// Refuses an export whose valve can never open or never close in this mesh. Warns of a drop that is too small.
+// Refuses an export if its valve can never open or never close in this mesh. Warns of a drop that is too small.
 UrisForecast forecast_of(const ExportOptions &options, const UrisMotion &motion, UrisLeaflets &leaflets);
 
-// The drop across a closed valve as svMultiPhysics computes it (docs/export.md). A Python with NumPy and SciPy solves the
-// equations, by uris_flow.py, which the program has inside.
-// In: the solver's delta in a mesh. Out: the drop over (R / eps) u.
+// Finds the drop across a closed valve as svMultiPhysics computes it (docs/export.md). uris_flow.py solves the equations in a
+// Python with NumPy and SciPy. The program contains the text of uris_flow.py.
+// In: the solver's delta in a mesh. Out: the ratio of the drop to (R / eps) u.
 //
-// The numbers of the solver's input that the drop depends on, in the solver's units.
+// The numbers of the solver's input on which the drop depends, in the solver's units.
 struct SolverFluid {
   double resistance, density, viscosity, time_step;
 };
@@ -36,20 +36,20 @@ struct ClosedDrop {
   double flow = 0;            // the flow for a drop of R / eps, which has the unit of an area
 };
 
-// Python could not compute the flow. `reason` has the reason, such as "python3 lacks scipy".
+// Thrown if Python could not compute the flow. `reason` has the reason, such as "python3 lacks scipy".
 struct NoFlow {
   std::string reason;
 };
 
-// Solves the solver's own discrete equations for a slow and steady flow near the closed valve: equal-order elements, its
-// stabilisation, and no slip at the mesh's boundary. `near` has the exact distance of each node or infinity. Nodes up to `reach`
-// belong to the region. `sides` has distances with the right sign up to that reach, also outside the solver's box. Counts steps
-// on the terminal, unless `quiet`. Throws NoFlow.
+// Solves the solver's own discrete equations for a slow and steady flow near the closed valve. The elements have equal order, the
+// solver's stabilisation is used, and there is no slip at the mesh's boundary. `near` has the exact distance of each node, or
+// infinity. The region consists of the nodes up to the distance `reach`. `sides` has distances whose signs are right up to the
+// distance `reach`, also outside the solver's box. Without `quiet`, counts steps on the terminal. Throws NoFlow.
 ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances, const SolverDistances &sides,
                        const std::vector<double> &near, double reach, double half_thickness, const SolverFluid &fluid,
                        bool quiet);
 
-// The text of uris_flow.py. CMake writes this script into the program, so the program needs no path to the script.
+// The text of uris_flow.py. CMake writes the script into the program, so the program needs no path to the script.
 extern const char uris_flow_script[];
 
 }  // namespace riis::program

@@ -18,7 +18,7 @@ namespace riis::program {
 
 namespace {
 
-// The largest number of triangles. With more, a text file is too large to be useful, even with few frames.
+// The largest number of triangles. With more triangles, a text file would be too large to be useful, even with few frames.
 constexpr std::int64_t most_triangles = 2000000;
 
 template <class Use>
@@ -71,7 +71,7 @@ void UrisLeaflets::open_to(double opening) {
   check(riis_surface_update(surface_, valve_, nullptr), subject_);
 }
 
-// Returns the triangles that have an area in all frames. A triangle without area has no normal, so the solver would divide by
+// Returns the triangles that have an area in all frames. A triangle without area has no normal, and the solver would divide by
 // zero.
 std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const UrisMotion &motion) {
   struct Seen {
@@ -143,8 +143,8 @@ void UrisLeaflets::part(const ExportOptions &options) {
   }
 }
 
-// Turns the triangles of the ring so that their normals point away from the flow. The solver then counts the nodes inside the
-// ring as before the valve, as far as they are upstream.
+// Turns the triangles of the ring so that their normals point against the flow. To the solver, upstream nodes inside the ring are
+// then before the valve.
 void UrisLeaflets::turn_ring(double opening) {
   const std::vector<double> xyz = vertices_at(opening);
   const auto middle_of = [&](const Corners &corners) {
@@ -170,8 +170,8 @@ void UrisLeaflets::turn_ring(double opening) {
   }
 }
 
-// Adds the triangles that widen the box. The face "box" is the last: if several triangles are equally near, the solver takes the
-// first.
+// Adds the triangles that widen the box. The face "box" is the last face, because of several equally near triangles the solver
+// takes the first.
 void UrisLeaflets::add_box(const UrisMotion &motion) {
   std::vector<Corners> triangles;
   for (const auto &[corners, leaflet] : net_.triangles()) triangles.push_back(corners);
@@ -188,8 +188,8 @@ void UrisLeaflets::add_box(const UrisMotion &motion) {
 
 namespace {
 
-// The solver widens its box by solver_share. The solver's pressure bands end at end_of_bands half thicknesses. The additional
-// 1e-6 keeps a node at the end of the bands inside the box.
+// The solver widens its box by the factor solver_share. The bands in which the solver measures pressures end at end_of_bands half
+// thicknesses. With the factor 1 + 1e-6, nodes at the end of the bands are inside the box.
 constexpr double solver_share = 0.1, end_of_bands = 5 * (1 + 1e-6);
 
 Box box_of(const std::vector<Corners> &triangles, const std::vector<double> &xyz) {
@@ -238,7 +238,7 @@ void UrisBox::append_nodes(std::vector<double> &xyz) const {
       const double sum = sum_of(triangles_[chosen_[axis]], xyz, k), at = sum / 3;
       const double half = (box.upper[k] - box.lower[k]) / 2,
                    wanted = std::max(half, (half + end_of_bands * half_thickness_) / (1 + 2 * solver_share));
-      // The triangle extends equally far in both directions along its axis. The triangle also has a width across the axis, so
+      // Along its axis, the added triangle extends equally far in both directions. Across the axis, the triangle has a width, so
       // that its area is not 0.
       const double reach = wanted + std::abs(at - middle(box, k));
       const double across = k == (axis + 1) % 3 ? half_thickness_ : 0;
@@ -279,7 +279,7 @@ void FinerTriangles::measure(const std::vector<double> &xyz) {
 }
 
 bool FinerTriangles::halve_longer(double length) {
-  // The vertex in the middle of each edge that is halved, or -1 for other edges.
+  // For each edge that is halved, the number of the vertex in the middle of the edge. For other edges, -1.
   std::vector<std::int64_t> middle;
   for (const Edge &edge : edges_) {
     middle.push_back(edge.length > length ? n_given_ + view(middles_).size() : -1);
@@ -305,8 +305,7 @@ bool FinerTriangles::halve_longer(double length) {
       add(corners[k], middles[k], corners[other]);
       add(middles[k], corners[next], corners[other]);
     } else if (n_cut == 2) {
-      // The edge from a to b is not halved. There are two diagonals. The shorter diagonal ends in the middle of the longer halved
-      // edge.
+      // Two edges are halved, and the edge from a to b is not.
       const std::size_t k = whole, next = (k + 1) % 3, other = (k + 2) % 3;
       const std::int64_t a = corners[k], b = corners[next], c = corners[other], bc = middles[next], ca = middles[other];
       add(ca, bc, c);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: a valve, and the openings of its frames. Out: leaflets whose nodes and triangles are the same in all frames, and a face
-// that widens the solver's box.
+// that enlarges the solver's box.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace riis::program {
 
-// Moving triangles that are cut into smaller triangles. The cuts are the same at all times.
+// Moving triangles, which are cut into smaller triangles. The cuts are the same at all times.
 
 using Corners = std::array<std::int64_t, 3>;
 using Point = std::array<double, 3>;
@@ -27,13 +27,14 @@ inline Point vertex_of(const std::vector<double> &xyz, std::int64_t vertex) {
 }
 inline Point difference(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline double product(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-// Returns twice the area of a triangle, times its normal.
+// Returns the normal of a triangle. The normal's length is twice the triangle's area.
 inline Point twice_area(const Point &a, const Point &b, const Point &c) {
   const Point u = difference(b, a), v = difference(c, a);
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-// Triangles whose corners are given vertices and middles of edges. A middle moves with the two ends of its edge.
+// Triangles whose corners are the given vertices and the middles of edges. The middle of an edge moves with the two ends of the
+// edge.
 class FinerTriangles {
  public:
   struct Triangle {
@@ -44,17 +45,17 @@ class FinerTriangles {
   FinerTriangles(std::int64_t n_given, std::vector<Triangle> triangles);
 
   const std::vector<Triangle> &triangles() const { return triangles_; }
-  // Turns a triangle over.
+  // Reverses the orientation of a triangle.
   void turn(std::size_t triangle) { std::swap(triangles_[triangle].corners[0], triangles_[triangle].corners[1]); }
-  // Returns the length of the longest edge, from the measurements since the last cut.
+  // Returns the length of the longest edge, as measured since the last cut.
   double longest_edge() const;
 
-  // Appends the middles of edges to the given vertices xyz(3, n_given).
+  // Appends the middles of the edges to the given vertices, xyz(3, n_given).
   void append_middles(std::vector<double> &xyz) const;
-  // Measures all edges. `xyz` has all vertices at one time. The length of an edge is the largest one over all times.
+  // Measures all edges. `xyz` has all vertices at one of the times. The length of an edge is its largest length at any time.
   void measure(const std::vector<double> &xyz);
-  // Halves once each edge whose measured length exceeds `length`. Returns true if there was such an edge. Triangles that share an
-  // edge also share its middle, so no gap opens between them.
+  // Halves every edge whose measured length exceeds `length`. Returns whether an edge was halved. Triangles with a common edge
+  // also share the middle of the edge, so no gap opens between them.
   bool halve_longer(double length);
 
  private:
@@ -77,26 +78,27 @@ class FinerTriangles {
   std::vector<Corners> triangle_edges_;
 };
 
-// svMultiPhysics searches a mesh only in the box of the valve's nodes, widened by a tenth. The box of a flat valve is too thin:
-// it excludes nodes that should be marked, and parts of the bands in which the solver measures pressures.
-// In: the triangles. Out: three more triangles, which widen the box.
+// svMultiPhysics searches a mesh only in the box of the valve's nodes, widened by a tenth. The box of a flat valve is too thin.
+// The flat box leaves out nodes that should be marked, and parts of the bands in which the solver measures pressures.
+// In: the triangles. Out: three additional triangles, which enlarge the box.
 
-// Returns a power of two to whose multiples coordinates are rounded. `largest` is the largest coordinate. The sum of three such
-// coordinates is exact, even in a box about ten times as large.
+// Returns a power of two, to whose multiples coordinates are rounded. `largest` is the largest coordinate. The sum of three
+// rounded coordinates is then exact, even in a box that is about ten times as large.
 double uris_grid(double largest);
 
-// Three triangles, one along each axis. The middle of each added triangle is exactly the middle of a triangle of the valve, so
-// the solver never finds the added triangle nearer. The corners extend beyond the valve's box at both ends.
+// Three triangles, one along each axis. The middle of each added triangle is also the middle of a triangle of the valve. To the
+// solver, an added triangle is therefore never nearer than the triangle of the valve. Two corners of each triangle lie outside
+// the valve's box, at both ends.
 class UrisBox {
  public:
   static constexpr std::int64_t n_nodes = 9;
 
-  // For each axis, chooses a triangle of the valve near the middle of the box in the first and the last frame. Coordinates must
-  // be multiples of `grid`.
+  // For each axis, chooses a triangle of the valve that is near the middle of the box in the first and in the last frame. All
+  // coordinates must be multiples of `grid`.
   UrisBox(std::vector<Corners> triangles, const std::vector<double> &first, const std::vector<double> &last,
           double half_thickness, double grid);
 
-  // Appends to a frame the three corners of each axis's triangle.
+  // For each axis, appends the three corners of the added triangle to a frame.
   void append_nodes(std::vector<double> &xyz) const;
 
  private:
@@ -106,7 +108,7 @@ class UrisBox {
 };
 
 // The openings of the frames. The solver plays the first list from the start of opening, and the second list from the start of
-// closing. Each time step plays one frame.
+// closing. The solver plays one frame in each time step.
 struct UrisMotion {
   std::vector<double> opening, closing;
   bool starts_closed = true;
@@ -118,26 +120,25 @@ struct UrisLeaflet {
   std::vector<Corners> triangles;   // corners as numbers of the leaflet's own nodes, from 0
 };
 
-// If the unit of the mesh is known, lengths are in the solver's unit, cm.
+// If the unit of the mesh is known, lengths are in cm, the unit of the solver.
 class UrisLeaflets {
  public:
-  // Evaluates all frames, and cuts the triangles as the options require.
+  // Computes all frames, and cuts the triangles as the options require.
   UrisLeaflets(const ExportOptions &options, const UrisMotion &motion);
 
   const riis_valve *valve() const { return valve_.get(); }
-  // Returns the library's surface at the last opening of vertices_at.
+  // Returns the library's surface at the opening of the last call of vertices_at.
   const riis_surface *surface() const { return surface_.get(); }
   const std::vector<UrisLeaflet> &leaflets() const { return leaflets_; }
   // Returns all vertices at an opening, xyz(3, n). The coordinates are multiples of a power of two, so that the solver's sums of
-  // coordinates are exact.
+  // coordinates have no rounding error.
   std::vector<double> vertices_at(double opening);
-  // Returns the direction of forward flow. This direction is the mean normal of the leaflets in the first frame, without the
-  // housing.
+  // Returns the direction of forward flow: the mean normal of the leaflets in the first frame. The housing does not count.
   const std::array<double, 3> &forward() const { return forward_; }
   double half_thickness() const { return half_thickness_; }
   double longest_edge() const { return longest_edge_; }
   std::int64_t n_triangles() const;
-  // Returns the number of triangles left out because they have no area in some frame.
+  // Returns the number of triangles that were left out because they have no area in some frame.
   std::int64_t n_left_out() const { return n_left_out_; }
 
  private:

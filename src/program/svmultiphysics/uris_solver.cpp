@@ -17,13 +17,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The solver widens its box by this share on each side, and takes this many closed half thicknesses as the distance of nodes
-// outside it.
+// The share by which the solver widens its box on each side. The distance of nodes outside the box, in half thicknesses.
 constexpr double widening = 0.1, far_in_half_thicknesses = 1e6;
 
 // ---- The nearest middle of a triangle ----
 
-// A tree over points. The tree finds the nearest point, and the first of equally near points.
+// A tree over points. The tree finds the point nearest to a place. Of several equally near points, the tree finds the first.
 class PointTree {
  public:
   explicit PointTree(std::vector<Point> points) : points_(std::move(points)), order_(points_.size()) {
@@ -112,8 +111,8 @@ double determinant(const double m[3][3]) {
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-// The solver turns tetrahedra and wedges that are inside out by swapping nodes 0 and 1. The swap changes neither points nor
-// weights of a tetrahedron, and only changes the determinant's sign.
+// If a tetrahedron or a wedge is inside out, the solver swaps its nodes 0 and 1. In a tetrahedron, the swap changes the sign of
+// the determinant, but no points and no weights.
 void turn_elements(SolverMesh &mesh, const std::string &path) {
   const SolverElement &element = *mesh.element;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
@@ -162,7 +161,8 @@ SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path, do
   check(riis_vtk_mesh_copy_cells(file, n_cells, offsets.data(), types.data(), 0, nullptr), path);
   resize(nodes, offsets.back());
   check(riis_vtk_mesh_copy_cells(file, n_cells, nullptr, nullptr, offsets.back(), nodes.data()), path);
-  // VTK's types of points, lines and faces. Such cells bound the volume, and the solver has them in other files.
+  // The types of VTK for points, lines and faces. Points, lines and faces bound the volume, and the solver reads them from other
+  // files.
   constexpr std::uint8_t without_volume[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23, 28, 30, 34, 35, 36};
   for (std::int64_t i = 0; i < n_cells; ++i) {
     const std::uint8_t type = view(types)[i];
@@ -219,7 +219,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
 
 double delta_of(double distance, double half_thickness) {
   if (!(distance < half_thickness)) return 0;
-  // As in the solver, a distance that was interpolated to a value below -eps is any number of periods away.
+  // As in the solver, delta is periodic, so an interpolated distance below -eps gets a value from another period.
   return (1 + sine_cosine(pi * distance / half_thickness).cosine) / (2 * half_thickness * half_thickness);
 }
 
@@ -271,7 +271,7 @@ SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets,
     const Corners &corners = view(frame.corners)[view(distances.nearest)[i]];
     const Point a = vertex_of(xyz, corners[0]), u = difference(vertex_of(xyz, corners[1]), a),
                 v = difference(vertex_of(xyz, corners[2]), a), p = difference(mesh.point(i), a);
-    // The part of p across the plane drops out of the products, so p needs no projection.
+    // The component of p across the plane does not change the products, so p need not be projected.
     const double uu = product(u, u), uv = product(u, v), vv = product(v, v), pu = product(p, u), pv = product(p, v);
     const double xi = (vv * pu - uv * pv) / (uu * vv - uv * uv), eta = (uu * pv - uv * pu) / (uu * vv - uv * uv);
     const Point va = velocity_of(corners[0]), vb = velocity_of(corners[1]), vc = velocity_of(corners[2]);
@@ -313,15 +313,16 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
   const SolverElement &element = *mesh.element;
   const std::vector<ReferencePoint> &points = at_solver_points ? element.gauss : element.fine;
   const std::vector<ShapeFunctions> &functions = at_solver_points ? element.at_gauss : element.at_fine;
-  // Most points of the elements near the band lie outside: their distance is at least a node's distance minus the way to this
-  // node.
+  // Most points of the elements near the band are outside the band. A point's distance is at least a node's distance minus the
+  // way from the node to the point.
   const double reach = (1 + 1e-6) * half_thickness + error;  // rounding changes less
   const auto excludes = [&](std::int64_t node, const Point &point) {
     const Point off = difference(point, mesh.point(node));
     const double beyond = view(near)[node] - reach;
     return beyond > 0 && beyond < infinity && product(off, off) < beyond * beyond;
   };
-  // A linear element lies between its nodes, so a node that excludes all other nodes excludes the element.
+  // A linear element lies between its nodes. If one node shows that all other nodes are outside the band, the whole element is
+  // outside the band.
   const bool is_linear = element.n_nodes == element.n_corners;
   std::vector<double> xyz, weights;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers that svMultiPhysics computes from exported leaflets in a mesh, by the rules of its own sources (docs/export.md).
-// In: a mesh, and the leaflets of a frame. Out: the solver's distances at nodes, its delta at Gauss points, and its bands.
+// Computes the numbers that svMultiPhysics would compute from exported leaflets in a mesh. The rules are those of the solver's
+// sources (docs/export.md). In: a mesh, and the leaflets of a frame. Out: the solver's distances at nodes, the solver's delta at
+// Gauss points, and the solver's bands.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -16,10 +17,10 @@
 
 namespace riis::program {
 
-// The volume elements of svMultiPhysics: their shape functions, and the solver's own Gauss points.
+// The volume elements of svMultiPhysics, with their shape functions and the Gauss points that the solver uses.
 // In: VTK's type of a cell. Out: numbers at the points of the reference element.
 
-// Values of all shape functions at one point, and their derivatives there.
+// The values of all shape functions at a point, and their derivatives at this point.
 struct ShapeFunctions {
   std::vector<double> values;                 // by node
   std::vector<std::array<double, 3>> slopes;  // by node, in the coordinates of the reference element
@@ -37,17 +38,17 @@ struct SolverElement {
   std::vector<std::array<double, 3>> node_places;  // in the coordinates of the reference element
   std::vector<ReferencePoint> gauss;
   std::vector<ShapeFunctions> at_gauss;
-  // Points for integrals that are more exact than the solver's, 4 in each direction.
+  // Points for integrals that are more exact than the solver's, with 4 points in each direction.
   std::vector<ReferencePoint> fine;
   std::vector<ShapeFunctions> at_fine;
 };
 
-// Returns the element for a VTK cell type, or NULL if svMultiPhysics lacks it.
+// Returns the element for a VTK cell type, or NULL if svMultiPhysics does not have this element.
 const SolverElement *solver_element_of(std::uint8_t vtk_type);
 // Returns the names of all elements, for messages.
 const char *solver_element_names();
 
-// A mesh as the solver has it: volume elements of one type.
+// A mesh as the solver stores it. All volume elements of the mesh have one type.
 struct SolverMesh {
   const SolverElement *element = nullptr;
   std::int64_t n_nodes = 0;
@@ -65,7 +66,8 @@ struct SolverMesh {
   }
 };
 
-// Refuses meshes that the solver refuses. `path` names the mesh in refusals. Lengths are multiplied by `to_solver`.
+// Refuses a mesh that the solver would refuse. In messages, `path` is the name of the mesh. Lengths are multiplied by
+// `to_solver`.
 SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path, double to_solver);
 
 // Returns the determinant of the map from the reference element at one point.
@@ -78,23 +80,24 @@ struct SolverDistances {
   std::vector<double> to_leaflets;    // (n_nodes), signed: far nodes have the solver's large number
   std::vector<std::int64_t> nearest;  // (n_nodes): the triangle with the nearest middle, or -1 outside the box
 };
-// `xyz` has all vertices of the frame. A closing valve also uses the direction of forward flow for the sign. `margin` widens the
-// box on each side beyond the solver's own box.
+// `xyz` has all vertices of the frame. For a closing valve, the sign also depends on the direction of forward flow. On each side,
+// `margin` widens the box beyond the box of the solver.
 SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &leaflets, const std::vector<double> &xyz,
                                  bool is_closing, double half_thickness, double margin = 0);
 
-// Returns the solver's distance at a point of element e: the absolute distances at its nodes, interpolated. Quadratic shape
-// functions have negative values. At the box's border, nodes have the solver's large number, and some distances become negative.
-// The solver's condition for the band accepts negative distances.
+// Returns the solver's distance at a point of element e, interpolated between the absolute distances at the element's nodes.
+// Quadratic shape functions have negative values at some points. At the border of the box, some nodes have the solver's large
+// number, and some interpolated distances become negative. To the solver, points with negative distances are in the band.
 double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
                              const std::vector<double> &distances);
 // Returns the solver's delta at a point of element e: K / R.
 double solver_delta(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at, const SolverDistances &distances,
                     double half_thickness);
-// Returns (1 + cos(pi d / eps)) / (2 eps^2), or 0 beyond eps.
+// Returns (1 + cos(pi d / eps)) / (2 eps^2) for a distance d below eps, and 0 for larger distances.
 double delta_of(double distance, double half_thickness);
 
-// The nodes whose signed distances lie in a range. The places of these nodes are measured along the direction of forward flow.
+// A band: the nodes whose signed distances lie in a range. The position of a node is measured along the direction of forward
+// flow.
 struct SolverBand {
   std::int64_t n_nodes = 0;
   double volume = 0, from = 0, to = 0;
@@ -102,7 +105,7 @@ struct SolverBand {
 SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances, double from, double to,
                        const std::array<double, 3> &forward);
 
-// The largest speeds of a frame, from the vertices of this frame and of the frame before.
+// The largest speeds in a frame, from the vertices of this frame and of the frame before it.
 struct SolverSpeeds {
   double of_leaflets = 0;  // of the leaflets' vertices
   // The largest velocity that the solver gives to a node within the half thickness. The solver extrapolates the velocity in the
@@ -113,21 +116,21 @@ SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets,
                            const std::vector<double> &xyz, const std::vector<double> &before, double time_step,
                            double half_thickness);
 
-// Returns half thickness times the integral of delta: the area of the leaflets as the flow meets it.
+// Returns the area of the leaflets as the flow meets it: the half thickness times the integral of delta.
 double solver_area(const SolverMesh &mesh, const SolverDistances &distances, double half_thickness);
-// Returns the same area by the library's exact distances at many points in each element. `near` has a distance for each node.
-// Elements with all nodes farther than the half thickness and the element's size do not count. The distances may be too large by
-// `error`.
+// Returns the area of the leaflets by the library's exact distances, at many points in each element. `near` has a distance for
+// each node. An element does not count if all its nodes are farther away than the half thickness plus the element's size.
+// Distances may be too large by up to `error`.
 double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std::vector<double> &near,
                   double half_thickness, std::int32_t n_threads, bool at_solver_points, double error = 0);
 
 // Returns the area of a closed valve in a mesh (docs/theory/measures.md, "Closed area"), in the mesh's unit squared. Returns
-// nothing if the mesh has no volume elements of one type that exact_area knows. The surface's distances may be too large by
-// `error`.
+// nothing if the mesh has no volume elements of one type that exact_area knows. The distances from the surface may be too large
+// by up to `error`.
 std::optional<double> closed_area_in(const riis_vtk_mesh *file, const riis_surface *surface, std::int32_t n_threads,
                                      double error);
 
-// Returns the distance of each node to the surface, up to a limit, and infinity beyond it.
+// Returns the distance of each node from the surface. Distances beyond the limit become infinity.
 std::vector<double> exact_distances(std::int64_t n_nodes, const double *xyz, const riis_surface *surface, double limit,
                                     std::int32_t n_threads);
 

@@ -144,7 +144,7 @@ inline void check_threads(std::int32_t n_threads, const char *name) {
     fail(RIIS_INVALID_ARGUMENT, name, " is ", n_threads, "; it must be from 1 to 1024, or 0 for the default");
   if (n_threads > 1 && has_lost_threads())
     fail(RIIS_UNAVAILABLE, name, " is ", n_threads,
-         "; this process was forked after riis had used several threads, so it may use 1 only");
+         "; this process was forked after riis had used several threads, so it may use only 1 thread");
 }
 
 // Checks the caller's n_threads, and returns the threads to use. 0 stands for the default.

@@ -161,9 +161,8 @@ Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   const Vec3 by_commissures = side > 0 ? normal : -normal;
   if (landmarks.has_flow() && dot(found, by_commissures) < 0)
     fail(RIIS_INVALID_ARGUMENT,
-         "landmarks.flow points to the atrium, by the commissures: seen along the flow with the anterior horn above, "
-         "the "
-         "posteromedial commissure must be on the right: the landmarks or their names are mirrored");
+         "landmarks.flow points to the atrium, if the commissures are right: seen along the flow with the anterior "
+         "horn above, the posteromedial commissure must be on the right: the landmarks or their names are mirrored");
   return by_commissures;
 }
 
@@ -287,9 +286,9 @@ std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 no
                    height < 0 ? " below" : " above")
         .text();
   };
-  return Message("the horns' heights make it lean: ", words(heights.anterior_landmark, heights.anterior), " and ",
-                 words(heights.posterior_landmark, heights.posterior),
-                 " the annulus' sides, along that normal; look for a horn that is not at its place")
+  return Message("the horns' heights make the valve lean: ", words(heights.anterior_landmark, heights.anterior),
+                 " and ", words(heights.posterior_landmark, heights.posterior),
+                 " the annulus' sides, along the annulus' normal; look for a horn that is not at its place")
       .text();
 }
 
@@ -518,8 +517,8 @@ KindOfLandmarks tricuspid_landmarks(const Valve &valve, const Landmarks &landmar
   check_spread(landmarks, landmarks.with_role(RIIS_LANDMARK_COMMISSURE), 0.02);
   const LeafletsAround leaflets{{"anterior", "septal", "posterior"},
                                 "counter-clockwise",
-                                "which commissure is between which of the anterior, the septal and the posterior "
-                                "leaflet: name the leaflets of two commissures"};
+                                "between which of the anterior, septal and posterior leaflets each commissure is: name "
+                                "the leaflets of two commissures"};
   check_leaflet_ids(landmarks, leaflets);
   // Without the flow, the names show the side of the atrium.
   Vec3 up = outline.normal;
@@ -529,7 +528,7 @@ KindOfLandmarks tricuspid_landmarks(const Valve &valve, const Landmarks &landmar
   const Order order = order_around(landmarks, leaflets, up, outline.middle);
   if (!landmarks.has_flow() && names_fit(landmarks, leaflets, -up, outline.middle))
     fail(RIIS_INVALID_ARGUMENT,
-         "landmarks.flow is 0 0 0: one named commissure does not show the direction of flow; name two of them");
+         "landmarks.flow is 0 0 0: one named commissure does not show the direction of flow; name two commissures");
   const auto at = [&](std::size_t k) { return landmarks.at(order.commissure[k]); };
   Laps laps(landmarks.list.size());
   laps[order.commissure[0]] = LinearValue{0, {{SaddleModel::flat_ratio, -0.5}}};

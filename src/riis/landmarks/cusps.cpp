@@ -45,11 +45,12 @@ Vec3 turned(double radius, double degrees, double height) {
 
 LeafletsAround cusps_of(const char *kind, std::size_t n_cusps) {
   const bool needs_names = std::strcmp(kind, "aortic") == 0;
-  LeafletsAround made{{},
-                      "clockwise",
-                      needs_names ? "which nadir is of the right, the left and the non_coronary cusp: the aortic "
-                                    "valve's cusps differ"
-                                  : nullptr};
+  LeafletsAround made{
+      {},
+      "clockwise",
+      needs_names
+          ? "which nadirs belong to the right, the left and the non_coronary cusp: the aortic valve's cusps differ"
+          : nullptr};
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp)
     made.names.push_back(n_cusps == n_of_three ? names_of_three[cusp] : "cusp_" + std::to_string(cusp));
   return made;
@@ -90,7 +91,7 @@ CuspAxes axes_of(const Landmarks &landmarks, const char *kind, std::size_t n_cus
       if (is_named(i))
         fail(RIIS_INVALID_ARGUMENT, "landmarks.leaflet_id of ", words_for(landmarks, i), " says ",
              cusps.names[static_cast<std::size_t>(landmarks.list[i].leaflet_ids[0])],
-             ", but no nadir and no commissure says which cusp that is");
+             ", but no name of a nadir or commissure says which cusp this is");
 
   const Vec3 middle = landmarks.mean_of(nadirs), up = landmarks.mean_of(commissures) - middle;
   const double size = spread_of(landmarks, all).deviation[0];

@@ -64,7 +64,7 @@ KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmar
          rounded(landmarks.scale * 0.2 * radius, 3), " from it");
   if (std::abs(dot(y, up)) > 0.5)
     fail(RIIS_INVALID_ARGUMENT, "the hinges are at ", rounded(arc_cosine(std::abs(dot(y, up))) * 180 / pi, 3),
-         " degrees to the ring's normal; they must be across it");
+         " degrees to the ring's normal; they must be perpendicular to it, within 30 degrees");
   // Landmarks of only one hinge belong to the leaflet at x > 0.
   const Vec3 hinge_middle = landmarks.mean_of(hinges) - middle;
   Vec3 x = cross(y, up);

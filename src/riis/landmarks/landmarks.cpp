@@ -178,7 +178,7 @@ void check_not_collinear(const Landmarks &landmarks, const std::vector<std::size
   if (!(spread.deviation[1] > least_width * spread.deviation[0]))
     fail(RIIS_INVALID_ARGUMENT, "the landmarks lie along a line: their standard deviation is ",
          landmarks.scale * spread.deviation[0], " along it and ", rounded(landmarks.scale * spread.deviation[1], 3),
-         " beside it; they must not be collinear");
+         " across it; the landmarks must not be collinear");
 }
 
 void check_spread(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share) {

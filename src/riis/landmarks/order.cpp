@@ -80,7 +80,7 @@ Order turn_of(const Landmarks &landmarks, Vec3 axis, Vec3 middle) {
     const bool is_nadir = landmarks.list[i].role == RIIS_LANDMARK_NADIR;
     if (!nadirs.empty() && is_nadir != (k % 2 == 0))
       fail(RIIS_INVALID_ARGUMENT, words_for(landmarks, seen[k - 1].landmark), " and ", words_for(landmarks, i),
-           " follow each other around the valve; commissures and nadirs must take turns");
+           " follow each other around the valve; commissures and nadirs must alternate");
     (is_nadir ? order.nadir : order.commissure).push_back(i);
   }
   return order;
@@ -92,7 +92,7 @@ Order turn_of(const Landmarks &landmarks, Vec3 axis, Vec3 middle) {
     if (!order.nadir.empty() && !fits_nadir(landmarks.list[order.nadir[k]], k))
       fail(RIIS_INVALID_ARGUMENT, "landmarks.leaflet_id of ", words_for(landmarks, order.nadir[k]), " says ",
            name_of(leaflets, landmarks.list[order.nadir[k]].leaflet_ids[0]),
-           ", but by the other landmarks' names it is of the ", leaflets.names[k], " cusp");
+           ", but the other landmarks' names say that it is of the ", leaflets.names[k], " cusp");
     const std::size_t c = order.commissure[k];
     const auto &[first, second] = landmarks.list[c].leaflet_ids;
     if (!fits_commissure(landmarks.list[c], k, leaflets.next(k)))

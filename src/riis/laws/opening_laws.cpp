@@ -222,7 +222,7 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
   if (!(n_wanted <= max_steps))
     fail(RIIS_LIMIT_EXCEEDED, "time is ", step, " after before.time, ", n_wanted,
          " steps of the angle's motion; at most ", max_steps,
-         " are taken: take shorter steps, or look at the gains' units");
+         " are computed: take shorter steps, or look at the gains' units");
   const auto n = std::max<std::int64_t>(1, static_cast<std::int64_t>(n_wanted));
   const double least = law.angle_min * degree, most = law.angle_max * degree;
   AngleState at{angle * degree, before.angle_rate * degree};

@@ -370,7 +370,7 @@ void check_fields(const Surface &surface, std::int32_t fields) {
     constexpr std::int32_t of_patches = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_PATCH;
     if (fields & ~of_patches)
       fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields, ", but the surface's distances are by ", other->name(),
-           ", which has no fields but RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH");
+           ", which has only the fields RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH");
   }
   if ((fields & RIIS_FIELD_VELOCITY) && surface.triangles().velocity.empty())
     fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields,

@@ -85,7 +85,7 @@ GridIndex checked_strides(const GridIndex &n, std::int64_t first, const GridInde
     const int axis = axes[i];
     if (stride[axis] <= way)
       fail(RIIS_INVALID_ARGUMENT, "grid.stride[", axis, "] is ", stride[axis], "; it must be above ", way,
-           ", because the nodes along the axes with smaller strides have so many numbers");
+           ", because the nodes along the axes with smaller strides take that many numbers");
     way += (n[axis] - 1) * stride[axis];
   }
   if (n_numbers == 0) n_numbers = last + 1;

@@ -66,7 +66,7 @@ std::vector<OpenEdge> chosen_edges(const TriangleSet &set) {
   const double share = outline ? std::abs(dot(of_best, outline->seen.axis())) / area_of(outline->outline) : 0;
   if (share < least_share)
     fail(RIIS_INVALID_SURFACE, "the largest closed line of open edges encloses ", rounded(share, 2),
-         " of the outline of the leaflets, so it is not the attachment of them all", cure);
+         " of the outline of the leaflets, so it is not the attachment of all leaflets", cure);
   if (second >= ambiguous_share * largest)
     fail(RIIS_INVALID_SURFACE, "two closed lines of open edges enclose the same area, ", rounded(largest, 4),
          ", so the attachment is not known", cure);

@@ -107,7 +107,7 @@ ValveKind make_kind() {
     {"t0_bending", length, "start tangent of the bending curve: right, left, non-coronary", 3, {0.1, 0.1, 0.1}, 0, longest},
     {"xq", number, "radial place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
     {"zq", number, "vertical place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
-    opening_spec("0: this state, to 1: the open state, which riis_valve_set_open_state or the last two parameters define", 0),
+    opening_spec("from 0 (this state) to 1 (the open state of riis_valve_set_open_state or of the last two parameters)", 0),
   }, opening, true, check_values, make_patches, nullptr};
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const std::string of = std::string(cusp_names[cusp]) + ".";

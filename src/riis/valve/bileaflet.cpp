@@ -39,13 +39,14 @@ ValveKind make_kind() {
     {"open_angle", degree, "angle of the open leaflets from the orifice plane", 1, {85}, 0, 90},
     {"ring_height", length, "height of the housing's wall, half of it upstream of the orifice plane; 0: no wall",
      1, {0}, 0, longest},
-    opening_spec("0: closed, to 1: open; the leaflets turn from closed_angle to open_angle", 0),
+    opening_spec("from 0 (closed) to 1 (open); the leaflets turn from closed_angle to open_angle", 0),
   }, opening, true, check_values, make_patches, check_states};
   kind.housing = RIIS_LEAFLET_HOUSING;
   kind.absent = {
     {"stj", "its housing has one radius, and no commissures reach a sinotubular junction"},
     {"skirt_length", "its ring, which ring_height sets, closes the gap to the wall"},
-    {"effective_height", "only cusps have it; hinge_height and closed_angle give the rigid leaflets' reach"},
+    {"effective_height", "only cusps have an effective height; hinge_height and closed_angle say how far the rigid leaflets "
+                         "reach"},
   };
   kind.is_rigid = true;
   return kind;

@@ -93,14 +93,14 @@ ValveKind make_kind(const char *name, double default_stretch) {
     {"gap", length, "distance between closed cusps in the coaptation zone", 1, {0.016 * 1.25}, shortest, longest,
      {"0.016 commissure_radius", gap_rule}},
     {"bottom_angle", degree, "angle of the closed cusp to the root's plane, at the root", 1, {20}, 0, 80},
-    {"belly", number, "start tangent of the closed symmetry curve, at most, times root_radius", 1, {0.5}, 0.05, 0.8},
-    {"edge_rise", number, "closed free edge: rise of the inner control point by the commissure, times that of the whole edge",
+    {"belly", number, "largest start tangent of the closed symmetry curve, as a multiple of root_radius", 1, {0.5}, 0.05, 0.8},
+    {"edge_rise", number, "closed free edge: rise of the control point beside the commissure, as a share of the whole rise",
      1, {0.3}, 0, 0.9},
-    {"attachment_width", number, "start tangent of the attachment, times root_radius", 1, {0.6}, 0.1, 1.2},
-    {"attachment_drop", number, "end tangent of the attachment, times commissure_height", 1, {0.5}, 0.1, 0.9},
-    {"open_radius_ratio", number, "open state: radius of the free edge at the symmetry plane, times commissure_radius",
+    {"attachment_width", number, "start tangent of the attachment, as a multiple of root_radius", 1, {0.6}, 0.1, 1.2},
+    {"attachment_drop", number, "end tangent of the attachment, as a multiple of commissure_height", 1, {0.5}, 0.1, 0.9},
+    {"open_radius_ratio", number, "open state: radius of the free edge at the symmetry plane, as a multiple of commissure_radius",
      1, {0.85}, 0.3, 1.1},
-    {"commissure_expansion", number, "open state: how far the commissures move outwards, times commissure_radius",
+    {"commissure_expansion", number, "open state: how far the commissures move outwards, as a multiple of commissure_radius",
      1, {0.05}, 0, 0.3},
     {"translation", length, "shift of the valve", 3, {0, 0, 0}, -longest, longest},
     opening_spec("0 closed to 1 open", 0),
@@ -124,8 +124,8 @@ ValveKind make_kind(const char *name, double default_stretch) {
     add_own(specs, owner, "open_radius_ratio", open_radius_ratio);
   }
   if (n_cusps == 2)
-    specs.push_back({"meeting_shift", number, "x of the middle of the closed meeting line, times commissure_radius", 1, {0},
-                     -0.5, 0.5});
+    specs.push_back({"meeting_shift", number, "x of the middle of the closed meeting line, as a multiple of commissure_radius",
+                     1, {0}, -0.5, 0.5});
   add_bump_specs(specs, n_cusps, BumpLift::no);
   return kind;
 }

@@ -47,7 +47,7 @@ ValveKind make_kind() {
     {"posterior_scallop_length1", length, "length of the two side scallops when open", 1, {1.35}, shortest, longest},
     {"posterior_scallop_length2", length, "length of the middle scallop when open", 1, {1.35}, shortest, longest},
     {"leaflet_arc_angle", degree, "angle of the arc that the free edges follow", 1, {120}, 1, 300},
-    {"leaflet_inward_angle", degree, "how open leaflets hang: 0 inwards, 90 straight down", 1, {75}, 0, 180},
+    {"leaflet_inward_angle", degree, "angle at which open leaflets hang: 0 inwards, 90 straight down", 1, {75}, 0, 180},
     {"surface_angle", degree,
      "angle between a leaflet and the straight line from annulus to free edge, at either end; bulges outwards", 1, {20}, -80, 80},
     {"triangle_size_ratio", number, "share of the annulus that each commissure's triangle takes", 1, {0.1}, 0.001, 0.45},
@@ -57,7 +57,8 @@ ValveKind make_kind() {
   kind.absent = {
     {"annulus", "its annulus is not round; set AP_diameter and ALPM_diameter"},
     {"stj", "it has no sinotubular junction"},
-    {"effective_height", "only cusps have it; anterior_length and posterior_scallop_length1 and 2 give the leaflets' reach"},
+    {"effective_height", "only cusps have an effective height; anterior_length and posterior_scallop_length1 and 2 say how far "
+                         "the leaflets reach"},
   };
   return kind;
 }

@@ -125,7 +125,8 @@ void check_states(const ValveState &valve, const ValveState &other, const char *
   const PatchSet &from = valve.patches, &to = other.patches;
   if (from.curves.size() != to.curves.size() || from.patches.size() != to.patches.size())
     fail(RIIS_INVALID_PARAMETER, name, " has ", to.curves.size(), " curves and ", to.patches.size(),
-         " patches, the valve ", from.curves.size(), " and ", from.patches.size(), ": they must be built alike");
+         " patches, the valve ", from.curves.size(), " and ", from.patches.size(),
+         ": both must have as many curves and patches");
   for (std::size_t i = 0; i < from.curves.size(); ++i) {
     // The degree of a straight line counts as 2, because lines are stored as quadratics. A line may therefore become a quadratic
     // in the other state.
@@ -168,15 +169,16 @@ PatchSet patches_from_arrays(const riis_patches &arrays) {
 namespace {
 
 ValveKind make_kind() {
-  ValveKind kind{"patches",
-                 {opening_spec("0: this state, to 1: the open state; it stays 0 without riis_valve_set_open_state", 0)},
-                 0,
-                 false,
-                 nullptr,
-                 make_patches,
-                 check_states};
+  ValveKind kind{
+      "patches",
+      {opening_spec("from 0 (this state) to 1 (the open state); it stays 0 without riis_valve_set_open_state", 0)},
+      0,
+      false,
+      nullptr,
+      make_patches,
+      check_states};
   for (const char *name : {"annulus", "stj", "effective_height"})
-    kind.absent.push_back({name, "the control points of its curves are its sizes"});
+    kind.absent.push_back({name, "the control points of its curves determine its size"});
   return kind;
 }
 

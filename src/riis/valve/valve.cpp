@@ -207,7 +207,7 @@ std::size_t Valve::position_of(std::string_view name) const {
   for (const ParameterSpec &spec : specs)
     if (is_of_a_leaflet(spec) && naming(spec, name).names_it) {
       const std::string leaflet = spec.name.substr(0, spec.name.size() - without_leaflet(spec.name).size());
-      fail(RIIS_INVALID_PARAMETER, "parameter '", name, "' exists for each leaflet separately: name one, as in '",
+      fail(RIIS_INVALID_PARAMETER, "parameter '", name, "' exists for each leaflet separately: name a leaflet, as in '",
            leaflet, name, "'");
     }
   fail_unknown(*kind_, name);
@@ -299,13 +299,13 @@ void check_same_state(const ValveKind &kind, const ValveState &fixed, const Valv
     for (std::size_t k = 0; k < static_cast<std::size_t>(spec.n_values); ++k)
       if (was[k] != is[k])
         fail(RIIS_INVALID_PARAMETER, spec.name, where, " is ", is[k], fixed_for, was[k],
-             ": only opening and placement may move");
+             ": only opening and placement may change");
   }
   for (std::size_t i = 0; i < fixed.patches.curves.size(); ++i)
     if (!are_equal(fixed.patches.curves[i], now.patches.curves[i]))
       fail(RIIS_INVALID_PARAMETER, "curve ", i, where,
            " differs from the curve that the surface's triangulation is fixed for",
-           ": only opening and placement may move");
+           ": only opening and placement may change");
 }
 
 }  // namespace
@@ -319,8 +319,7 @@ void Valve::check_same_but_for_opening(const Valve &other) const {
   if (skirt_lengths_ != other.skirt_lengths_)
     fail(RIIS_INVALID_PARAMETER,
          "the skirt's lengths to the wall differ from the lengths in the surface's fixed triangulation: only opening "
-         "and "
-         "placement may move");
+         "and placement may change");
   if (open_.has_value() != other.open_.has_value())
     fail(RIIS_INVALID_PARAMETER, "the valve has ", other.open_ ? "an" : "no", " open state", fixed_for,
          other.open_ ? "none" : "one");

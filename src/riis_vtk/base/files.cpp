@@ -21,7 +21,7 @@ namespace {
 
 std::string system_text(int error) { return std::generic_category().message(error); }
 
-// Follows links, and returns the path of the file itself. The file may be missing.
+// Follows links, and returns the path of the file to which they lead. This file need not exist.
 std::string resolved(const std::string &path) {
   std::filesystem::path place = path;
   for (int n_links_left = 40; std::filesystem::is_symlink(place); --n_links_left) {
@@ -31,8 +31,8 @@ std::string resolved(const std::string &path) {
   return place.string();
 }
 
-// Creates an empty file with a new name in the folder of `place`, and returns its path. `replaced` describes the file at
-// `place`, or is NULL if there is none. The new file gets that file's permissions while it is still empty.
+// Creates an empty file with a new name in the folder of `place`, and returns its path. `replaced` describes the file at `place`,
+// or is NULL if there is none. While the new file is still empty, it gets the permissions of the replaced file.
 std::string create_beside(const std::string &place, const struct stat *replaced) {
   static int n_created = 0;
   const std::filesystem::path folder = std::filesystem::path(place).parent_path();
@@ -42,8 +42,8 @@ std::string create_beside(const std::string &place, const struct stat *replaced)
                                                   // file
     const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file >= 0) {
-      // The owner may always read and write, because the writer opens the file again. A file system without permissions may
-      // refuse the call, which does no harm.
+      // The owner of the new file always gets permission to read and write, because the writer opens the file again. A file
+      // system without permissions may refuse the call, but this does no harm.
       if (replaced) static_cast<void>(fchmod(file, (replaced->st_mode & 0777) | S_IRUSR | S_IWUSR));
       close(file);
       return path;
@@ -52,7 +52,7 @@ std::string create_beside(const std::string &place, const struct stat *replaced)
   }
 }
 
-// Waits until the data is on the disk, because some file systems report a failed write only at that point.
+// Waits until the data is on the disk, because some file systems report a failed write only then.
 int synchronise(const std::string &path) {
   const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) return errno;
@@ -114,7 +114,7 @@ std::string ending_of(const std::string &path) {
 
 namespace {
 
-// A pointer of Git LFS is a small text that begins with these words.
+// The first words of a pointer of Git LFS, which is a small text file.
 constexpr std::string_view lfs_pointer = "version https://git-lfs.github.com/spec/";
 constexpr off_t largest_lfs_pointer = 1024;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks files, reads them as bytes, lines and words, and writes files under a temporary name. VTK itself reads and writes the
-// formats. This header also has the names of the arrays in files.
+// Checks files, reads files as bytes, lines and words, and writes files under a temporary name. VTK itself reads and writes the
+// formats of the files. This header also has the names of the arrays in files.
 #pragma once
 
 #include <functional>
@@ -31,7 +31,7 @@ inline constexpr const char *velocity_array = "riis_velocity";
 inline constexpr const char *attached_array = "riis_attached";
 inline constexpr const char *node_id_array = "riis_node_id";
 inline constexpr const char *cell_id_array = "riis_cell_id";
-// The field array in which VTK's filters store times.
+// The field array in which VTK's filters store the times.
 inline constexpr const char *time_array = "TimeValue";
 // The default prefix of the names PREFIX_marked, PREFIX_distance and PREFIX_leaflet.
 inline constexpr const char *default_prefix = "riis";
@@ -46,47 +46,48 @@ vtkSmartPointer<Array> named_array(const std::string &name, vtkIdType n_tuples, 
   return array;
 }
 
-// Returns a text such as "; there are: a, b" for a message about a missing array.
+// Returns a text such as "; there are: a, b", which ends a message. The message says that an array is missing.
 std::string list_of_arrays(vtkFieldData *data);
 
-// Lines and words of files that are scanned before VTK reads them. Blanks and capitals are those of ASCII in any locale.
+// Functions for the lines and words of files that are scanned before VTK reads them. Blanks and capitals are those of ASCII, even
+// if the locale has others.
 bool is_blank(char c);
 
 std::string lower_case(std::string_view text);
 
-// Removes the first line from the text, and returns it without its line feed.
+// Removes the first line from the text, and returns this line without its line feed.
 std::string_view take_line(std::string_view &text);
 
-// Removes the first word and the blanks before it. Returns the word, or "" if there is none.
+// Removes the first word from the text, and the blanks before the word. Returns the word, or "" if there is none.
 std::string_view take_word(std::string_view &text);
 
-// Reads the whole text as a number. Returns false for a text that is no number of that type.
+// Reads the whole text as a number. Returns false if the text is not a number of the type.
 template <class Number>
 bool read_number(std::string_view text, Number &number) {
   const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size();
 }
 
-// XML files, element by element (xml_elements.cpp). No tree is built, because a hostile file could nest so deeply that the
-// destruction of the tree would overflow the stack.
+// Functions that visit an XML file element by element (xml_elements.cpp). No tree of elements is built, because the destruction
+// of a deeply nested tree would overflow the stack. A hostile file could contain a deeply nested tree.
 
-// Names and values in turn, and then NULL.
+// In the list, names and values alternate, and NULL ends the list.
 using XmlAttributes = const char **;
 std::optional<std::string> value_of(XmlAttributes attributes, const char *name);
 
-// Calls visit(way, attributes) for each element that lies at most three elements deep. `way` has the names of the elements around
-// an element, from the outermost on, and then the element's own name. Fails if the file is not XML.
+// Calls visit(way, attributes) for each element that is at most three elements deep. `way` has the names of all elements around
+// the element, beginning with the outermost, and then the element's own name. Fails if the file is not XML.
 using VisitElement = std::function<void(const std::vector<std::string> &way, XmlAttributes attributes)>;
 void for_each_element(const std::string &path, const CaughtOutput &caught, const VisitElement &visit);
 
 // Returns the path's ending in lower case without the dot, or "" if there is none.
 std::string ending_of(const std::string &path);
 
-// Returns the size of the file. Fails unless the path is a regular, readable, non-empty file. VTK's own messages would not give
-// the reason.
+// Returns the size of the file. Fails if the path is not a regular and readable file, or if the file is empty. VTK's own messages
+// would not give the reason.
 std::int64_t check_readable(const std::string &path);
 
-// The bytes of a file. The bytes are readable while this object lives.
+// The bytes of a file, which can be read while this object lives.
 class MappedFile {
  public:
   // Maps the file into memory. `size` must be the result of check_readable.
@@ -102,13 +103,13 @@ class MappedFile {
   void *bytes_;
 };
 
-// A file that is complete or does not exist. The file is written under temporary(), a name in the same folder, and commit() moves
-// it to its final place. The new file gets the permissions of the file that it replaces. Without commit(), the destructor removes
-// the temporary file, and the final place stays unchanged.
+// A file that is either complete or does not exist. The file is written to temporary(), a path in the same folder. commit() moves
+// it to its final path. The new file gets the permissions of the file that it replaces. Without commit(), the destructor removes
+// the temporary file, and nothing changes at the final path.
 class ReplacingFile {
  public:
-  // Makes the temporary file. Fails if the path cannot be written to: the folder or a permission is missing, the path is not a
-  // regular file, or links form a circle.
+  // Makes the temporary file. Fails if the path cannot be written to. Possible reasons are a missing folder or permission, a path
+  // that is not a regular file, and a circle of links.
   explicit ReplacingFile(const std::string &path);
   ~ReplacingFile();
   ReplacingFile(const ReplacingFile &) = delete;
@@ -117,8 +118,8 @@ class ReplacingFile {
   const std::string &temporary() const { return temporary_; }
   // Writes content from memory to the temporary file.
   void write(const unsigned char *bytes, std::int64_t n_bytes);
-  // Moves the file to its final place. Fails unless the temporary file ends with `closing`, the last bytes of its format. On a
-  // full disk the file ends too early, and not every writer notices this.
+  // Moves the file to its final path. Fails if the temporary file does not end with `closing`, the last bytes of its format. On a
+  // full disk the temporary file is too short, and not every writer notices this.
   void commit(const std::string &closing);
 
  private:
@@ -128,8 +129,8 @@ class ReplacingFile {
   std::string temporary_;
 };
 
-// Writes a data set to a VTK XML file that is complete or does not exist. The data is raw and appended, which is as fast as the
-// disk and keeps every bit of every double. Sizes of blocks have 64 bits, because VTK's default limits them to 4 GiB.
+// Writes a data set to a VTK XML file. The data is raw and appended, which is as fast as the disk and keeps every bit of each
+// double. The sizes of blocks have 64 bits, because VTK's default would limit blocks to 4 GiB.
 template <class Writer>
 void write_xml(const std::string &path, const std::string &ending, vtkDataObject *data, const CaughtOutput &caught) {
   if (ending_of(path) != ending) fail_file(path, "the file's ending must be .", ending);

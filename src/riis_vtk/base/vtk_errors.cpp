@@ -15,11 +15,11 @@
 namespace riis::vtk {
 namespace {
 
-// The limit on a path's length leaves room for the reason in the core's message.
+// The largest length of a path in a message. A message of the core then has room for the reason.
 constexpr std::size_t longest_path = 250;
 
-// Returns the useful part of a message of VTK. The message is "ERROR: In FILE, line N\nvtkClass (0xADDRESS): message\n\n".
-// Only the message's last part helps users.
+// Returns the part of VTK's message that helps a user. The message is "ERROR: In FILE, line N\nvtkClass (0xADDRESS):
+// message\n\n".
 std::string message_of(const std::string &vtk_text) {
   const std::size_t object = vtk_text.find("): ");
   const std::string message = object == std::string::npos ? vtk_text : vtk_text.substr(object + 3);
@@ -36,15 +36,15 @@ std::string message_of(const std::string &vtk_text) {
   return line;
 }
 
-// Replaces control characters, so that a message stays on one line. A path may contain any byte.
+// Replaces control characters, so that a message stays on one line. A path may contain any byte, even a line break.
 char printable(char c) { return static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c; }
 std::string printable(std::string text) {
   for (char &c : text) c = printable(c);
   return text;
 }
 
-// Thrown if memory runs out during the reading or writing of a file. The exception contains the text itself, because there may be
-// no memory for a string.
+// This exception is thrown if memory runs out while a file is read or written. The exception contains the text of the message,
+// because there may be no memory for a string.
 struct OutOfMemory {
   char text[longest_path + 32];
 };
@@ -101,7 +101,7 @@ CaughtOutput::CaughtOutput()
       caller_displays_(vtkObject::GetGlobalWarningDisplay()),
       caller_log_level_(vtkLogger::GetCurrentVerbosityCutoff()) {
   vtkOutputWindow::SetInstance(window_);
-  // Switches the warning display on, because VTK otherwise drops errors before they reach a window.
+  // Switches the display of warnings on. If warnings were off, VTK would drop errors before they reach a window.
   vtkObject::SetGlobalWarningDisplay(1);
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }

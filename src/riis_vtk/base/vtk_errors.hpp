@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reports the failures of this library. fail() throws, and guarded() turns any exception into a status and the core's last
-// error. While guarded() runs a body, VTK's messages are caught and not printed.
+// Reports the failures of this library. fail() throws, and guarded() turns any exception into a status and the core's last error.
+// While guarded() runs a body, VTK's messages are caught, so that VTK does not print them.
 #pragma once
 
 #include <locale.h>
@@ -27,7 +27,7 @@ struct Failure {
 
 [[noreturn]] void fail(riis_status status, std::string text);
 
-// Returns words and numbers as one text. A real number is written as the shortest text that reads back exactly, such as "0.1" or
+// Returns words and numbers as one text. The text of a real number is the shortest text that reads back exactly, such as "0.1" or
 // "nan".
 template <class... Parts>
 std::string joined(const Parts &...parts) {
@@ -50,17 +50,17 @@ template <class... Parts>
   fail(RIIS_INVALID_ARGUMENT, joined(parts...));
 }
 
-// Throws RIIS_FILE_ERROR with the message "PATH: reason". If the path is too long for the message, its beginning is cut off. The
-// reason stays complete.
+// Throws RIIS_FILE_ERROR with the message "PATH: reason". If the path is too long for the message, the beginning of the path is
+// left out. The reason stays complete.
 [[noreturn]] void fail_reason(const std::string &path, const std::string &reason);
 template <class... Parts>
 [[noreturn]] void fail_file(const std::string &path, const Parts &...parts) {
   fail_reason(path, joined(parts...));
 }
 
-// Throws RIIS_OUT_OF_MEMORY with the message "PATH: out of memory". Allocates no memory itself.
+// Throws RIIS_OUT_OF_MEMORY with the message "PATH: out of memory". The function itself allocates no memory.
 [[noreturn]] void fail_memory(const std::string &path);
-// Calls `work`, which reads or writes the file. If memory runs out, the error names the file.
+// Calls `work`, which reads or writes a file. If memory runs out, the error message names the file.
 template <class Work>
 auto naming(const std::string &path, const Work &work) {
   try {
@@ -69,10 +69,10 @@ auto naming(const std::string &path, const Work &work) {
     fail_memory(path);
   }
 }
-// Throws if `status` is an error of the core. Keeps the core's message.
+// Throws an exception if `status` is an error of the core. The exception has the core's message.
 void check_core(riis_status status);
-// Fails unless the size is a multiple of 8 and lies between first_size and size_here, both included. The limits are the struct's
-// sizes in its first release and in this release.
+// Fails if the size of a struct is not a multiple of 8, or not between first_size and size_here. The limits are the sizes of the
+// struct in its first release and in this release.
 void check_struct_size(std::int64_t size, std::int64_t first_size, std::int64_t size_here, const char *name);
 
 template <class T>
@@ -81,7 +81,7 @@ T *require(T *pointer, const char *argument) {
   return pointer;
 }
 
-// The body of a destroy function.
+// Runs the body of a destroy function.
 template <class Object>
 void destroy(Object **object) {
   if (!object) return;
@@ -89,8 +89,9 @@ void destroy(Object **object) {
   *object = nullptr;
 }
 
-// While it exists, an object of this type replaces VTK's process-wide output window. It also silences VTK's log on stderr, which
-// repeats every error. VTK tells only the highest level of all its logs, so the destructor gives this level to the log on stderr.
+// As long as an object of this type exists, it replaces VTK's output window of the whole process. The object also silences VTK's
+// log on stderr, which would repeat every error. VTK tells only the highest level of all its logs. The destructor sets the log on
+// stderr to the highest level of all logs.
 class CaughtOutput {
  public:
   CaughtOutput();
@@ -98,8 +99,9 @@ class CaughtOutput {
   CaughtOutput(const CaughtOutput &) = delete;
   CaughtOutput &operator=(const CaughtOutput &) = delete;
 
-  // Fails with RIIS_FILE_ERROR for the path if VTK reported an error. The message is the first error since this object was made,
-  // in one line without VTK's source positions. The first error is the cause. Later errors come from higher layers of VTK.
+  // If VTK reported an error, fails with RIIS_FILE_ERROR for the path. The message is the first error since this object was made,
+  // as one line without VTK's source positions. The first error is the cause of all later errors, which come from higher layers
+  // of VTK.
   void check(const std::string &path) const;
 
  private:
@@ -110,9 +112,9 @@ class CaughtOutput {
   int caller_log_level_;
 };
 
-// While an object of this type lives, numbers have decimal points. After a caller's setlocale(LC_ALL, "de_DE.UTF-8"), VTK's
-// readers would read "1.5" as 1. Only this thread's locale changes. VTK's legacy reader, however, sets the locale of the whole
-// process to "C" for good. Therefore the destructor also restores the process's locale.
+// While an object of this type lives, numbers have decimal points, whatever the locale is. After a caller's setlocale(LC_ALL,
+// "de_DE.UTF-8"), VTK's readers would read "1.5" as 1. Only the locale of this thread changes. However, VTK's legacy reader sets
+// the locale of the whole process to "C", and leaves it so. Therefore the destructor also restores the locale of the process.
 class NumericLocale {
  public:
   NumericLocale() : callers_(setlocale(LC_ALL, nullptr)), points_(newlocale(LC_NUMERIC_MASK, "C", nullptr)) {
@@ -133,10 +135,10 @@ class NumericLocale {
   locale_t threads_;
 };
 
-// Records the message of the current exception, and returns its status.
+// Stores the message of the current exception, and returns its status.
 riis_status record_current_exception() noexcept;
 
-// Runs the body of a public function, and passes the caught output to it.
+// Runs the body of a public function, and passes the caught output to the body.
 template <class Body>
 riis_status guarded(Body &&body) noexcept {
   const FloatEnvironment environment;

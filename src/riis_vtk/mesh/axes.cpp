@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that are the axes of a rectilinear grid. Points and cells are made only for callers that need them.
+// Meshes whose nodes are given by the axes of a rectilinear grid. Points and cells are made only if a caller needs them.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -28,7 +28,7 @@ double median_edge_of(const GridAxes &axes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double step = view(axes.of[axis])[at[axis] + 1] - view(axes.of[axis])[at[axis]];
       const double length = std::sqrt(step * step);
-      // A cell has four edges along each axis. Counting each edge four times does not change the median.
+      // A cell has four edges along each axis. The median does not change if each edge is counted four times.
       if (length > 0 && std::isfinite(length)) lengths.push_back(length);
     }
   }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Centres of cells, and the pairs of cells that share a face, for solvers whose unknowns are at the centres. The centres equal
-// OpenFOAM's (primitiveMeshFaceCentresAndAreas.C, primitiveMeshCellCentresAndVols.C). A face is cut into triangles around the
-// mean of its nodes. A cell is cut into pyramids around the mean of its faces' centres. If a cell is not star-shaped,
-// OpenFOAM takes volumes of both signs. In this file all volumes count as positive.
+// Centres of cells, and pairs of cells that share a face, for solvers whose unknowns are at the centres of cells. The centres are
+// those of OpenFOAM (primitiveMeshFaceCentresAndAreas.C, primitiveMeshCellCentresAndVols.C). A face is cut into triangles whose
+// common corner is the mean of the face's nodes. A cell is cut into pyramids whose common apex is the mean of its faces' centres.
+// If a cell is not star-shaped, some of its pyramids have negative volumes in OpenFOAM. In this file, the volumes of all pyramids
+// count as positive.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -71,8 +72,9 @@ Vector3 center_of_cell(vtkCell *cell) {
   return volume > 0 ? 1 / volume * moment : mean;
 }
 
-// A face, given by its nodes, and a cell to which it belongs. Different faces may have three common nodes, on one edge. The other
-// nodes therefore count too, by their number and a hash.
+// A face, which is given by its nodes, and a cell to which the face belongs. Two different faces may have three nodes in common
+// if these three nodes lie on one edge. Therefore faces are compared by more than three nodes: by the number of the other nodes
+// and a hash of them.
 struct FaceOfCell {
   std::array<vtkIdType, 3> smallest;
   std::uint64_t others;

@@ -20,7 +20,8 @@ namespace riis::vtk {
 
 using Corners = std::vector<vtkIdType>;
 
-// The cells of a grid as polygons of corners. VTK gives the faces that depend on the cell.
+// The faces of a grid's cells as polygons of corners. If the faces of a type differ between its cells, VTK lists the faces of
+// each cell.
 class CellPolygons {
  public:
   explicit CellPolygons(vtkUnstructuredGrid *grid) : grid_(grid) {}
@@ -30,7 +31,7 @@ class CellPolygons {
     return shape.faces.empty() ? generic(cell)->GetNumberOfFaces() : static_cast<int>(shape.faces.size());
   }
 
-  // Returns the corners of a face. The result is valid until the next call.
+  // Returns the corners of a face. The result is valid until the next call of this function.
   const Corners &face_of_volume(vtkIdType cell, int face) {
     corners_.clear();
     const CellShape &shape = shape_of(grid_->GetCellType(cell));
@@ -50,7 +51,7 @@ class CellPolygons {
     corners_.clear();
     const int type = grid_->GetCellType(cell);
     add_corners(generic(cell));
-    // Puts the corners in the order round the cell, because VTK lists a pixel's corners row by row and a strip's corners in
+    // Puts the corners in their order round the cell. VTK lists the corners of a pixel row by row, and those of a strip in
     // zigzag.
     if (type == VTK_PIXEL) std::swap(corners_[2], corners_[3]);
     if (type == VTK_TRIANGLE_STRIP) {
@@ -69,7 +70,7 @@ class CellPolygons {
     return generic_;
   }
 
-  // Appends the corners of a polygon. The corners are the polygon's first points, and it has as many corners as edges.
+  // Appends the corners of a polygon. The corners of the polygon are its first points. The polygon has as many corners as edges.
   void add_corners(vtkCell *polygon) {
     for (int i = 0; i < polygon->GetNumberOfEdges(); ++i) corners_.push_back(polygon->GetPointIds()->GetId(i));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Domains of a mesh, such as the fluid and the wall: cells with one value in a cell array. The caller keeps the cells of some
-// values, or learns which values are beside each other.
+// Domains of a mesh, such as the fluid and the wall. A domain consists of the cells with one value in a cell array. The caller
+// keeps the cells of certain domains, or learns which domains touch each other.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ bool is_volume(vtkUnstructuredGrid *grid, vtkIdType cell) { return shape_of(grid
 
 // ---- The choice ----
 
-// "NAME=VALUES", with values that are separated by commas.
+// A choice of cells, "NAME=VALUES", in which commas separate the values.
 struct Where {
   std::string name;
   std::vector<std::string> values;
@@ -52,7 +52,7 @@ vtkDataArray *numbers_of_cells(vtkUnstructuredGrid *grid, const std::string &nam
   return array && array->GetNumberOfComponents() == 1 ? array : nullptr;
 }
 
-// A cell of gmsh's may be in several physical groups. Arrays of further groups follow the array of the first group.
+// A cell from gmsh may belong to several physical groups. The arrays for further groups come after the array for the first group.
 std::vector<vtkDataArray *> arrays_of(vtkUnstructuredGrid *grid, const std::string &name) {
   std::vector<vtkDataArray *> arrays;
   vtkDataArray *next = numbers_of_cells(grid, name);
@@ -82,7 +82,7 @@ std::set<double> numbers_of(const Where &where, const std::vector<RegionName> &n
   return numbers;
 }
 
-// Returns the values of volume cells as text, at most a few.
+// Returns some values of volume cells as text.
 std::string values_text(vtkUnstructuredGrid *grid, const std::vector<vtkDataArray *> &arrays) {
   constexpr std::size_t most_listed = 10;
   std::set<double> values;
@@ -121,7 +121,7 @@ void choose_cells(riis_vtk_mesh &mesh, const Where &where, std::int64_t *n_chose
 
 // ---- Regions ----
 
-// Arrays with such words in their names do not name domains of cells.
+// Returns false if the array's name contains a word that seldom names domains.
 bool may_tell_domains(const std::string &array_name) {
   std::string name = array_name;
   for (char &c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -134,11 +134,12 @@ bool may_tell_domains(const std::string &array_name) {
 
 constexpr std::size_t most_regions = 16;
 
-// Returns the values of volume cells if the values are few whole numbers, and two cells of one type with a common node have two
-// values. Otherwise returns none. A domain of several types of cells often has a block for each of them, as Exodus needs.
+// Returns the values of volume cells if they are few whole numbers, and if cells with different values touch. Cells touch if they
+// have one type and a common node. Otherwise returns no values. Touching cells of different types do not count, because a domain
+// often has a block for each of its types, as Exodus needs.
 std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *array) {
   std::set<double> values;
-  // The value and the type of the first cell at each node.
+  // For each node, the value and the type of its first cell.
   std::vector<double> of_node(static_cast<std::size_t>(grid->GetNumberOfPoints()), NAN);
   std::vector<int> type_at(of_node.size());
   bool do_touch = false;
@@ -163,8 +164,8 @@ std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *arr
   return {values.begin(), values.end()};
 }
 
-// As touching_values, for the cells of axes. Two cells with different values touch somewhere, because each cell is beside the
-// next cell.
+// Does the same as touching_values for a mesh given by axes. In a mesh given by axes, different values always touch, because each
+// cell is beside the next cell.
 std::vector<double> values_on_axes(vtkDataArray *array) {
   std::set<double> values;
   for (vtkIdType cell = 0; cell < array->GetNumberOfTuples(); ++cell) {

@@ -16,7 +16,8 @@ constexpr double least_rest = 0.1;  // of the wall's area, without its flat ends
 }  // namespace
 
 FlatParts flat_ends(vtkPolyData *faces) {
-  // Faces of files may have any winding. The filter turns neighbours alike, but perhaps inwards.
+  // In a file, the corners of a face may run clockwise or counter-clockwise. The filter gives neighbouring faces the same
+  // orientation, but all faces may then face inwards.
   vtkNew<vtkPolyDataNormals> alike;
   alike->SetInputData(faces);
   alike->SplittingOff();

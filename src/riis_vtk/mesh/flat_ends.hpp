@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the faces of a wall. Out: the surface's flat ends, such as an inlet.
+// In: the faces of a wall. Out: the flat ends of this wall, such as an inlet.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct FlatParts {
   bool are_all = false;              // the faces have hardly any other part, as in a box
 };
 
-// Finds the flat ends of a wall: connected faces in one plane that meet the rest of the wall at a sharp rim. The faces must share
-// their points.
+// Finds the flat ends of a wall. A flat end consists of connected faces in one plane that meet the rest of the wall at a sharp
+// rim. Neighbouring faces must share their points.
 FlatParts flat_ends(vtkPolyData *faces);
 
 }  // namespace riis::vtk

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the arrays of cells as fields of OpenFOAM, volScalarField and volVectorField, into the folder of a time. The fields are
-// text with the shortest digits that give the same doubles. A patch gets the value of its cells. If OpenFOAM prescribes the
-// patch's type, such as empty or cyclic, the field has this type.
+// Writes cell arrays as fields of OpenFOAM into the folder of a time. The fields are of the types volScalarField and
+// volVectorField. The fields are text. Each number has the fewest digits that give the same double. On a patch, the field has the
+// values of the cells beside the patch. If OpenFOAM prescribes the type of a patch, such as empty or cyclic, the field also has
+// this type.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -18,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the name of a field. The array riis_K becomes K, and riis_K_u_surface becomes Ku. Other prefixes stay.
+// Returns the name of OpenFOAM's field for an array. The array riis_K becomes K, and riis_K_u_surface becomes Ku. Names with
+// other prefixes are not changed.
 std::string field_of(const std::string &array) {
   const std::string prefix = std::string(default_prefix) + "_", velocity = "K_u_surface";
   std::string name = array.rfind(prefix, 0) == 0 ? array.substr(prefix.size()) : array;
@@ -31,7 +33,8 @@ bool ends_with(const std::string &text, const std::string &end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-// OpenFOAM compares dimensions. K is for the momentum equation of an incompressible fluid, divided by the density.
+// OpenFOAM compares the dimensions of fields. OpenFOAM solves an incompressible fluid's momentum equation divided by the density,
+// so K is also divided by the density.
 const char *dimensions_of(const std::string &array) {
   if (ends_with(array, "K")) return "[0 0 -1 0 0 0 0]";
   if (ends_with(array, "K_u_surface")) return "[0 1 -2 0 0 0 0]";
@@ -39,7 +42,7 @@ const char *dimensions_of(const std::string &array) {
   return ends_with(array, "_velocity") ? "[0 1 -1 0 0 0 0]" : "[0 0 0 0 0 0 0]";
 }
 
-// Types of patches that a field must also have.
+// The types of patches on which a field must have the type of the patch.
 bool is_constraint(const std::string &type) {
   const char *const types[] = {"empty",
                                "wedge",

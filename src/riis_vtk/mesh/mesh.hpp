@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mesh handle holds a grid.
-// In: a grid whose cells are checked. Out: the edges of the mesh's cells, the typical length of these edges, and the mesh's
-// linear volume cells as plain arrays for riis_adjacency_create_from_cells.
+// The mesh handle contains a grid.
+// In: a grid whose cells have been checked. Out: the edges of the mesh's cells, the typical length of these edges, and the linear
+// volume cells. The volume cells are plain arrays for riis_adjacency_create_from_cells.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -28,13 +28,13 @@ struct CellCenters {
 };
 CellCenters centers_of(vtkUnstructuredGrid *grid);
 
-// A named value of a cell array, such as one of gmsh's physical groups.
+// A value of a cell array that has a name, such as a physical group of gmsh.
 struct RegionName {
   double number;
   std::string name;
 };
 
-// The values of a cell array that tells the domains of a mesh, or none.
+// The values of a cell array that tells apart the domains of a mesh. There may be none.
 struct Regions {
   std::string array = {};
   std::vector<double> values = {};
@@ -43,21 +43,22 @@ struct Regions {
 }  // namespace riis::vtk
 
 struct riis_vtk_mesh {
-  // Its points are a vtkDoubleArray. A grid of axes at first has only arrays: grid() makes its points and cells.
+  // A mesh. The points of its grid are a vtkDoubleArray. If axes give the nodes of the mesh, the grid has only arrays at first.
+  // grid() makes its points and cells.
   vtkSmartPointer<vtkUnstructuredGrid> data;
   std::unique_ptr<const riis::vtk::GridAxes> axes = {};
   std::string notes = {};      // the notes that riis_vtk_mesh_get_notes gives
   std::string foam_case = {};  // the folder of the case that the mesh was read from, or ""
-  // Centres, if any, are the mesh's nodes, and data of nodes is then data of cells.
+  // If the mesh has centres of cells, the centres are its nodes, and the data of nodes is data of cells.
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
   std::vector<riis::vtk::RegionName> region_names = {};  // of gmsh's physical groups of volumes
   riis::vtk::Regions regions = {};                       // as riis_vtk_mesh_find_regions found them
-  // If only a part of the cells was kept, the ids of its nodes and cells in the whole mesh. Otherwise empty.
+  // The ids of nodes and cells in the whole mesh, if only some cells were kept. The lists are empty if all cells were kept.
   std::vector<std::int64_t> whole_node_ids = {}, whole_cell_ids = {};
 
   std::int64_t n_nodes() const { return centers ? n_cells() : axes ? axes->n_nodes() : data->GetNumberOfPoints(); }
   std::int64_t n_cells() const { return axes ? axes->n_cells() : data->GetNumberOfCells(); }
-  // Whether the nodes lie on axes.
+  // Returns whether axes give the nodes.
   bool is_of_axes() const { return axes && !centers; }
   vtkDataSetAttributes *node_data() const;
   void make_points() const;           // of axes, unless they are made
@@ -66,21 +67,21 @@ struct riis_vtk_mesh {
 
 namespace riis::vtk {
 
-// As median_edge_of, for the cells of axes.
+// Does the same as median_edge_of, for a mesh given by axes.
 double median_edge_of(const GridAxes &axes);
 // Returns the adjacency of the grid's nodes.
 riis_adjacency *adjacency_of(const GridAxes &axes, std::int32_t n_threads);
-// Sets is_outside to 0 for points that are at most the distance away from the box of the axes.
+// Sets is_outside to 0 for each point whose distance from the box of the axes is at most the given distance.
 void find_outside(const GridAxes &axes, std::int64_t n_points, const double *xyz, double distance,
                   std::uint8_t *is_outside);
-// Writes the arrays on the axes to a .vtr file, or on an image to a .vti file.
+// Writes the arrays to a .vtr file with axes. For an image, writes them to a .vti file.
 void write_axes(const std::string &path, const riis_vtk_mesh &mesh, const CaughtOutput &caught);
 
-// Gives the grid points in double precision. A grid without points gets an empty list.
+// Converts the points of the grid to double precision. A grid without points gets an empty list of points.
 void make_points_double(vtkUnstructuredGrid *grid);
 
-// The properties that all cells of one VTK type have in common. Nodes are positions in the cell's list of nodes. Edges and faces
-// are empty for types whose cells differ in them.
+// The properties that all cells of a VTK type have in common. A node is given by its position in the list of the cell's nodes.
+// The lists of edges and faces are empty for a type whose cells can have different edges and faces.
 using Edge = std::array<vtkIdType, 2>;
 struct CellShape {
   struct Face {
@@ -98,7 +99,8 @@ struct VolumeCounts {
   std::int64_t n_linear = 0;   // the volume cells that volume_cells_of returns
   std::int64_t n_unknown = 0;  // the volume cells whose edges are not known
 };
-// `ghosts`, by cell, may be NULL. Cells that `ghosts` marks as copies of another piece's cells do not count.
+// `ghosts` has a value for each cell, and may be NULL. A cell that `ghosts` marks is a copy of another piece's cell, and does not
+// count.
 VolumeCounts count_volumes(vtkUnstructuredGrid *grid, vtkUnsignedCharArray *ghosts = nullptr);
 
 struct VolumeCells {
@@ -106,42 +108,42 @@ struct VolumeCells {
   std::vector<std::int64_t> offsets = {0};  // the number of cells plus one entries
 };
 
-// Returns tetrahedra, pyramids, wedges and hexahedra, and also voxels as hexahedra. Leaves out other cells.
+// Returns the tetrahedra, pyramids, wedges and hexahedra of the grid. Voxels become hexahedra. Other cells are left out.
 VolumeCells volume_cells_of(vtkUnstructuredGrid *grid);
 
-// Edges of volume cells, as pairs of nodes. An edge appears once for each of its cells.
+// The edges of volume cells as pairs of nodes. An edge of several cells appears once for each cell.
 struct VolumeEdges {
   std::vector<std::int64_t> node_ids;  // (2, n)
   std::int64_t n_cells_left_out = 0;   // volume cells whose edges are not known
 };
 VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid);
 
-// The edges that are longer than a length, and whose bounding box meets the box from lower to upper.
+// Returns the edges that are longer than a given length. The bounding box of an edge must also meet the box from lower to upper.
 struct LongEdges {
   LongEdges(double longer_than, const double *box_lower, const double *box_upper)
       : least_square(longer_than * (1 - 1e-9) * (longer_than * (1 - 1e-9))), lower(box_lower), upper(box_upper) {}
-  // Compares the length first, because few edges of a fine mesh are long.
+  // The length is checked before the overlap of the boxes, because few edges of a fine mesh are long.
   bool has(const double *a, const double *b) const;
 
   double least_square;
   const double *lower, *upper;
 };
-// xyz(3, n) are the grid's points.
+// An array xyz(3, n) has the grid's points.
 VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, const LongEdges &wanted);
 
-// Returns the median, or 0 for no lengths.
+// Returns the median of the lengths, or 0 if there are no lengths.
 double median_of(std::vector<double> lengths);
 inline constexpr std::int64_t most_measured =
     20'000;  // cells or pairs of cells that a median is of, at equal distances in the list
 
-// Returns the median length of the edges of faces and volumes, or 0 if no edge is known. An edge counts once for each of its
-// cells.
+// Returns the median length of the edges of faces and volumes, or 0 if no edge is known. An edge of several cells counts once for
+// each cell.
 double median_edge_of(vtkUnstructuredGrid *grid);
 
-// Keeps only these cells, in ascending order, and their nodes (mesh_parts.cpp).
+// Keeps only the given cells, in ascending order, and the nodes of these cells (mesh_parts.cpp).
 void keep_cells(riis_vtk_mesh &mesh, const std::vector<vtkIdType> &cells);
 
-// Writes the arrays of cells as fields of a case of OpenFOAM, into the folder of a time (foam_fields.cpp).
+// Writes cell arrays as fields of an OpenFOAM case, into the folder of a time (foam_fields.cpp).
 void write_foam_fields(const std::string &path, const riis_vtk_mesh &mesh);
 
 }  // namespace riis::vtk

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volume meshes of riis_vtk.h. Reads a file into a grid with points in double precision, and makes an adjacency from its cells.
-// Stores marks in the grid's point arrays, and writes the grid to a .vtu file.
+// Volume meshes of riis_vtk.h. Reads a file into a grid with points in double precision, and makes an adjacency from the grid's
+// cells. Stores marks in the grid's point arrays, and writes the grid to a .vtu file.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -29,7 +29,8 @@
 
 namespace riis::vtk {
 
-// Takes the note of a reader out of the grid. Files of VTK may have points in single precision.
+// Removes the reader's note from the grid and returns it. For a file of VTK, the note may say that the points have single
+// precision.
 std::string take_note(vtkUnstructuredGrid *grid) {
   std::string note;
   if (auto *const array = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray(note_array))) {
@@ -40,7 +41,7 @@ std::string take_note(vtkUnstructuredGrid *grid) {
   return note.empty() && is_single ? "its points have single precision" : note;
 }
 
-// Takes the names of physical groups out of the grid.
+// Removes the names of physical groups from the grid and returns them.
 std::vector<RegionName> take_region_names(vtkUnstructuredGrid *grid) {
   std::vector<RegionName> names;
   if (auto *const array = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray(region_names_array))) {
@@ -63,15 +64,16 @@ void make_points_double(vtkUnstructuredGrid *grid) {
 
 namespace {
 
-// Throws the core's error. Removes the name of the struct from the message, because the caller passed a plain argument.
+// Throws an exception with the core's error. The name of the struct is removed from the message, because the caller passed a
+// plain argument.
 void check_adjacency(riis_status status, const std::string &structure) {
   if (status == RIIS_OK) return;
   const std::string text = riis_last_error();
   fail(status, text.rfind(structure, 0) == 0 ? text.substr(structure.size()) : text);
 }
 
-// Makes an adjacency of nodes from edges. The core has a call for cells and the faces between them, so the nodes are passed as
-// cells and the edges as faces.
+// Makes an adjacency of nodes from edges. The core has a call for cells and the faces between cells. The nodes are passed as
+// cells, and the edges as faces.
 riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::int64_t> &edges,
                                    std::int32_t n_threads) {
   riis_mesh_faces faces;
@@ -94,7 +96,7 @@ riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) 
   const VolumeCounts counts = count_volumes(grid);
   if (counts.n_linear == 0 || counts.n_linear < counts.n_volumes)
     return adjacency_of_edges(grid->GetNumberOfPoints(), volume_edges_of(grid).node_ids, n_threads);
-  // If all volume cells are linear, passes the cells, because their list is a third as long as the list of their edges.
+  // If all volume cells are linear, passes the list of cells, which is a third as long as the list of edges.
   const VolumeCells volumes = volume_cells_of(grid);
   riis_mesh_cells cells;
   check_core(riis_mesh_cells_init(&cells, sizeof cells));
@@ -120,7 +122,7 @@ const double *points_of(const riis_vtk_mesh *mesh) {
   return vtkDoubleArray::SafeDownCast(mesh->data->GetPoints()->GetData())->GetPointer(0);
 }
 
-// Returns the pairs of neighbouring cells. The centres of a pair are the ends of such an edge.
+// Returns the pairs of neighbouring cells as edges. The two ends of an edge are the centres of two neighbouring cells.
 std::vector<std::int64_t> long_pairs_of(const CellCenters &centers, const LongEdges &wanted) {
   std::vector<std::int64_t> pairs;
   for (std::int64_t i = 0; i < view(centers.pairs).size(); i += 2) {
@@ -141,7 +143,7 @@ double median_edge_of(const CellCenters &centers) {
   return median_of(std::move(lengths));
 }
 
-// The functions below make point arrays of a grid. riis_vtk.h documents their names. The values come from a marking or from the
+// The functions below add point arrays to a grid. riis_vtk.h documents their names. The values come from a marking or from the
 // caller.
 
 void check_are_of_mesh(const riis_marks *marks, vtkIdType n_nodes) {
@@ -165,13 +167,13 @@ void check_name(const char *argument, const std::string &name) {
   }
 }
 
-// The nodes within the distance limit of a marking.
+// The nodes that are within the distance limit of a marking.
 struct Within {
   std::int64_t n = 0;
   const std::int64_t *node_id = nullptr;
 };
 
-// Adds an array that has `values` at the nodes within the limit, and `elsewhere` at the other nodes.
+// Adds an array with `values` at the nodes within the limit. At all other nodes, the value is `elsewhere`.
 template <class Array, class Value>
 void add_field(riis_vtk_mesh *mesh, const std::string &name, const Within &within, int n_components,
                const Value *values, Value elsewhere) {
@@ -212,7 +214,7 @@ void set_marks(riis_vtk_mesh *mesh, const riis_marks *marks, double far_distance
   }
 }
 
-// Sets a point array. `values` is (n_components, n_nodes).
+// Sets a point array. The shape of `values` is (n_components, n_nodes).
 void set_point_array(riis_vtk_mesh *mesh, const std::string &name, std::int64_t n_nodes, std::int64_t n_components,
                      const double *values) {
   check_name("name", name);
@@ -225,7 +227,7 @@ void set_point_array(riis_vtk_mesh *mesh, const std::string &name, std::int64_t 
   mesh->node_data()->AddArray(array);
 }
 
-// Names the unit of a point array. VTK's writers keep the keys of an array.
+// Stores the unit of a point array under a key of the array. VTK's writers also write the keys of an array.
 void set_unit(riis_vtk_mesh *mesh, const std::string &name, const std::string &unit) {
   constexpr std::size_t longest = 64;
   const auto is_printed = [](char c) { return c >= ' ' && c <= '~'; };
@@ -236,7 +238,7 @@ void set_unit(riis_vtk_mesh *mesh, const std::string &name, const std::string &u
   array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
 }
 
-// Sets an array for each of the fields, such as PREFIX_normal.
+// For each of the given fields, sets an array with a name such as PREFIX_normal.
 void set_fields(riis_vtk_mesh *mesh, const riis_marks *marks, std::int32_t fields, const std::string &prefix) {
   check_name("prefix", prefix);
   check_fields(fields);

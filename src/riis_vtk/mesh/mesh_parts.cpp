@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of volume meshes of riis_vtk.h. A part consists of the cells around some nodes of a mesh, and is a mesh itself.
+// Parts of volume meshes of riis_vtk.h. A part of a mesh is a mesh of the cells around certain nodes of the whole mesh.
 #include <algorithm>
 #include <memory>
 
@@ -36,7 +36,7 @@ Chosen chosen_nodes(vtkUnstructuredGrid *grid, std::int64_t n_ids, const std::in
   return chosen;
 }
 
-// Returns the cells that have a chosen node. Also adds the other nodes of these cells to the chosen nodes.
+// Returns the cells that have at least one chosen node. All nodes of the returned cells are added to the chosen nodes.
 std::vector<vtkIdType> cells_around(vtkUnstructuredGrid *grid, Chosen &chosen) {
   const Chosen wanted = chosen;
   std::vector<vtkIdType> cells;
@@ -57,7 +57,8 @@ std::vector<vtkIdType> ids_of(const Chosen &chosen) {
   return ids;
 }
 
-// Returns ids in the whole mesh. `whole` has the ids of the mesh's nodes, or is empty if the mesh is whole.
+// Converts ids of a mesh to ids of the whole mesh. If the mesh is a part of the whole mesh, `whole` has the ids of its nodes in
+// the whole mesh. Otherwise `whole` is empty.
 std::vector<std::int64_t> whole_ids(const std::vector<vtkIdType> &ids, const std::vector<std::int64_t> &whole) {
   std::vector<std::int64_t> made(ids.begin(), ids.end());
   if (!whole.empty())
@@ -65,7 +66,7 @@ std::vector<std::int64_t> whole_ids(const std::vector<vtkIdType> &ids, const std
   return made;
 }
 
-// Copies the values of some nodes or cells, and adds an array with the ids of these nodes or cells in the whole mesh.
+// Copies the values at the given nodes or cells. Also adds an array with the nodes' or the cells' ids in the whole mesh.
 void copy_data(vtkDataSetAttributes *from, const std::vector<vtkIdType> &ids, const char *id_array,
                const std::vector<std::int64_t> &whole, vtkDataSetAttributes *to) {
   const auto n = static_cast<vtkIdType>(ids.size());
@@ -78,8 +79,8 @@ void copy_data(vtkDataSetAttributes *from, const std::vector<vtkIdType> &ids, co
   to->AddArray(array);
 }
 
-// Adds a cell with its corners renumbered. A polyhedron's stream of faces has the number of faces, and then the size and the
-// nodes of each face.
+// Adds a cell whose corners get new numbers. The stream of a polyhedron's faces begins with the number of faces. The number is
+// followed by the size and the nodes of each face.
 void add_cell(vtkUnstructuredGrid *grid, vtkIdType cell, const std::vector<vtkIdType> &new_id, vtkIdList *nodes,
               vtkUnstructuredGrid *part) {
   const int type = grid->GetCellType(cell);
@@ -97,7 +98,7 @@ void add_cell(vtkUnstructuredGrid *grid, vtkIdType cell, const std::vector<vtkId
   part->InsertNextCell(type, nodes);
 }
 
-// Makes a grid of cells and of the chosen nodes. The chosen nodes include the cells' nodes.
+// Makes a grid from the given cells and the chosen nodes. All nodes of the given cells must be chosen.
 vtkSmartPointer<vtkUnstructuredGrid> part_of(const riis_vtk_mesh &mesh, const std::vector<vtkIdType> &cells,
                                              const Chosen &chosen) {
   vtkUnstructuredGrid *const grid = mesh.grid();

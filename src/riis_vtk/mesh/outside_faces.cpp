@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the outer faces of cells. VTK's own filters for this, vtkDataSetSurfaceFilter and vtkGeometryFilter, would take longer
+// Finds the outer faces of cells. VTK's filters for outer faces, vtkDataSetSurfaceFilter and vtkGeometryFilter, would take longer
 // than all other steps of a picture.
 #include "riis_vtk/mesh/outside_faces.hpp"
 
@@ -24,13 +24,13 @@ struct Face {
   int number;  // the face's position in its cell
 };
 
-// The faces of only one cell so far. Neighbouring cells are mostly near each other in the list, so there are few such faces at
-// any time.
+// Faces for which only one cell has been found so far. There are few lone faces at any time, because neighbouring cells are
+// mostly near each other in the list of cells.
 class LoneFaces {
  public:
   explicit LoneFaces(vtkIdType n_points) : first_(static_cast<std::size_t>(n_points), -1) {}
 
-  // Adds a face. A face that already exists belongs to two cells, and is removed.
+  // Adds a face. A face that is added for the second time belongs to two cells, and is removed.
   void toggle(const Corners &corners, Face face) {
     Key key = {-1, -1, -1, -1};
     std::partial_sort_copy(corners.begin(), corners.end(), key.begin(), key.end());
@@ -83,7 +83,7 @@ class LoneFaces {
   std::int64_t free_ = -1;
 };
 
-// Collects polygons and the points that they use.
+// Collects polygons and their points.
 class Collected {
  public:
   explicit Collected(vtkUnstructuredGrid *grid)
@@ -114,14 +114,14 @@ class Collected {
   vtkNew<vtkCellArray> polygons_;
 };
 
-// Reverses a face whose corners run clockwise, seen from outside its cell. Clockwise faces come from inverted cells.
+// Reverses a face if its corners run clockwise, as seen from outside its cell. Inverted cells have such faces.
 void turn_outwards(vtkUnstructuredGrid *grid, vtkIdType cell, Corners &corners) {
   vtkNew<vtkIdList> nodes;
   grid->GetCellPoints(cell, nodes);
   double inside[3] = {0, 0, 0};
   for (const vtkIdType node : *nodes) vtkMath::Add(inside, grid->GetPoint(node), inside);
   vtkMath::MultiplyScalar(inside, 1.0 / static_cast<double>(nodes->GetNumberOfIds()));
-  // Sums the volumes of the tetrahedra from a point inside the cell to the face.
+  // Adds up the volumes of the tetrahedra between a face and a point inside the cell.
   double first[3], volume = 0;
   vtkMath::Subtract(grid->GetPoint(corners[0]), inside, first);
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {

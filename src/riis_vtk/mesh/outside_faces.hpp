@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a grid and the wanted cells. Out: polydata with the faces that belong to exactly one wanted cell.
+// In: a grid, and the cells that are wanted. Out: polydata with the faces that belong to exactly one wanted cell.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -15,8 +15,8 @@ class vtkUnstructuredGrid;
 
 namespace riis::vtk {
 
-// Returns the largest dimension of a cell, from 0 to 3. In a grid with volumes, flat cells are not drawn, because they only
-// repeat the grid's boundary.
+// Returns the largest dimension of the grid's cells, from 0 to 3. In a grid with volumes, flat cells are not drawn, because they
+// only repeat the boundary of the volumes.
 int largest_dimension(vtkUnstructuredGrid *grid);
 
 struct Outside {
@@ -25,8 +25,8 @@ struct Outside {
   bool of_volumes = false;             // if true, corners run anticlockwise seen from outside
 };
 
-// Returns, for each volume, the faces that no other wanted volume has. In a grid without volumes, each flat cell is a face.
-// Faces of cells of higher order become straight between their corners.
+// Returns the faces that belong to exactly one of the wanted volumes. In a grid without volumes, each flat cell is a face. The
+// faces of cells of higher order become straight between their corners.
 //   wanted       one entry for each cell; NULL for all cells
 //   face_wanted  one entry for each cell: only the faces of these cells are kept; NULL for all cells
 Outside outside_of(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> *wanted,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes in pieces of riis_vtk.h. Reads and writes the list of pieces in a .pvtu file, and reads a piece. Tells which nodes of a
-// piece may also be in other pieces.
+// piece other pieces may also have.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@
 
 namespace riis::vtk {
 
-// An array that each piece has.
+// An array that every piece has.
 struct Declared {
   std::string name, type;  // the type's name in XML
   int n_components = 1;
@@ -53,7 +53,7 @@ constexpr const char *ids_of_dolfinx = "vtkOriginalPointIds";
 
 // ---- The list ----
 
-// Returns the paths of the pieces. Relative names are relative to the folder of the list.
+// Returns the paths of the pieces. A relative name starts from the folder of the list.
 std::vector<std::string> files_of(const std::string &path, const std::vector<std::optional<std::string>> &sources) {
   if (sources.empty()) fail_file(path, "names no pieces: it has no Piece in a PUnstructuredGrid");
   if (view(sources).size() > most_pieces)
@@ -84,7 +84,8 @@ Declared declared_array(XmlAttributes attributes) {
   Declared array{value_of(attributes, "Name").value_or(""), value_of(attributes, "type").value_or("")};
   if (const auto n = value_of(attributes, "NumberOfComponents"); n && !read_number(*n, array.n_components))
     array.n_components = -1;
-  // dolfinx 0.5 gives scalars no components. VTK reads such arrays of a .vtu with one.
+  // dolfinx 0.5 writes no number of components for scalars. For VTK, an array has one component if a .vtu file states no number
+  // of components.
   if (array.n_components == 0) array.n_components = 1;
   return array;
 }
@@ -118,9 +119,9 @@ std::unique_ptr<riis_vtk_pieces> read_pieces(const std::string &path, const Caug
   });
   check_declared(path, made->point_arrays);
   check_declared(path, made->cell_arrays);
-  // dolfinx numbers the nodes of all ranks in this array. A file of functions is refused, because its coordinates of a shared
-  // node differ between ranks in the last bits. Filters of VTK number the nodes of each piece, and VTK's writer states the order
-  // of bytes.
+  // dolfinx writes an array that gives each node a number, which is valid on all ranks. A file of functions is refused, because
+  // the last bits of a shared node's coordinates differ between ranks. A file that states the order of bytes was written by VTK.
+  // A file by VTK is left out, because VTK's filters number the nodes of each piece separately.
   made->has_ids_of_dolfinx = !has_byte_order && std::any_of(made->point_arrays.begin(), made->point_arrays.end(),
                                                             [](const Declared &a) { return a.name == ids_of_dolfinx; });
   made->path = path;
@@ -161,7 +162,7 @@ std::vector<Declared> arrays_of(vtkFieldData *data) {
   return arrays;
 }
 
-// Refuses a piece whose arrays differ from the declared arrays. Pieces with other arrays would not form one mesh.
+// Refuses a piece whose arrays differ from the declared arrays. Pieces with different arrays would not form one mesh.
 void check_arrays(const riis_vtk_pieces &pieces, const std::string &path, const char *kind, vtkFieldData *data,
                   const std::vector<Declared> &declared) {
   const std::vector<Declared> arrays = arrays_of(data);
@@ -185,7 +186,7 @@ void check_arrays(const riis_vtk_pieces &pieces, const std::string &path, const 
   }
 }
 
-// Returns the array of global ids, or NULL if there is none.
+// Returns the array of global ids, or NULL if the file has none.
 vtkDataArray *global_ids_of(vtkUnstructuredGrid *grid) {
   vtkPointData *data = grid->GetPointData();
   vtkAbstractArray *array = data->GetGlobalIds();
@@ -213,7 +214,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_piece(const riis_vtk_pieces &pieces, s
 
 // ---- Shared nodes ----
 
-// Scatters the bits of a number.
+// Mixes the bits of a number.
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
@@ -230,9 +231,10 @@ vtkUnsignedCharArray *ghosts_of(vtkDataSetAttributes *data, const char *kind) {
   return ghosts;
 }
 
-// Finds the nodes that other pieces may share. A face that two cells of a piece share is inside the piece. Each node keeps the
-// combined bits of its faces. A face inside the piece is combined twice, and then leaves nothing. Whether all faces of a node are
-// inside is thus known without a list of faces. For each node, the answer is wrong with a probability of 2^-64.
+// Finds the nodes that other pieces may also have. A face of two cells in one piece lies inside the piece. For each node, the
+// hashes of its faces are combined by exclusive or. A face inside the piece is combined twice, so it leaves no trace. The result
+// tells, without a list of faces, whether all faces of a node are inside. For each node, the answer is wrong with a probability
+// of 2^-64.
 class NodeRoles {
  public:
   explicit NodeRoles(vtkUnstructuredGrid *grid)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which points lie outside a mesh. First each cell tells which points it contains. After that, the faces of the cells near the
-// other points become a surface, and the core tells the points' distances from the surface.
+// Finds the points that lie outside a mesh. First, the points inside each cell are found. For the remaining points, the faces of
+// nearby cells become a surface. The core computes the points' distances from the surface.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ double volume_of(const Vector3 &a, const Vector3 &b, const Vector3 &c, const Vec
   return dot(b - a, cross(c - a, d - a));
 }
 
-// Points on the boundary are inside, up to rounding.
+// Up to rounding, points on the boundary count as inside.
 bool contains(const Vector3 &a, const Vector3 &b, const Vector3 &c, const Vector3 &d, const Vector3 &p) {
   const double whole = volume_of(a, b, c, d), sign = whole < 0 ? -1 : 1, least = -1e-9 * std::fabs(whole);
   return whole != 0 && sign * volume_of(p, b, c, d) >= least && sign * volume_of(a, p, c, d) >= least &&
@@ -47,7 +47,7 @@ struct CellBounds {
   }
 };
 
-// Points in the boxes of a regular grid. The points of a row of boxes along z follow each other.
+// Sorts points into the boxes of a regular grid. Points in neighbouring boxes along z follow each other in the list.
 class PointGrid {
  public:
   explicit PointGrid(std::vector<Vector3> points) : points_(std::move(points)) {
@@ -70,7 +70,7 @@ class PointGrid {
 
   const Vector3 &point(std::int64_t i) const { return view(points_)[i]; }
 
-  // Calls visit with the number of each point within the bounds.
+  // Calls `visit` with the number of each point within the given bounds.
   template <class Visit>
   void for_each_in(const CellBounds &wanted, const Visit &visit) const {
     for (std::size_t k = 0; k < 3; ++k)
@@ -98,14 +98,14 @@ class PointGrid {
   std::vector<std::int64_t> starts_, order_;
 };
 
-// The volume cells of a mesh as tetrahedra and triangles. A cell is cut around its middle, and a face with more than three
-// corners around the face's middle. Two neighbours thus cut their common face in the same way.
+// Cuts the volume cells of a mesh into tetrahedra, and their faces into triangles. A cell is cut around its middle. A face with
+// more than three corners is cut around the middle of the face. Two neighbouring cells thus cut their common face in one way.
 class SolidCells {
  public:
   explicit SolidCells(vtkUnstructuredGrid *grid)
       : grid_(grid), xyz_(vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())->GetPointer(0)), polygons_(grid) {}
 
-  // Calls visit with each volume cell and its bounds.
+  // Calls `visit` with each volume cell and its bounds.
   template <class Visit>
   void for_each(const Visit &visit) {
     for (vtkIdType cell = 0; cell < grid_->GetNumberOfCells(); ++cell) {
@@ -164,7 +164,7 @@ struct SurfaceDeleter {
   void operator()(riis_surface *surface) const { riis_surface_destroy(&surface); }
 };
 
-// Returns the distances of points from triangles, three corners each.
+// Returns the distances of points from triangles. Each triangle is given by three corners.
 std::vector<double> distances_from(const std::vector<Vector3> &triangles, const std::vector<Vector3> &points) {
   std::vector<std::int64_t> corners(triangles.size());
   for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::int64_t>(i);
@@ -199,7 +199,7 @@ std::vector<double> distances_from(const std::vector<Vector3> &triangles, const 
   return distances;
 }
 
-// The points that are still outside, and their numbers among the caller's.
+// The points that are still outside, and their numbers in the caller's list.
 struct Asked {
   Asked(std::int64_t n_points, const double *xyz, const std::uint8_t *is_outside) {
     for (std::int64_t i = 0; i < n_points; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The edges of all types of cells, and the lists of volume cells and of their edges.
+// The edges of all types of cells, the list of volume cells, and the list of their edges.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,8 +40,8 @@ void sort_edges(std::vector<Edge> &edges) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 }
 
-// Adds the edges of a face. A side of higher order has a node in its middle. The face itself may also have a node in its middle,
-// which is then its last node.
+// Adds the edges of a face. A side of higher order has a node in its middle. The face may also have a node in its middle, which
+// is then the last node of the face.
 void add_face(vtkCell *face, std::vector<Edge> &edges) {
   std::vector<vtkIdType> middles;
   const int n_sides = face->GetNumberOfEdges();
@@ -58,8 +58,8 @@ void add_face(vtkCell *face, std::vector<Edge> &edges) {
   }
   const int last = static_cast<int>(face->GetNumberOfPoints()) - 1;
   if (last == n_sides + view(middles).size()) {
-    // The middle of a quad has edges to the middles of its four sides. The middle of a triangle also has edges to the three
-    // corners.
+    // The node in the middle of a quad has edges to the nodes in the middles of the four sides. The node in the middle of a
+    // triangle also has edges to the three corners.
     for (int i = n_sides == 3 ? 0 : n_sides; i < last; ++i)
       edges.push_back(edge_between(face->GetPointId(i), face->GetPointId(last)));
   } else if (!middles.empty()) {
@@ -68,18 +68,19 @@ void add_face(vtkCell *face, std::vector<Edge> &edges) {
   }
 }
 
-// Adds the edges that lie inside the cell and not on its faces.
+// Adds the edges that lie inside a cell, not on its faces.
 void add_inner_edges(int type, std::vector<Edge> &edges) {
   const auto add_star = [&](vtkIdType centre, vtkIdType first) {
     for (vtkIdType i = first; i < centre; ++i) edges.push_back(edge_between(i, centre));
   };
   if (type == VTK_TRIQUADRATIC_HEXAHEDRON) add_star(26, 20);
   if (type == VTK_TRIQUADRATIC_PYRAMID) add_star(18, 13);
-  // The wedge's nodes in the middles of its quads form a triangle at half height.
+  // The nodes in the middles of the wedge's quads form a triangle at half height.
   if (type == VTK_BIQUADRATIC_QUADRATIC_WEDGE) edges.insert(edges.end(), {{15, 16}, {16, 17}, {15, 17}});
 }
 
-// Lists the nodes of a face, first its corners in their order round the face. VTK lists the corners of a voxel's face row by row.
+// Lists the nodes of a face. The corners come first, in their order round the face. VTK lists the corners of a voxel's face row
+// by row.
 CellShape::Face listed_face(vtkCell *face) {
   CellShape::Face made{{face->GetPointIds()->begin(), face->GetPointIds()->end()}, face->GetNumberOfEdges()};
   if (face->GetCellType() == VTK_PIXEL) {
@@ -112,8 +113,8 @@ CellShape shape_from_vtk(int type) {
 using Orders = std::array<int, 4>;  // the orders along three axes, then the number of nodes, as in VTK
 
 void add_tetrahedron_lattice(int order, std::vector<Edge> &edges) {
-  // A small tetrahedron is given by four whole numbers whose sum is order - 1. With 1 added to one of the four numbers, they are
-  // a corner's barycentric coordinates.
+  // A small tetrahedron is given by four whole numbers, whose sum is order - 1. If 1 is added to one of the numbers, the four
+  // numbers are the barycentric coordinates of a corner.
   for (vtkIdType i = 0; i < order; ++i)
     for (vtkIdType j = 0; i + j < order; ++j)
       for (vtkIdType k = 0; i + j + k < order; ++k) {
@@ -155,7 +156,7 @@ void add_wedge_lattice(const Orders &orders, std::vector<Edge> &edges) {
       }
 }
 
-// Returns the number of nodes of a lattice. The number is a double, because the orders may be arbitrarily large.
+// Returns the number of nodes of a lattice. The number is a double, because the order of a cell may be arbitrarily large.
 double n_lattice_nodes(int type, const Orders &orders) {
   const double n[3] = {orders[0] + 1.0, orders[1] + 1.0, orders[2] + 1.0};
   if (type == VTK_LAGRANGE_TETRAHEDRON || type == VTK_BEZIER_TETRAHEDRON) return n[0] * (n[0] + 1) * (n[0] + 2) / 6;
@@ -180,8 +181,9 @@ std::vector<Edge> lattice_edges(int type, const Orders &orders) {
   return edges;
 }
 
-// Finds the orders of a cell with n_nodes nodes. The file gives the orders (`given`), or the orders are equal along all axes.
-// Returns false if neither fits n_nodes, because the nodes then form no lattice.
+// Finds the orders of a cell from its number of nodes, n_nodes. The cell has the orders in the file (`given`), or equal orders
+// along all axes. Returns false if n_nodes fits neither the given orders nor equal orders, because the nodes then form no
+// lattice.
 bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &orders) {
   orders[3] = static_cast<int>(n_nodes);
   const auto fit = [&] {
@@ -200,19 +202,19 @@ bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &order
   return false;
 }
 
-// The edges of cells. If a cell has straight sides, its edges are these sides. The nodes of a cell of higher order divide it
-// into linear cells, whose edges it has. A face without a node in its middle has edges between the middles of neighbouring
-// sides.
+// The edges of cells of all types. A cell with straight sides has its sides as edges. The nodes of a cell of higher order divide
+// it into linear cells, and the edges are those of the linear cells. If a face has no node in its middle, edges join the middles
+// of neighbouring sides.
 class CellEdges {
  public:
   explicit CellEdges(vtkUnstructuredGrid *grid) : grid_(grid), degrees_(grid->GetCellData()->GetHigherOrderDegrees()) {
     if (degrees_ && degrees_->GetNumberOfComponents() != 3) degrees_ = nullptr;
   }
 
-  // Returns whether the cell is a volume. Other cells are on the boundary of volumes, or belong to no volume.
+  // Returns whether the cell is a volume. A cell that is no volume is on the boundary of volumes, or belongs to no volume.
   bool is_volume(vtkIdType cell) const { return shape_of(grid_->GetCellType(cell)).dimension == 3; }
 
-  // Calls visit with both nodes of each edge of a face or a volume. Returns false if the edges are not known.
+  // Calls `visit` with the two nodes of each edge of a face or a volume. Returns false if the edges are not known.
   template <class Visit>
   bool for_each(vtkIdType cell, const Visit &visit) {
     const vtkIdType *ids = nullptr;
@@ -222,7 +224,8 @@ class CellEdges {
   }
 
  private:
-  // Returns each edge once, as a pair of positions in the list of nodes `ids`. If `ids` is NULL, the pairs are nodes.
+  // Returns the edges of a cell, each once, as pairs of positions in the list of nodes `ids`. If `ids` is NULL, the pairs contain
+  // nodes.
   const std::vector<Edge> &pairs_of(vtkIdType cell, const vtkIdType *&ids) {
     const int type = grid_->GetCellType(cell);
     if (type == VTK_POLYHEDRON) {
@@ -234,8 +237,8 @@ class CellEdges {
     return is_lattice(type) ? lattice_of(type, cell, n) : shape_of(type).edges;
   }
 
-  // Lists the edges of a polyhedron. The polyhedron's stream of faces has the number of faces, and then the size and the nodes of
-  // each face.
+  // Lists the edges of a polyhedron. The stream of a polyhedron's faces begins with the number of faces. The number is followed
+  // by the size and the nodes of each face.
   void list_polyhedron(vtkIdType cell) {
     edges_.clear();
     grid_->GetFaceStream(cell, faces_);
@@ -274,7 +277,7 @@ double distance_between(vtkUnstructuredGrid *grid, vtkIdType a, vtkIdType b) {
   return std::sqrt(vtkMath::Distance2BetweenPoints(p, q));
 }
 
-// Lists the edges of volumes for which is_wanted(a, b) is true.
+// Lists the edges of volumes for which the function is_wanted(a, b) returns true.
 template <class IsWanted>
 VolumeEdges edges_where(vtkUnstructuredGrid *grid, const IsWanted &is_wanted) {
   VolumeEdges made;
@@ -347,8 +350,8 @@ VolumeCells volume_cells_of(vtkUnstructuredGrid *grid) {
     const vtkIdType *ids = nullptr;
     grid->GetCells()->GetCellAtId(cell_id, n, ids);
     if (type == VTK_VOXEL) {
-      // The nodes of a voxel are ordered along x, then y, then z. The corners of a hexahedron run round its base and then round
-      // its top.
+      // The nodes of a voxel are ordered along x, then y, then z. The corners of a hexahedron run round its base first, and then
+      // round its top.
       cells.node_ids.insert(cells.node_ids.end(), {ids[0], ids[1], ids[3], ids[2], ids[4], ids[5], ids[7], ids[6]});
     } else {
       cells.node_ids.insert(cells.node_ids.end(), ids, ids + n);

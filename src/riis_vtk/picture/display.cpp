@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the X display. The code has its own file, because X11's headers define macros with names that VTK's headers use.
+// Opens the X display. The code is in a separate file, because X11's headers define macros with names that VTK's headers use.
 #include <chrono>
 #include <cstdlib>
 #include <thread>
@@ -15,8 +15,8 @@ namespace {
 
 constexpr const char *advice = "; on a machine without one, run the program by: xvfb-run -a PROGRAM";
 
-// Tries again for a while, because the X server refuses connections while it resets itself after a picture. A display on another
-// machine may take minutes to refuse, and is tried once.
+// Tries several times, because the X server resets itself after a picture and refuses connections meanwhile. A display on another
+// machine is tried only once, because its refusal may take minutes.
 Display *open_display() {
   using std::chrono::milliseconds;
   const auto end = std::chrono::steady_clock::now() + milliseconds(450);
@@ -27,8 +27,9 @@ Display *open_display() {
   }
 }
 
-// Returns whether VTK's OpenGL can draw on the display. The OpenGL library in use decides. Some libraries, such as the one in the
-// program's archive, draw by X alone, without the server's extension. VTK has loaded the library.
+// Returns whether VTK's OpenGL can draw on the display. Whether VTK can draw depends on the OpenGL library in use. Some
+// libraries, such as the one in the program's archive, draw by X alone and do not need the server's extension GLX. VTK has
+// already loaded the OpenGL library before the call.
 bool has_opengl(Display *display) {
   int opcode = 0, event = 0, error = 0;
   using Query = int(Display *, int *, int *);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// VTK draws by Cocoa on macOS, without a connection that could be held.
+// On macOS, VTK draws by Cocoa, so no connection to a display is held.
 #include "riis_vtk/picture/drawing.hpp"
 
 namespace riis::vtk {

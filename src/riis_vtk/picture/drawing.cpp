@@ -37,8 +37,8 @@ vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data) {
 
 namespace {
 
-// Returns cells that share no points, with the colours of the cells at their points. Mesa's softpipe, which the archive of the
-// program has, draws no cell that has a colour of its own.
+// Returns cells that share no points. Each point has the colour of its cell. Mesa's softpipe, which is in the program's archive,
+// ignores the colours of cells but draws the colours of points.
 vtkSmartPointer<vtkPolyData> with_colours_of_points(vtkPolyData *cells) {
   auto apart = vtkSmartPointer<vtkPolyData>::New();
   vtkDataArray *colours = cells->GetCellData()->GetScalars();
@@ -99,7 +99,7 @@ vtkSmartPointer<vtkImageData> image_of(vtkRenderWindow *window) {
 }
 
 vtkSmartPointer<vtkUnsignedCharArray> encoded_png(vtkImageData *image) {
-  // The picture is first written to memory, because the PNG library prints a message if it cannot write a file.
+  // The picture is first written to memory, because the PNG library would print a message if it could not write a file.
   vtkNew<vtkPNGWriter> writer;
   writer->WriteToMemoryOn();
   writer->SetInputData(image);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of riis_vtk.h. Draws a surface and a marked mesh, seen by one camera, into .png files. The caller's picture options
-// may have the size of any release. The options are converted to this release's struct and checked. The message of a failure
-// names the field and its value.
+// Pictures of riis_vtk.h. Draws a surface and a marked mesh, as seen by one camera, into .png files. The struct with the caller's
+// options may have the size of any release. The caller's options are converted to the struct of this release, and then checked.
+// If a check fails, the message names the field and its value.
 #include <riis/riis_vtk.h>
 
 #include <cmath>
@@ -56,7 +56,7 @@ void check_edges(const riis_vtk_picture_options &options, const riis_vtk_mesh *m
   }
 }
 
-// Fails unless the struct's size is one that check_struct_size accepts.
+// Fails if check_struct_size does not accept the size of the struct.
 void check_picture_options_size(std::int64_t size) { check_struct_size(size, first_size, size_here, "options"); }
 
 const riis_vtk_picture_options &default_picture_options() {
@@ -80,7 +80,8 @@ const riis_vtk_picture_options &default_picture_options() {
   return defaults;
 }
 
-// Returns the options with defaults for the fields that an older caller lacks. Returns all defaults if `options` is NULL.
+// Returns the options. An older caller's struct lacks some fields, which get defaults. If `options` is NULL, all fields get
+// defaults.
 riis_vtk_picture_options completed_picture_options(const riis_vtk_picture_options *options) {
   riis_vtk_picture_options whole = default_picture_options();
   if (options) {
@@ -91,14 +92,14 @@ riis_vtk_picture_options completed_picture_options(const riis_vtk_picture_option
   return whole;
 }
 
-// Checks a view. `argument` is the caller's name for the view.
+// Checks a view. In the message, `argument` is the caller's name for the view.
 void check_view(std::int32_t view, const char *argument) {
   if (view < RIIS_VTK_VIEW_SIDE || view > RIIS_VTK_VIEW_VALVE_THREE) {
     refuse_argument(argument, " is ", view, ", not a RIIS_VTK_VIEW_*");
   }
 }
 
-// Checks the axes of the valve in the same ranges as a placement.
+// Checks the axes of the valve. The allowed ranges are those of a placement.
 void check_rotation(const riis_vtk_picture_options &options) {
   const double *axis = options.rotation_axis;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -112,7 +113,7 @@ void check_rotation(const riis_vtk_picture_options &options) {
   }
 }
 
-// Checks the fields of a picture's looks. `mesh` may be NULL.
+// Checks the fields that determine the looks of a picture. `mesh` may be NULL.
 void check_style(const riis_vtk_picture_options &options, const riis_vtk_mesh *mesh) {
   for (std::size_t k = 0; k < 3; ++k) {
     const double part = options.background[k];

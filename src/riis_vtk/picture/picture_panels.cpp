@@ -48,7 +48,7 @@ vtkSmartPointer<vtkActor> flat_actor(vtkPolyData *data, const Colour &colour) {
   return actor;
 }
 
-// Gives every face the colour of its leaflet, mixed with white. `white` is the share of white.
+// Gives every face the colour of its leaflet, mixed with white. `white` is the share of white in the colour.
 void colour_faces(vtkPolyData *faces, const std::vector<vtkIdType> &leaflets, double white) {
   vtkNew<vtkUnsignedCharArray> colours;
   colours->SetName("colour");
@@ -64,7 +64,7 @@ void colour_faces(vtkPolyData *faces, const std::vector<vtkIdType> &leaflets, do
 
 vtkSmartPointer<vtkActor> coloured_actor(vtkPolyData *faces) {
   const vtkSmartPointer<vtkActor> actor = coloured_actor_of(faces);
-  // The ambient light lets parts that face away from the lamps keep their colour.
+  // Without ambient light, parts that face away from the lamps would lose their colour.
   actor->GetProperty()->SetAmbient(0.25);
   actor->GetProperty()->SetDiffuse(0.85);
   actor->GetProperty()->SetSpecular(0.15);
@@ -81,7 +81,7 @@ std::vector<std::uint8_t> marked_nodes(vtkUnstructuredGrid *grid) {
   return nodes;
 }
 
-// Returns one value for each cell. Cells below the grid's largest dimension count as not marked.
+// Returns one value for each cell of the grid. Cells whose dimension is below the largest in the grid count as not marked.
 std::vector<std::uint8_t> marked_parts(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> &marked) {
   const int dimension = largest_dimension(grid);
   std::vector<std::uint8_t> parts(static_cast<std::size_t>(grid->GetNumberOfCells()), not_marked);
@@ -98,7 +98,7 @@ std::vector<std::uint8_t> marked_parts(vtkUnstructuredGrid *grid, const std::vec
   return parts;
 }
 
-// Returns, for each cell, the leaflet of its closest marked node.
+// For each cell, returns the leaflet of the closest marked node.
 std::vector<vtkIdType> leaflets_of(vtkUnstructuredGrid *grid, const std::vector<vtkIdType> &cells) {
   vtkDataArray *distance = grid->GetPointData()->GetArray(distance_array);
   vtkDataArray *leaflet = grid->GetPointData()->GetArray(leaflet_array);
@@ -110,7 +110,7 @@ std::vector<vtkIdType> leaflets_of(vtkUnstructuredGrid *grid, const std::vector<
     grid->GetCellPoints(cell, nodes);
     vtkIdType closest = -1;
     for (const vtkIdType node : *nodes) {
-      // Only marked nodes count. The distance of an unmarked node may be the far distance, which can be any number.
+      // Only marked nodes are compared. The distance of an unmarked node may be the far distance, which can have any value.
       if (marked->GetComponent(node, 0) == 0) continue;
       if (closest < 0 || distance->GetComponent(node, 0) < distance->GetComponent(closest, 0)) closest = node;
     }
@@ -133,7 +133,7 @@ double mean_edge_length(vtkPolyData *faces) {
   return sum / std::max(1.0, static_cast<double>(faces->GetNumberOfCells()));
 }
 
-// Moves an actor away from the eye. Without perspective, this only changes which parts are in front.
+// Moves an actor away from the eye. Without perspective, the actor looks the same, but other parts may then be drawn before it.
 void move_away(vtkActor *actor, const View &view, double length) {
   actor->SetPosition(length * view.away()[0], length * view.away()[1], length * view.away()[2]);
 }
@@ -159,7 +159,7 @@ void SurfacePanel::show(vtkPolyData *surface) {
   for (vtkActor *actor : {leaflets_drawn_.Get(), rims_.Get()}) renderer_->RemoveActor(actor);
   leaflets_drawn_ = coloured_actor(smoothed(surface));
   renderer_->AddActor(leaflets_drawn_);
-  // Joins vertices at the same position first, because patches of a leaflet do not share vertices on their common sides.
+  // Vertices at one position are joined first, because the patches of a leaflet do not share the vertices of their common sides.
   vtkNew<vtkCleanPolyData> joined;
   joined->SetInputData(surface);
   joined->SetTolerance(0);
@@ -196,16 +196,16 @@ void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
   counts_ = {grid->GetNumberOfPoints(), std::count(marked.begin(), marked.end(), 1),
              std::count(parts.begin(), parts.end(), whole_marked),
              std::count(parts.begin(), parts.end(), partly_marked)};
-  // Faces between wholly and partly marked cells are left out. Such faces are never visible, because partly marked cells surround
-  // wholly marked cells.
+  // Faces between wholly marked cells and partly marked cells are left out, because nobody can see them. Partly marked cells
+  // surround the wholly marked cells.
   std::vector<std::uint8_t> chosen(parts.size());
   std::transform(parts.begin(), parts.end(), chosen.begin(), [](std::uint8_t part) { return part == partly_marked; });
   const Outside partly = outside_of(grid, &parts, &chosen);
   colour_faces(partly.faces, leaflets_of(grid, partly.cell_id), pale);
   partly_length_ = mean_edge_length(partly.faces);
   partly_ = coloured_actor(partly.faces);
-  // Faces that look towards the eye are not drawn, because they would hide the whole cells. The other faces are visible around
-  // whole cells and in gaps between them.
+  // Faces that look towards the eye are not drawn, because they would hide the wholly marked cells. Faces that look away from the
+  // eye are visible around the wholly marked cells, and in gaps between them.
   partly_->GetProperty()->SetFrontfaceCulling(partly.of_volumes);
   partly_->GetProperty()->SetAmbient(0.6);
   partly_->GetProperty()->SetDiffuse(0.45);

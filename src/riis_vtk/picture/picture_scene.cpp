@@ -59,7 +59,7 @@ double round_length(double limit) {
   return power;
 }
 
-// Replaces all characters that VTK cannot draw in one line. VTK would read letters outside ASCII only as UTF-8.
+// Replaces all characters that VTK cannot draw in one line of text. VTK would read letters outside ASCII as UTF-8.
 std::string drawable(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
@@ -85,8 +85,8 @@ void add_text(vtkRenderer *renderer, const std::string &text, double x, double y
   renderer->AddViewProp(actor);
 }
 
-// Adds a text. Uses smaller letters for a text that is too long. A text that does not fit even with the smallest letters is cut
-// off at its end.
+// Adds a text. If the text is too long, its letters become smaller. If the text is too long even with the smallest letters, its
+// end is cut off.
 void add_fitting_text(vtkRenderer *renderer, std::string text, double x, double y, double width, int letter,
                       const Colour &colour) {
   while (letter > least_letter && width_of(text, letter) > width) --letter;
@@ -124,7 +124,7 @@ void add_lines(vtkRenderer *renderer, const std::vector<Line> &lines, double wid
   renderer->AddViewProp(actor);
 }
 
-// Adds a bar whose length is a round number, with the length and its unit next to it.
+// Adds the scale bar, whose length is a round number. The number and its unit stand beside the bar.
 void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double y, const Sight &sight,
                    const std::string &unit, bool has_plural, const Colour &ink) {
   const double pixels_per_length = layout.panel_height() / (2 * sight.shown[1].half());
@@ -137,7 +137,7 @@ void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double
             layout.line_width(), ink);
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  // A length in metres is given in millimetres, as people do with a valve.
+  // A length in metres is shown in millimetres, as is usual for valves.
   const bool is_small = unit == "m" && length < 0.1;
   text << (is_small ? 1000 * length : length) << " " << (is_small ? "mm" : unit)
        << (length == 1 || !has_plural ? "" : "s");
@@ -146,8 +146,8 @@ void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double
   add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter(), ink);
 }
 
-// Adds arrows for x, y and z, as long as these axes appear in the view. If an axis points at the eye, its name is at the origin
-// of the arrows.
+// Adds arrows for x, y and z. An arrow is as long as its axis appears in the view. If an axis points towards the eye, its name
+// stands at the origin of the arrows.
 void add_axes(vtkRenderer *renderer, const Layout &layout, double x, double y, double length, const View &view,
               const Colour &ink) {
   const char *const names[3] = {"x", "y", "z"};
@@ -177,7 +177,8 @@ void add_caption(vtkRenderer *renderer, const Layout &layout, int column, const 
   }
 }
 
-// Adds the key from `left` to the right end of the column, in one or more lines. Dots replace the entries that do not fit.
+// Adds the key of colours, from `left` to the right end of the column, in one or more lines. Entries that do not fit are replaced
+// by dots.
 void add_key(vtkRenderer *renderer, const Layout &layout, int column, double left, int n_lines,
              const std::vector<KeyEntry> &key) {
   const double right = layout.column_left(column) + layout.panel_width() - layout.margin();
@@ -205,8 +206,8 @@ void add_key(vtkRenderer *renderer, const Layout &layout, int column, double lef
   }
 }
 
-// Draws all texts of a picture in a layer behind its panels. `unit` follows the number at the scale bar. With has_plural, the
-// unit of each number other than 1 gets an s.
+// Draws all texts of a picture in a layer behind its panels. The number at the scale bar is followed by `unit`. With has_plural,
+// the unit ends in an s if the number is not 1.
 vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &columns,
                                               const View &view, const Sight &sight, const std::string &unit,
                                               bool has_plural, const Colour &ink) {
@@ -231,7 +232,7 @@ vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::v
   return renderer;
 }
 
-// Returns the lines of a title, at most two. The title may have a line break.
+// Returns the lines of a title, at most two.
 std::vector<std::string> lines_of_title(const char *title) {
   const std::string text = title ? title : "Surface";
   const std::size_t end = text.find('\n');
@@ -265,8 +266,8 @@ std::vector<KeyEntry> key_of_marks(const MarkCounts &marks, const Leaks &leaks, 
 
 KeyEntry dashes_entry(const Colour &ink) { return {"dashed: the mesh goes on", ink}; }
 
-// Returns the texts of a picture of three views: the captions and the keys of its panels, distributed over the columns. Below
-// its lines, each column has the name of its view.
+// Returns the texts of a picture with three views: captions and keys, distributed over the columns. Below its other lines, each
+// column has the name of its view.
 std::vector<PanelTexts> texts_of_columns(const std::vector<PanelTexts> &panels, std::int32_t first) {
   std::vector<PanelTexts> columns(n_views);
   for (std::size_t i = 0; i < panels.size(); ++i) columns[i] = panels[i];
@@ -278,8 +279,9 @@ std::vector<PanelTexts> texts_of_columns(const std::vector<PanelTexts> &panels, 
   return columns;
 }
 
-// Returns a picture with transparency, from a picture on black and a picture on white. A pixel with the same colour in both
-// images is opaque, and a pixel that is black and white is clear. The rule holds for any blended objects, in any order.
+// Computes a picture with transparency from two pictures: one on black and one on white. A pixel that has one colour in both
+// pictures is opaque. A pixel that is black in one picture and white in the other is clear. The computation also works for
+// blended objects, whatever their order is.
 vtkSmartPointer<vtkImageData> transparent_from(vtkImageData *on_black, vtkImageData *on_white) {
   int size[3];
   on_black->GetDimensions(size);
@@ -300,7 +302,7 @@ vtkSmartPointer<vtkImageData> transparent_from(vtkImageData *on_black, vtkImageD
   return clear;
 }
 
-// Returns the faces of the mesh's boundary, or of the wall of the options.
+// Returns the faces of the mesh's boundary. If the options have a wall, returns the wall's faces.
 vtkSmartPointer<vtkPolyData> wall_of(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options) {
   if (grid) return outside_of(grid, nullptr, nullptr).faces;
   return options.wall ? polydata_of(options.wall) : nullptr;
@@ -390,7 +392,7 @@ void Scene::show(const riis_surface *surface, const char *title, const Leaks &le
   if (!marks_) return;
   PanelTexts marked = {lines_of_marks(marks_->counts(), leaks), key_of_marks(marks_->counts(), leaks, style_.ink)};
   if (!has_surface()) {
-    // The only panel has the title, and the key of the leaflets too.
+    // The only panel of a picture has the title, and also the key of the leaflets.
     std::string line;
     for (const std::string &part : marked.caption) line += (line.empty() ? "" : ", ") + part;
     marked.caption = {lines_of_title(title)[0], line};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window of a picture. The window has panels, and bands above and below the panels with captions, the key of colours, axes
-// and a scale bar. It can show several surfaces and marks one after another, each in any view.
+// The window of a picture. The window has panels. Bands above and below the panels have the captions, the key of colours, axes
+// and a scale bar. The window can show several surfaces and their marks one after another, each from any view.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -30,18 +30,18 @@ class vtkPolyData;
 namespace riis::vtk {
 
 Colour colour_of_leaflet(vtkIdType leaflet);
-// A dark red, which no colour vision confuses with the leaflets' vermilion.
+// A dark red for leaking edges. People with any kind of colour vision can tell this red from the vermilion of leaflets.
 constexpr Colour leak_colour = {0.55, 0.0, 0.0};
 
-// The panel with the surface, in which each leaflet has its own colour. The rims are drawn as lines, because faces that are seen
-// edge-on cover no pixels.
+// The panel with the surface, in which each leaflet has its own colour. The rims of leaflets are drawn as lines, because a face
+// seen edge-on covers no pixels.
 class SurfacePanel {
  public:
   // `pixels` is the width of a line.
   explicit SurfacePanel(double pixels);
   // Replaces the surface that was shown before.
   void show(vtkPolyData *surface);
-  // Turns to a view. The lines are drawn slightly behind the faces, so that nearer faces hide the lines.
+  // Turns the panel to a view. The lines are drawn slightly behind the faces, so that nearer faces hide the lines.
   void look(const View &view, const Sight &sight);
   vtkRenderer *renderer() const { return renderer_; }
   const std::set<vtkIdType> &leaflets() const { return leaflets_; }
@@ -59,18 +59,18 @@ struct MarkCounts {
   vtkIdType n_partly_cells = 0;  // cells with some but not all nodes marked
 };
 
-// The panel with marked cells. A cell has the colour of its closest node's leaflet. A partly marked cell has a paler colour.
-// Leaking edges are red. Cells below the grid's largest dimension are left out.
+// The panel with the marked cells. A cell has the colour of the leaflet of its closest node. The colour of a partly marked cell
+// is paler. Leaking edges are red. Cells whose dimension is below the largest in the grid are left out.
 class MarksPanel {
  public:
   // `pixels` is the width of a line.
   explicit MarksPanel(double pixels);
-  // Shows the marks in the grid's point arrays instead of earlier marks. leaking_edges(2, n_leaking_edges) must hold valid node
-  // ids.
+  // Shows the marks of the grid's point arrays, and removes earlier marks. leaking_edges(2, n_leaking_edges) must contain valid
+  // node ids.
   void show(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges);
   vtkRenderer *renderer() const { return renderer_; }
   const MarkCounts &counts() const { return counts_; }
-  // Turns to a view. Moves leaking edges in front of everything else.
+  // Turns the panel to a view. Moves leaking edges in front of everything else.
   void look(const View &view, const Sight &sight);
 
  private:
@@ -84,13 +84,13 @@ class MarksPanel {
   vtkSmartPointer<vtkActor> partly_, whole_, leaks_;  // leaks_ is NULL without leaking edges
 };
 
-// The positions of a picture's parts, in pixels from the lower left corner. A picture that is not high enough for bands has no
-// texts. The panels are side by side. In a column of three views the panels are above each other. Texts belong to a column of
-// panels.
+// The positions of the parts of a picture, in pixels from the lower left corner. If a picture is too low for bands, it has no
+// texts. Usually the panels are side by side. In a picture with three views, each column has the panels of one view, one above
+// the other. Each text belongs to one column of panels.
 class Layout {
  public:
   enum class Panels { side_by_side, stacked };
-  // `captions` is RIIS_VTK_CAPTIONS_*.
+  // The value of `captions` is a constant RIIS_VTK_CAPTIONS_*.
   Layout(int width, int height, int n_panels, Panels panels, std::int32_t captions);
   bool has_captions() const { return top_ > 0; }
   bool has_scale() const { return bottom_ > 0; }
@@ -102,12 +102,12 @@ class Layout {
   double column_left(int column) const { return width_ * static_cast<double>(column) / n_columns_; }
   double panel_width() const { return width_ / static_cast<double>(n_columns_); }
   double panel_height() const { return (height_ - top_ - bottom_) / n_rows_; }
-  // caption_line and key_line return the lower end of a line of text. The caption's lines are counted from the top of the
-  // picture. The key's lines are counted downwards from the panels.
+  // caption_line and key_line return the lower end of a line of text. The lines of a caption are counted from the top of the
+  // picture downwards. The lines of a key are counted downwards from the panels.
   double caption_line(int line) const { return height_ - 1.6 * letter_ * (line + 1); }
   double key_line(int line) const { return bottom_ - 1.6 * letter_ * (line + 1); }
   double bottom() const { return bottom_; }
-  // Returns the left, lower, right and upper end of a panel, as shares of the picture's size.
+  // Returns the left, lower, right and upper end of a panel. Each of the four ends is a share of the picture's size.
   std::array<double, 4> viewport(int panel) const;
   double line_width() const;
 
@@ -126,13 +126,13 @@ struct PanelTexts {
   std::vector<KeyEntry> key;         // as many as fit are shown
 };
 
-// Leaking edges, which are drawn in red. If `edges` is NULL, the texts do not mention leaks.
+// The leaking edges. They are drawn in red. If `edges` is NULL, the texts do not mention leaks.
 struct Leaks {
   std::int64_t n_edges = 0;
   const std::int64_t *edges = nullptr;
 };
 
-// What the options say of a picture's looks.
+// The options that determine the looks of a picture.
 struct Style {
   explicit Style(const riis_vtk_picture_options &options);
   Colour background;
@@ -147,19 +147,19 @@ void check_has_marks(const riis_vtk_mesh *mesh);
 
 class Scene {
  public:
-  // Makes the window. If `grid` is NULL, the window shows only the surface.
+  // Makes the window. If `grid` is NULL, the window shows only a surface.
   Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options);
   ~Scene();
-  // Shows the surface, and the marks that the grid has at present. If `title` is NULL, the title is "Surface".
+  // Shows the surface, and the present marks of the grid. If `title` is NULL, the title is "Surface".
   void show(const riis_surface *surface, const char *title, const Leaks &leaks);
-  // Draws a view, or three views side by side. `seen` is the box that the camera shows. Without this box, the camera shows the
-  // surface's box.
+  // Draws a view, or three views side by side. `seen` is the box that the camera shows. If the box is missing, the camera shows
+  // the surface's box.
   vtkSmartPointer<vtkImageData> picture(std::int32_t of, const std::optional<Bounds> &seen);
 
  private:
-  // `least` is the least half height of a panel.
+  // The half height of a panel is never below `least`.
   Sight sight(const View &view, const std::optional<Bounds> &seen, const Layout &layout, double least = 0) const;
-  // Draws one view. A transparent picture has a fourth channel.
+  // Draws one view. A transparent picture has a fourth channel for the opacity.
   vtkSmartPointer<vtkImageData> shot(const View &view, const Sight &sight, const Layout &layout,
                                      const std::vector<PanelTexts> &texts);
   vtkSmartPointer<vtkImageData> shot_on(const Colour &background);

@@ -30,7 +30,7 @@ namespace {
 
 constexpr double sharp_angle = 30;  // degrees between faces
 
-// The shell's opacity at a right angle of sight, and the additional opacity at a grazing angle.
+// The opacity of the shell at a right angle of sight, and the additional opacity at a grazing angle.
 constexpr double opacity_across = 0.10, opacity_along = 0.36, grazing_power = 2.2;
 
 vtkSmartPointer<vtkPolyData> joined_points(vtkPolyData *faces) {
@@ -106,8 +106,8 @@ void Shell::add_to(vtkRenderer *renderer) const {
   for (vtkActor *actor : {skin_.Get(), rims_.Get(), cut_.Get()}) renderer->AddActor(actor);
 }
 
-// Puts far faces first, because each face is blended with the faces drawn before. Without perspective, this order and the opacity
-// depend only on the direction of view.
+// Sorts faces from far to near, because each face is blended with the faces that were drawn before it. Without perspective, the
+// order and the opacity of the faces depend only on the direction of view.
 void Shell::sort(const View &view_now) {
   if (sorted_for_ && sorted_for_->axes == view_now.axes) return;
   sorted_for_ = view_now;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the faces of a wall. Out: a translucent, lit shell that is open at its flat ends, with lines at its rims.
+// In: the faces of a wall. Out: a translucent shell with lighting, which is open at the wall's flat ends. Lines show its rims.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -16,12 +16,12 @@ namespace riis::vtk {
 
 class Shell {
  public:
-  // `faces` is a closed boundary or a wall with openings. `grey` is the brightness of the shell, from 0 to 1. `line` is the
-  // colour of the rims, and `pixels` is their width.
+  // `faces` are the faces of a closed boundary or of a wall with openings. `grey` is the brightness of the shell, from 0 to 1.
+  // `line` is the colour of the rims, and `pixels` is their width.
   Shell(vtkPolyData *faces, double grey, const Colour &line, double pixels);
   void add_to(vtkRenderer *renderer) const;
-  // Turns to a view. The shell is denser where it is seen at a grazing angle. A shell that extends beyond the panel is cut at the
-  // panel's side.
+  // Turns the shell to a view. The shell is more opaque where it is seen at a grazing angle. If the shell extends beyond the
+  // panel, it is cut at the panel's side.
   void look(const View &view, const Sight &sight);
 
  private:

@@ -31,7 +31,7 @@ Extent around(const Extent &extent, double factor) {
   return {extent.middle() - factor * extent.half(), extent.middle() + factor * extent.half()};
 }
 
-// Returns the extent that must be visible along one axis. `size` is the surface's size.
+// Returns the extent along one axis that must be visible. `size` is the surface's size.
 Extent wanted(const Extent &surface, const Extent &mesh, double size) {
   const Extent both = hull(surface, mesh);
   if (both.half() <= not_much_larger * size || !surface.meets(mesh)) return both;
@@ -51,8 +51,8 @@ void grow(Extents &extents, const View &view, const double point[3]) {
   }
 }
 
-// A side of the panel that cuts the mesh. The side has an axis, a position on the axis, and the direction towards the part that
-// remains.
+// A side of the panel at which the mesh is cut. The side is given by an axis, a position on the axis, and the direction towards
+// the part that remains.
 struct Side {
   std::size_t axis;
   double at;
@@ -68,7 +68,7 @@ std::vector<Side> cut_sides(const Sight &sight) {
   return sides;
 }
 
-// Returns the parts of the side's line that lie inside the boundary. They are sorted and disjoint.
+// Returns the parts of the side's line that lie inside the boundary. The parts are sorted, and do not overlap.
 std::vector<Extent> cuts(const View &view, const Side &side, vtkPolyData *boundary) {
   std::vector<Extent> all;
   const Vector &across = view.axes[side.axis], &along = view.axes[1 - side.axis];
@@ -221,7 +221,7 @@ Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, doubl
 }
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight) {
-  // The eye is outside of everything. The depth leaves room for parts that are moved towards the eye when they are drawn.
+  // The eye is outside of all objects. The depth leaves room for objects that are moved towards the eye when they are drawn.
   const double depth = 4 * (sight.shown[2].half() + sight.shown[1].half() + sight.shown[0].half());
   Vector focus, eye;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The view of a picture.
-// In: the direction of view, and the extents of the surface and the mesh. Out: the visible space, for the camera, the cut and the
-// scale bar. If the mesh extends beyond the panel, planes cut it, and dashed lines show the cuts.
+// In: the direction of view, and the extents of the surface and the mesh. Out: the visible part of space, which the camera, the
+// cut and the scale bar use. If the mesh extends beyond the panel, planes cut the mesh, and dashed lines show the cuts.
 #pragma once
 
 #include <array>
@@ -26,32 +26,33 @@ struct Extent {
   bool meets(const Extent &other) const { return lower <= other.upper && other.lower <= upper; }
 };
 
-// Extents along the axes of a view: to the right, upwards, and away from the eye.
+// Extents along the axes of a view, which point to the right, upwards, and away from the eye.
 using Extents = std::array<Extent, 3>;
 // Extents along x, y and z.
 using Bounds = std::array<Extent, 3>;
 
-// The unit vectors along a valve's own x, y and z, after its placement.
+// The unit vectors along the axes x, y and z of a valve after its placement.
 using Axes = std::array<Vector, 3>;
 
-// Returns the mesh's axes, turned about an axis of any length other than 0.
+// Returns the mesh's axes after a turn about an axis. The axis may have any length except 0.
 Axes axes_turned(const double axis[3], double degrees);
 
-// A view without perspective, so that lengths can be compared. right, up and away are perpendicular unit vectors.
+// A view without perspective, so that lengths in the picture can be compared. right, up and away are perpendicular unit vectors.
 struct View {
   std::array<Vector, 3> axes;
 
-  // `view` is a single view of RIIS_VTK_VIEW_*, not three views. Views along the valve's axes use `valve`.
+  // The value of `view` is a constant RIIS_VTK_VIEW_* for a single view, not the constant for three views. Views along the axes
+  // of the valve need `valve`.
   View(std::int32_t view, const Axes &valve);
   const Vector &right() const { return axes[0]; }
   const Vector &up() const { return axes[1]; }
   const Vector &away() const { return axes[2]; }
   Extents extents_of(vtkPointSet *data) const;
-  // Returns the extents of the whole box.
+  // Returns the extents of a whole box.
   Extents extents_of(const Bounds &bounds) const;
 };
 
-// The part of space that a panel shows, along the axes of its view.
+// The part of space that a panel shows, measured along the axes of the panel's view.
 struct Sight {
   Extents shown;                  // x and y extend to the panel's edges; z is the depth of surface and mesh
   std::array<Extent, 2> uncut;    // x and y at which the mesh is cut if it extends further
@@ -60,9 +61,9 @@ struct Sight {
   bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
 };
 
-// Returns a sight that contains the surface. Along an axis on which the mesh is not much larger, the sight also contains the
-// mesh. Pictures of a valve that moves in one mesh can thus be compared. Along other axes, the sight contains the surface's
-// neighbourhood.
+// Returns the part of space to show, the sight. It always contains the surface. Along each axis on which the mesh is not much
+// larger than the surface, the sight also contains the mesh. Pictures of a valve that moves in a mesh thus show the same part of
+// space, and can be compared. Along the other axes, the sight contains the surroundings of the surface.
 //   mesh    NULL if there is none
 //   aspect  the panel's width divided by its height
 //   least   the least half height of the panel, so that several views can have one scale
@@ -70,7 +71,7 @@ Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, doubl
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);
 
-// Returns planes for the mapper of the mesh. A mesh that is wholly in sight has no planes.
+// Returns the planes at which the mapper of the mesh must cut. If the whole mesh is visible, there are no planes.
 std::vector<vtkSmartPointer<vtkPlane>> cutting_planes(const View &view, const Sight &sight);
 
 // Returns dashed lines where the planes cut the boundary. The lines are nearer to the eye than everything else.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of several blocks, joined to one: Exodus files, which VTK reads, and the .vtu files that a .vtm lists.
+// Meshes that consist of several blocks, which are joined here. The blocks come from an Exodus file, which VTK reads, or from the
+// .vtu files that a .vtm file lists.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -27,7 +28,7 @@
 namespace riis::vtk {
 namespace {
 
-// A block, and the id of each of its nodes in the joined mesh.
+// A block, and the ids of its nodes in the joined mesh.
 struct Block {
   vtkSmartPointer<vtkUnstructuredGrid> grid;
   std::vector<vtkIdType> new_id;
@@ -35,8 +36,8 @@ struct Block {
 
 using Grids = std::vector<vtkSmartPointer<vtkUnstructuredGrid>>;
 
-// Copies the arrays that all blocks have, with the same type and number of components. `place` gives the new position of
-// each value. If several blocks have a value, the first block decides.
+// Copies the arrays that all blocks have with the same type and number of components. `place` gives the position of each value in
+// the new array. If several blocks have a value for a position, the first block decides.
 template <class DataOf, class Place>
 void join_arrays(const std::vector<Block> &blocks, vtkIdType n, const DataOf &data_of, const Place &place,
                  vtkDataSetAttributes *to) {
@@ -62,7 +63,8 @@ void join_arrays(const std::vector<Block> &blocks, vtkIdType n, const DataOf &da
   }
 }
 
-// Joins blocks. The cells follow each other in the order of the blocks. The cell array `block_array` has their numbers.
+// Joins several blocks to one mesh. The cells keep the order of the blocks. The cell array `block_array` has the number of each
+// cell's block.
 vtkSmartPointer<vtkUnstructuredGrid> join(const std::vector<Block> &blocks, vtkIdType n_nodes,
                                           const std::vector<std::int32_t> &numbers, const char *block_array) {
   PlainGrid mesh;
@@ -110,7 +112,8 @@ bool is_single(vtkUnstructuredGrid *grid) { return grid->GetPoints()->GetDataTyp
 
 // ---- .vtm ----
 
-// Returns the global ids of a block's nodes, or NULL. VTK's attribute, ParaView and Exodus have these names.
+// Returns the global ids of a block's nodes, or NULL if there are none. VTK's attribute, ParaView and Exodus have different names
+// for global ids.
 vtkDataArray *global_ids_of(vtkUnstructuredGrid *grid) {
   vtkPointData *const data = grid->GetPointData();
   if (vtkDataArray *ids = data->GetGlobalIds()) return ids;
@@ -128,8 +131,9 @@ struct HashOfPoint {
   }
 };
 
-// Numbers the nodes of all blocks. Nodes of different blocks become one node if they have the same global id. If a block has no
-// ids, equal coordinates decide. Nodes of one block stay different, so that slits stay open. Returns the number of nodes.
+// Gives numbers to the nodes of all blocks. Nodes of different blocks become one node if they have the same global id. If a block
+// has no global ids, its nodes are joined with nodes at equal coordinates. Two nodes of one block always stay different, so that
+// slits stay open. Returns the number of nodes.
 vtkIdType number_nodes(std::vector<Block> &blocks) {
   const bool have_ids =
       std::all_of(blocks.begin(), blocks.end(), [](const Block &b) { return global_ids_of(b.grid) != nullptr; });
@@ -154,7 +158,8 @@ vtkIdType number_nodes(std::vector<Block> &blocks) {
   return n_nodes;
 }
 
-// Lists the files of a .vtm in its order. Files that are not .vtu, such as the surfaces of a boundary, are counted.
+// Lists the files that a .vtm file names, in the order of the .vtm file. Files that are not .vtu files, such as the surfaces of a
+// boundary, are only counted.
 void list_files(const XmlElement &parent, std::vector<std::string> &files, std::int64_t &n_others) {
   for (const XmlElement &child : parent.children) {
     const std::string file = child.attribute("file");
@@ -209,7 +214,8 @@ vtkSmartPointer<vtkUnstructuredGrid> read_blocks(const std::string &path, const 
 
 namespace {
 
-// Fails unless the file begins as NetCDF or HDF5 files do. Exodus prints its own errors on stderr.
+// Fails if the file does not begin as NetCDF and HDF5 files do. Without this check, the Exodus library would print errors on
+// stderr.
 void check_magic(const std::string &path) {
   const MappedFile file(path, check_readable(path));
   const std::string_view first = file.bytes().substr(0, 4);
@@ -224,7 +230,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_exodus(const std::string &path, const 
   vtkNew<vtkExodusIIReader> reader;
   if (!reader->CanReadFile(path.c_str())) fail_file(path, "is not an Exodus file, is damaged or truncated");
   reader->SetFileName(path.c_str());
-  // Each block gets all points of the file. The blocks therefore keep the file's numbers of nodes, and shared nodes stay one
+  // Each block gets all points of the file. Therefore the blocks have the node numbers of the file, and shared nodes stay one
   // node.
   reader->SetSqueezePoints(false);
   reader->SetApplyDisplacements(0);

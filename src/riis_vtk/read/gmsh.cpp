@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gmsh's .msh files, of versions 2 and 4.1, as text or binary. The format is in the chapter "Gmsh file formats" of gmsh's manual,
-// and the orders of nodes are in its section "Node ordering". Nodes and elements keep the file's order. Elements of all
-// dimensions become cells, and their physical groups the cell array gmsh:physical, with a further array for further groups.
+// Reads gmsh's .msh files of versions 2 and 4.1, as text or binary. The format is described in the chapter "Gmsh file formats" of
+// gmsh's manual. The order of nodes is described in the section "Node ordering" of the chapter. Nodes and elements keep the
+// file's order. Elements of all dimensions become cells. The cell array gmsh:physical has the first physical group of each cell,
+// and further arrays have further groups.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -33,7 +34,7 @@ const ElementType *find_type(std::int64_t gmsh_type) {
       {3, 4, VTK_QUAD, {}},
       {4, 4, VTK_TETRA, {}},
       {5, 8, VTK_HEXAHEDRON, {}},
-      // The base of VTK's wedges is seen from outside, and the base of gmsh's prisms from inside.
+      // In VTK, the base of a wedge is ordered as seen from outside. In gmsh, the base of a prism is ordered as seen from inside.
       {6, 6, VTK_WEDGE, {0, 2, 1, 3, 5, 4}},
       {7, 5, VTK_PYRAMID, {}},
       {8, 3, VTK_QUADRATIC_EDGE, {}},
@@ -47,8 +48,8 @@ const ElementType *find_type(std::int64_t gmsh_type) {
       {18, 15, VTK_QUADRATIC_WEDGE, {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10}},
       {13, 18, VTK_BIQUADRATIC_QUADRATIC_WEDGE, {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10, 16, 17, 15}},
       {19, 13, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
-      // VTK 9.1 has no pyramid with a node in the middle of its base. The node in the middle stays a node of the mesh, and the
-      // cell on the other side of the base has the edges of this node.
+      // VTK 9.1 has no type for a pyramid with a node in the middle of its base. The node in the middle of the base stays a node
+      // of the mesh. The node in the middle gets its edges from the cell on the other side of the base.
       {14, 14, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
   };
   const auto found =
@@ -56,7 +57,7 @@ const ElementType *find_type(std::int64_t gmsh_type) {
   return found == types.end() ? nullptr : &*found;
 }
 
-// The positions of nodes by their tags. Tags are nearly always numbers from 1 without large gaps.
+// Finds the position of a node from its tag. Tags are nearly always the numbers from 1 without large gaps.
 class NodeTags {
  public:
   NodeTags(const std::string &path, std::vector<std::int64_t> tags) {
@@ -130,12 +131,13 @@ class GmshFile {
       expect_end_of(section);
     }
     if (!tags_) fail_file(path_, "is truncated: it has no section $Nodes");
-    // gmsh always writes this section, even if it has no elements.
+    // gmsh writes the section of elements even if the mesh has no elements.
     if (!has_elements_) fail_file(path_, "is truncated: it has no section $Elements");
     const std::int64_t n_copies = drop_copies();
     const auto grid = mesh_.grid(path_);
     if (n_copies > 0)
-      add_note(grid, joined(n_copies, " elements of further physical groups are the cells of the first ones"));
+      add_note(grid, joined(n_copies,
+                            " elements of further physical groups are the same cells as those of the first groups"));
     if (std::any_of(physical_.begin(), physical_.end(), [](std::int32_t tag) { return tag != 0; })) {
       add_groups(grid, physical_array, physical_);
       for (std::size_t k = 0; k < further_.size(); ++k)
@@ -161,7 +163,8 @@ class GmshFile {
     grid->GetFieldData()->AddArray(array);
   }
 
-  // Returns whether a section has the bytes that were read before. gmsh writes the mesh again when it appends a view.
+  // Returns whether a section has the same bytes as the section that was read before. gmsh writes the whole mesh again when it
+  // appends a view.
   bool is_repeated(const std::string &section) const {
     const std::string_view &before = section == "Elements" ? elements_ : nodes_;
     const bool is_mesh = section == "Nodes" || section == "ParametricNodes" || section == "Elements";
@@ -175,7 +178,7 @@ class GmshFile {
     in_.skip(static_cast<std::size_t>(begin - in_.rest().begin()));
   }
 
-  // Returns the name of the next section without "$", or "" at the end of the file.
+  // Returns the name of the next section without "$". Returns "" at the end of the file.
   std::string next_section() {
     skip_blanks();
     if (in_.rest().empty()) return "";
@@ -201,7 +204,8 @@ class GmshFile {
     expect_end_of(section);
   }
 
-  // Reads the names of groups of volumes: lines DIMENSION NUMBER "NAME", also in a binary file. Skips other lines.
+  // Reads the names of groups of volumes. A line has the form DIMENSION NUMBER "NAME", even in a binary file. Lines for other
+  // dimensions are skipped.
   void read_names() {
     const std::size_t end = in_.rest().find("$EndPhysicalNames");
     if (end == std::string_view::npos) fail_file(path_, "is truncated: it ends before $EndPhysicalNames");
@@ -241,7 +245,7 @@ class GmshFile {
 
   // ---- Version 2 ----
 
-  // A count is text also in binary files.
+  // Counts are text even in binary files.
   std::int64_t text_count(std::int64_t least_bytes, const char *things) {
     const bool is_binary = in_.is_binary;
     in_.is_binary = false;
@@ -252,8 +256,8 @@ class GmshFile {
     return n;
   }
 
-  // In text, a number takes at least a digit and a blank. A parametric node also has its entity, and its parameters on a
-  // curve or a surface.
+  // In a text file, a number takes at least two bytes: a digit and a blank. A node with parameters also has an entity, and
+  // coordinates on a curve or a surface.
   std::vector<std::int64_t> read_old_nodes(bool is_parametric) {
     const std::int64_t n = text_count(in_.is_binary ? int_bytes + 3 * real_bytes : 8, "nodes");
     std::vector<std::int64_t> tags(static_cast<std::size_t>(n));
@@ -345,8 +349,8 @@ class GmshFile {
     if (n_read != n) in_.refuse("$Elements has ", n_read, " of the ", n, " elements that it claims");
   }
 
-  // Reads the physical groups of the model's points, curves, surfaces and volumes. An entity may have several groups. In a mesh
-  // that gmsh has partitioned, the elements belong to parts of these entities, which have groups of their own.
+  // Reads the physical groups of the model's points, curves, surfaces and volumes. An entity may have several groups. If gmsh has
+  // partitioned the mesh, elements belong to parts of entities, and the parts also have groups.
   void read_entities(bool are_parts) {
     if (are_parts) {
       read_sizes(1);  // the number of partitions
@@ -408,8 +412,8 @@ class GmshFile {
     for (std::size_t k = 1; k < groups.size(); ++k) add_group(element, static_cast<std::int32_t>(groups[k]));
   }
 
-  // Adds a further group to an element. A mesh has few groups that overlap, so there is a list for the second groups of all
-  // elements, one for the third groups, and so on.
+  // Adds a further group to an element. Few groups of a mesh overlap. Therefore one list has the second groups of all elements,
+  // another list has the third groups, and so on.
   void add_group(std::size_t element, std::int32_t group) {
     std::size_t k = 0;
     while (k < further_.size() && element < further_[k].size() && further_[k][element] != 0) ++k;
@@ -419,8 +423,9 @@ class GmshFile {
     further_[k][element] = group;
   }
 
-  // Version 2 lists an element once for each of its physical groups, each time with another number. Keeps the first of
-  // these elements, and returns how many are left out. Equal elements in one group all stay.
+  // In version 2, an element with several physical groups is listed once for each group, each time with another number. The first
+  // of the equal elements is kept. Returns the number of the elements that are left out. Equal elements within one group are all
+  // kept.
   std::int64_t drop_copies() {
     const bool are_grouped =
         std::any_of(physical_.begin(), physical_.end(), [&](std::int32_t group) { return group != physical_[0]; });

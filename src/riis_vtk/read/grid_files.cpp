@@ -47,7 +47,7 @@ void check_data_set(const std::string &path, vtkPointSet *data) {
   check_array_lengths(path, data->GetCellData(), "cell", data->GetNumberOfCells());
 }
 
-// Checks the offsets. Call this before any cell is read.
+// Checks the offsets. This function must be called before any cell is read.
 void check_offsets(const std::string &path, vtkCellArray *cells) {
   if (cells && cells->GetNumberOfCells() > 0 && !cells->IsValid()) fail_file(path, "has broken cell offsets");
 }
@@ -58,7 +58,7 @@ void check_point_id(const std::string &path, vtkIdType cell_id, vtkIdType point_
   }
 }
 
-// Checks the point ids of cells. `first_id` is the id of the first cell, for the message.
+// Checks the point ids of cells. In the message, the first of the given cells has the id `first_id`.
 void check_point_ids(const std::string &path, vtkCellArray *cells, vtkIdType first_id, vtkIdType n_points) {
   check_offsets(path, cells);
   const vtkIdType n_cells = cells ? cells->GetNumberOfCells() : 0;
@@ -70,7 +70,7 @@ void check_point_ids(const std::string &path, vtkCellArray *cells, vtkIdType fir
   }
 }
 
-// Checks faces. `first_id` is the id of the first face, for the message.
+// Checks faces. In the message, the first of the given faces has the id `first_id`.
 void check_faces(const std::string &path, vtkCellArray *faces, vtkIdType first_id, vtkIdType n_points) {
   check_point_ids(path, faces, first_id, n_points);
   for (vtkIdType i = 0; i < faces->GetNumberOfCells(); ++i) {
@@ -80,7 +80,8 @@ void check_faces(const std::string &path, vtkCellArray *faces, vtkIdType first_i
   }
 }
 
-// Returns the number of points for each type of cell. The number is 0 for a type whose cells differ, and -1 for an unknown type.
+// For each type of cell, returns the number of points. The number is 0 if cells of the type have different numbers of points, and
+// -1 for an unknown type.
 std::array<int, 256> points_of_cell_types() {
   std::array<int, 256> n_points{};
   for (int type = 0; type < 256; ++type) {
@@ -105,8 +106,8 @@ void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
   }
 }
 
-// Checks a polyhedron's faces. At the cell's location, VTK's array of faces has the number of faces, and then the size and the
-// points of each face.
+// Checks the faces of a polyhedron. In VTK's array of faces, the part of a cell begins with the number of faces. The number is
+// followed by the size and the points of each face.
 void check_polyhedron(const std::string &path, vtkIdType cell_id, vtkIdType location, vtkIdTypeArray *faces,
                       vtkIdType n_points) {
   const vtkIdType n_values = faces->GetNumberOfValues();
@@ -134,8 +135,8 @@ void check_polyhedra(const std::string &path, vtkUnstructuredGrid *grid) {
   }
 }
 
-// Also reads the faces of polyhedra in the layout that VTK writes since 9.4, which older releases of VTK ignore. In this layout,
-// each polyhedron refers to faces in one list, and each face refers to its corners.
+// Also reads the faces of polyhedra in the layout of VTK 9.4 and later. Older releases of VTK ignore the new layout. In the new
+// layout, each polyhedron refers to faces in a common list, and each face refers to its corners.
 class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
  public:
   static GridReader *New() { VTK_STANDARD_NEW_BODY(GridReader); }
@@ -159,8 +160,7 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
     const vtkIdType n_faces = faces.empty() ? 0 : 1 + *std::max_element(faces.begin(), faces.end());
     const Ids corner_ends = offsets_in(cells, "face_offsets", n_faces);
     const Ids corners = ids_in(cells, "face_connectivity", n_faces == 0 ? 0 : corner_ends.back());
-    // The first piece with polyhedra makes the list of faces. For later pieces, VTK itself fills in -1 for the cells without
-    // faces.
+    // The first piece with polyhedra creates the list of faces. For later pieces, VTK enters -1 for the cells without faces.
     if (!grid->GetFaces()) {
       grid->InitializeFacesRepresentation(StartCell);
       for (vtkIdType i = 0; i < n_cells; ++i) grid->GetFaceLocations()->InsertNextValue(-1);
@@ -185,7 +185,7 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
     }
   }
 
-  // Reads n values of an array of the cells. Fails unless the file holds these values.
+  // Reads n values of a cell array. Fails if the file holds fewer values.
   Ids ids_in(vtkXMLDataElement *cells, const char *name, vtkIdType n) {
     vtkXMLDataElement *element = FindDataArrayWithName(cells, name);
     const auto created = vtkSmartPointer<vtkAbstractArray>::Take(element ? CreateArray(element) : nullptr);
@@ -215,7 +215,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_legacy_grid(const std::string &path, s
   return read_scanned<vtkUnstructuredGridReader, vtkUnstructuredGrid>(path, n_cells, caught);
 }
 
-// Checks polydata after reading, and prepares its cells.
+// Checks polydata after it was read, and prepares its cells.
 void finish_polydata(const std::string &path, vtkPolyData *data) {
   check_data_set(path, data);
   if (data->GetNumberOfVerts() > 0 || data->GetNumberOfLines() > 0) {
@@ -224,7 +224,7 @@ void finish_polydata(const std::string &path, vtkPolyData *data) {
   }
   check_faces(path, data->GetPolys(), 0, data->GetNumberOfPoints());
   check_faces(path, data->GetStrips(), data->GetNumberOfPolys(), data->GetNumberOfPoints());
-  // In this call, VTK determines the types of the cells.
+  // During this call, VTK determines the types of the cells.
   data->BuildCells();
 }
 

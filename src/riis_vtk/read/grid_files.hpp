@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a path. Out: a VTK data set that has the sizes stated in the file, and whose cells refer only to existing points. VTK
-// continues after many errors and returns an incomplete data set. The functions of this file refuse an incomplete file. The scans
-// declared below find most errors before VTK reads the file.
+// In: a path. Out: a VTK data set that is as large as the file states, and whose cells refer only to existing points. After many
+// errors, VTK continues and returns an incomplete data set. The functions of this header refuse an incomplete file. The scans
+// below find most errors before VTK reads the file.
 #pragma once
 
 #include <array>
@@ -19,28 +19,28 @@ class vtkXMLDataParser;
 
 namespace riis::vtk {
 
-// Reads an unstructured grid from a file of any of the formats of docs/formats.md. Only a piece of a mesh may be without points.
+// Reads an unstructured grid from a file. All formats of docs/formats.md are allowed. Only a piece of a mesh may have no points.
 enum class Points { required, may_be_missing };
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught,
                                                Points points = Points::required);
 
-// Fails unless each array has n values. `kind` names the kind of data in the message.
+// Fails if an array does not have n values. In the message, `kind` names the kind of data.
 void check_array_lengths(const std::string &path, vtkFieldData *data, const char *kind, vtkIdType n);
 
-// Fails unless the grid has points, and its cells have types, sizes and points that exist.
+// Fails if the grid has no points, or if cells have impossible types, sizes or points.
 void check_grid(const std::string &path, vtkUnstructuredGrid *grid);
 
-// Reads polydata with at least one point from a .vtp (XML) file. The cells of polydata are only polygons and strips.
+// Reads polydata with at least one point from an XML file .vtp. The polydata may have only polygons and strips as cells.
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught);
 
-// Reads a legacy .vtk file with polydata or with a grid, checked as by read_polydata and read_grid.
+// Reads a legacy .vtk file with polydata or a grid. The data is checked as by read_polydata and read_grid.
 vtkSmartPointer<vtkPointSet> read_legacy_surface(const std::string &path, const CaughtOutput &caught);
 
-// The nodes of a structured grid along its axes.
+// The numbers of nodes of a structured grid along its axes.
 struct Lattice {
   std::array<std::int64_t, 3> n;
   std::int64_t n_points() const { return n[0] * n[1] * n[2]; }
-  // An axis with one node has no thickness.
+  // If an axis has only one node, the grid has no thickness along this axis.
   std::int64_t n_cells() const {
     std::int64_t n_all = 1;
     for (const std::int64_t size : n) n_all *= size > 1 ? size - 1 : 1;
@@ -50,9 +50,9 @@ struct Lattice {
 // Fails if the grid has no points, or more points than a mesh may have.
 void check_lattice(const std::string &path, const Lattice &lattice);
 
-// Returns the content of a legacy .vtk file. Fails for another kind of data and for a file that is not complete. VTK's legacy
-// reader believes every count, reads a truncated file as a smaller one, and ends the process on some files. This function
-// therefore checks the sections before VTK reads them.
+// Returns the content of a legacy .vtk file. Fails for other kinds of data, and for an incomplete file. VTK's legacy reader
+// believes every count in a file. VTK's legacy reader takes a truncated file for a smaller mesh, and ends the process on some
+// files. Therefore the sections are checked here before VTK reads them.
 enum class LegacyKind { unstructured_grid, polydata, structured_points, rectilinear_grid, structured_grid };
 enum class LegacyKinds { grid, grid_or_polydata };
 struct LegacyContent {
@@ -60,29 +60,30 @@ struct LegacyContent {
   std::int64_t n_cells;
 };
 LegacyContent check_legacy(const std::string &path, LegacyKinds allowed);
-// Returns whether the header says that the file has a grid of one of the structured kinds.
+// Returns whether the header says that the file contains a structured grid.
 bool is_structured_legacy(const std::string &path);
 
-// Fails for a file that is truncated or is not a VTK XML file of the wanted type. VTK's parser would stop at appended data
-// without looking for the end of the file, and it crashes on a field array of unknown type. XmlSizes checks the sizes.
-// `wanted_type` is the file's type attribute, such as "PolyData".
+// Fails if a file is truncated, or is not a VTK XML file of the wanted type. VTK's parser would stop at appended data and not
+// look for the end of the file. VTK's parser also crashes on a field array of unknown type. The sizes are checked by XmlSizes.
+// `wanted_type` is the type attribute of the file, such as "PolyData".
 void check_xml(const std::string &path, const std::string &wanted_type);
 
-// In: a VTK XML file, and VTK's tree of its elements. Out: an error if the file claims more than it holds. VTK believes every
-// stated number of points, cells, values, bytes and blocks, and allocates that much memory before it reads.
+// In: a VTK XML file, and VTK's tree of the file's elements. Out: an error if the file states more data than it contains. VTK
+// believes every stated number of points, cells, values, bytes and blocks. VTK allocates memory for all this data before it
+// reads.
 class XmlSizes {
  public:
   explicit XmlSizes(const std::string &path);
 
-  // Fails unless the arrays of all pieces and of the field hold as many values as the file claims. The parser must already have
-  // read the elements.
+  // Fails if an array has fewer values than the file states. The arrays of the pieces and of the field are checked. The parser
+  // must have read the elements before this call.
   void check_pieces(vtkXMLDataParser *parser);
-  // Fails unless the file holds n values of the array's type for an element. Also fails if a block of binary data claims to be
-  // larger than the file.
+  // Fails if the file has fewer than n values for the array of an element. Also fails if the stated size of a binary block
+  // exceeds the size of the file.
   void check_values(vtkXMLDataParser *parser, vtkXMLDataElement *element, std::int64_t n, vtkAbstractArray *array);
 
  private:
-  // The data of an element, from `begin` to `end` in the file. It is text or bytes.
+  // The data of an element in the file, from `begin` to `end`. The data is text or bytes.
   struct ArrayData {
     enum Form { ascii, base64, raw } form;
     std::size_t begin, end;
@@ -105,7 +106,7 @@ class XmlSizes {
   const std::string &path_;
   MappedFile file_;
   std::string_view bytes_;
-  // The size of a checked element: its number of bytes, or the number of numbers in its text.
+  // The size of an element that was checked: its number of bytes, or the number of numbers in its text.
   struct Held {
     std::uint64_t n = 0;
     bool is_text = false;

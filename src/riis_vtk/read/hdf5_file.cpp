@@ -10,7 +10,7 @@ namespace riis::vtk {
 #ifdef RIIS_VTK_HDF5
 namespace {
 
-// An identifier of HDF5, which is closed at the end.
+// An identifier of HDF5. The destructor closes it.
 class Identifier {
  public:
   Identifier(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -45,8 +45,8 @@ class Silence {
 hid_t type_in_memory(const double *) { return H5T_NATIVE_DOUBLE; }
 hid_t type_in_memory(const std::int64_t *) { return H5T_NATIVE_INT64; }
 
-// Fails unless the file holds the values of the dataset. HDF5 would fill in values that were never written. The size of the
-// data is at most 1032 times the size of a compressed chunk, which is the limit of deflate.
+// Fails if the file does not contain all values of the dataset. HDF5 would fill in a default for values that were never written.
+// Data can be at most 1032 times as large as its compressed chunk, because deflate compresses by no larger factor.
 void check_storage(const std::string &path, const std::string &name, hid_t dataset, std::int64_t n_bytes) {
   const Identifier properties(H5Dget_create_plist(dataset), H5Pclose);
   const bool is_filtered = H5Pget_layout(properties) == H5D_CHUNKED && H5Pget_nfilters(properties) > 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks through the sections of a legacy .vtk file before VTK reads it, and counts its cells.
+// Walks through the sections of a legacy .vtk file before VTK reads the file, and counts its cells.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -23,7 +23,8 @@
 namespace riis::vtk {
 namespace {
 
-// Returns the number of bytes of a value in a binary file. Returns 0 for types of varying size, and -1 for an unknown type.
+// Returns the number of bytes that a value has in a binary file. Returns 0 for a type of varying size, and -1 for an unknown
+// type.
 int size_of_type(std::string_view type) {
   using Names = std::initializer_list<std::string_view>;
   const auto is_in = [&](Names names) { return std::find(names.begin(), names.end(), type) != names.end(); };
@@ -35,8 +36,8 @@ int size_of_type(std::string_view type) {
   return is_in({"string", "utf8_string"}) ? 0 : -1;
 }
 
-// Returns whether VTK reads the whole word as a number of this type. VTK reads with C++ streams. VTK's functions refuse
-// infinite and too large numbers, but accept too small ones.
+// Returns whether VTK would read the whole word as a number of the given type. VTK reads numbers from C++ streams. VTK refuses
+// infinite numbers and numbers that are too large, but accepts numbers that are too small.
 bool is_number(std::string_view word, const std::string &type) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   if (type == "float" || type == "double") {
@@ -48,7 +49,7 @@ bool is_number(std::string_view word, const std::string &type) {
     return error == std::errc() && std::isfinite(value) &&
            (type == "double" || std::isfinite(static_cast<float>(value)));
   }
-  // In text files, VTK writes and reads a single byte as a number of 32 bits, so a larger value is not a fault.
+  // In text files, VTK writes and reads a byte as a number of 32 bits. Therefore a number above 255 is no fault.
   const bool is_unsigned = type.rfind("unsigned", 0) == 0 || type == "vtktypeuint64";
   const int n_bits = type == "short" || type == "unsigned_short" ? 16 : size_of_type(type) == 8 ? 64 : 32;
   if (is_unsigned && size_of_type(type) > 1) {
@@ -78,7 +79,7 @@ bool begins_with(std::string_view text, std::string_view what) { return text.sub
 // A sequence of whole numbers. The scan has already checked that the numbers exist and are valid.
 class Numbers {
  public:
-  // `size` is the number of bytes of each number in a binary file, 4 or 8. `size` is 0 for an ASCII file.
+  // In a binary file, `size` is the number of bytes of each number, 4 or 8. In an ASCII file, `size` is 0.
   Numbers(std::string_view from, int size) : rest_(from), size_(size) {}
 
   std::int64_t next() {
@@ -112,7 +113,8 @@ class Scan {
     header(allowed);
     for (std::string keyword = word(); !keyword.empty(); keyword = word()) section(keyword);
     if (is_structured()) return structured();
-    // The format has no end mark. Without this check, a file that ends after its points would look like a grid without cells.
+    // The format has no mark for the end of a file. Without this check, a file that is cut off after its points would look like a
+    // grid without cells.
     if (n_cells_ < 0) refuse("holds no cells (is it truncated?)");
     if (is_polydata()) return {kind_, n_cells_};
     if (n_types_ != n_cells_)
@@ -122,7 +124,7 @@ class Scan {
     return {kind_, n_cells_};
   }
 
-  // Returns whether the file has a structured grid. Reads only the header.
+  // Returns whether the file has a structured grid. Only the header is read.
   bool is_structured_file() {
     header(LegacyKinds::grid);
     return is_structured();
@@ -137,8 +139,8 @@ class Scan {
 
   std::string_view line() { return take_line(rest_); }
 
-  // Returns the next word unchanged, or "" at the end of the file. Refuses a word of more than 255 characters, because VTK would
-  // read it as two words.
+  // Returns the next word unchanged, or "" at the end of the file. Refuses a word with more than 255 characters, because VTK
+  // would read it as two words.
   std::string_view word_as_it_is() {
     constexpr std::size_t longest = 255;
     const std::string_view text = take_word(rest_);
@@ -146,7 +148,8 @@ class Scan {
     return text;
   }
 
-  // Returns the next word in lower case, or "" at the end of the file. The format mostly ignores case.
+  // Returns the next word in lower case, or "" at the end of the file. Mostly, the format does not distinguish capital letters
+  // from small letters.
   std::string word() { return lower_case(word_as_it_is()); }
 
   // The next two functions return the next word, and fail at the end of the file.
@@ -163,7 +166,8 @@ class Scan {
     return n;
   }
 
-  // Returns a count. Each counted item takes at least one bit, so a count above the number of remaining bits is wrong.
+  // Reads and returns a count. Each counted item takes at least one bit, so a count must not exceed the number of bits in the
+  // rest of the file.
   std::int64_t count() {
     const std::int64_t n = number_of(next());
     if (n < 0) refuse("has the count ", n);
@@ -179,8 +183,8 @@ class Scan {
     if (first.rfind(magic, 0) != 0) refuse("is not a legacy VTK file");
     std::string version = first.substr(magic.size());
     while (!version.empty() && is_blank(version.back())) version.pop_back();
-    // An unknown version is refused, because VTK would read such a file like an old version. A version number that is too
-    // large for VTK is also refused.
+    // A file of an unknown version is refused, because VTK would read it like an old version. A version number is also refused if
+    // it is too large for VTK.
     const std::size_t dot = version.find('.');
     std::int64_t minor = 0;
     constexpr std::size_t longest = 16;
@@ -207,7 +211,7 @@ class Scan {
   bool is_polydata() const { return kind_ == LegacyKind::polydata; }
   bool is_structured() const { return kind_ != LegacyKind::unstructured_grid && !is_polydata(); }
 
-  // Returns the content of a structured grid whose sections were scanned.
+  // Returns the content of a structured grid after its sections were scanned.
   LegacyContent structured() const {
     if (!lattice_) refuse("has no DIMENSIONS (is it truncated?)");
     static const char *const names[3] = {"X_COORDINATES", "Y_COORDINATES", "Z_COORDINATES"};
@@ -224,7 +228,7 @@ class Scan {
     rest_.remove_prefix(static_cast<std::size_t>(n));
   }
 
-  // Skips n words of an ASCII file. Refuses a word that is not a number of the type, because VTK would stop reading there
+  // Skips n words of an ASCII file. Refuses a word that is not a number of the given type, because VTK would stop reading there
   // without an error.
   void skip_words(std::int64_t n, const std::string &type) {
     for (std::int64_t i = 0; i < n; ++i) {
@@ -238,7 +242,7 @@ class Scan {
     if (!is_number(word, type)) refuse("has '", word.substr(0, 40), "' for a number of type ", type);
   }
 
-  // Skips a string in a binary file. The upper two bits of its first byte tell how many bytes its length takes.
+  // Skips a string in a binary file. The two highest bits of the string's first byte tell how many bytes hold its length.
   void skip_binary_string() {
     const int n_length_bytes = 8 >> (static_cast<unsigned char>(rest_[0]) >> 6);
     const std::uint64_t word = big_endian(rest_.substr(0, static_cast<std::size_t>(n_length_bytes)));
@@ -253,7 +257,7 @@ class Scan {
     }
   }
 
-  // Skips n values that begin on the next line. n must be at most the number of remaining bits in the file.
+  // Skips n values, which begin on the next line. `n` must not exceed the number of bits in the rest of the file.
   void skip_values(std::int64_t n, const std::string &type) {
     line();
     if (type == "bit") return binary_ ? skip_bytes((n + 7) / 8) : skip_words(n, "int");
@@ -263,7 +267,8 @@ class Scan {
     binary_ ? skip_bytes(n * size) : skip_words(n, type);
   }
 
-  // Skips an array. The array has n tuples of a width that the file gives. VTK's writer may add a block of METADATA after them.
+  // Skips an array. The array has n tuples, and the file gives the size of a tuple. VTK's writer may add a block METADATA after
+  // the tuples.
   void skip_tuples(std::int64_t n, std::int64_t width, const std::string &type) {
     if (width > 0 && n > n_bits_left() / width) refuse_end();
     skip_values(n * width, type);
@@ -273,8 +278,9 @@ class Scan {
     skip_metadata(width);
   }
 
-  // Skips a block of METADATA after its keyword. The block ends with a blank line, but the line with a component's name may also
-  // be blank. VTK reads only the beginning of a keyword: INFORMATION8 1 stands for 8 keys.
+  // Skips a block METADATA, whose keyword has already been read. The block ends with a blank line. However, the line with the
+  // name of a component may also be blank. VTK compares only the beginning of the keyword. For example, VTK reads INFORMATION8 1
+  // as 8 keys.
   void skip_metadata(std::int64_t n_components) {
     line();
     while (!rest_.empty()) {
@@ -292,8 +298,8 @@ class Scan {
     }
   }
 
-  // Skips the rest of a block of METADATA: the keys, each with a NAME line and a DATA line. VTK looks for the stated number of
-  // keys, even after the blank line. If VTK cannot read the number of keys, it never stops.
+  // Skips the rest of a block METADATA. The rest consists of keys, each with a line NAME and a line DATA. VTK looks for the
+  // stated number of keys, even beyond the blank line. If VTK cannot read the number of keys, its search never ends.
   void skip_information(std::int64_t n_keys) {
     std::int64_t n_found = 0;
     vtkInformationKey *key = nullptr;
@@ -312,15 +318,15 @@ class Scan {
         key = nullptr;
       } else if (const std::string lower = lower_case(keyword);
                  begins_with(lower, "information") || begins_with(lower, "component_names")) {
-        // Lines that begin with such words are refused, because VTK would take them for the beginning of another block.
+        // Lines with these beginnings are refused, because VTK would take them for the beginning of another block.
         refuse("has metadata with '", keyword.substr(0, 40), "' behind INFORMATION");
       }
     }
     if (n_found != n_keys || key) refuse("has INFORMATION of ", n_keys, " keys and gives ", n_found);
   }
 
-  // Skips the values of a key that VTK knows. The values are a string, a number, or a count followed by that many strings or
-  // numbers.
+  // Skips the values of a key of METADATA, if VTK knows the key. The values are a string, a number, or a count followed by as
+  // many strings or numbers.
   void skip_data(vtkInformationKey *key, std::string_view text) {
     if (vtkInformationStringKey::SafeDownCast(key)) return;
     const bool are_texts = vtkInformationStringVectorKey::SafeDownCast(key) != nullptr;
@@ -362,7 +368,7 @@ class Scan {
     }
   }
 
-  // Reads a section that only structured grids have. Returns false if the keyword does not begin one.
+  // Reads a section that occurs only in structured grids. Returns false for a keyword of another section.
   bool structured_section(const std::string &keyword) {
     if (keyword == "dimensions") {
       if (lattice_) refuse("has DIMENSIONS twice");
@@ -386,7 +392,7 @@ class Scan {
     return true;
   }
 
-  // VTK makes arrays of the stated number before it compares this number with the grid's.
+  // VTK allocates the stated number of arrays before it compares the number with the grid's number.
   void check_tuples(bool are_points) const {
     if (!lattice_) refuse("has data before DIMENSIONS");
     const std::int64_t n = are_points ? lattice_->n_points() : lattice_->n_cells();
@@ -409,12 +415,12 @@ class Scan {
     return keyword == "vertices" || keyword == "lines" || keyword == "polygons" || keyword == "triangle_strips";
   }
 
-  // Skips a list of cells. `name` is its keyword.
+  // Skips a list of cells. `name` is the keyword of the list.
   void cells(const std::string &name) {
     const std::int64_t first = count();
     const std::int64_t second = count();
     if (version_ >= 5) {
-      // In version 5 the two numbers are the counts of offsets and of corners.
+      // In version 5, a section of cells states the number of offsets and the number of corners.
       add_cells(std::max<std::int64_t>(first - 1, 0));
       if (first == 0) return;
       if (next() != "offsets") refuse("has ", name, " without OFFSETS");
@@ -434,8 +440,8 @@ class Scan {
 
   void add_cells(std::int64_t n) { n_cells_ = std::max<std::int64_t>(n_cells_, 0) + n; }
 
-  // Skips the cells of files up to version 4. Each cell is stored as its number of corners, followed by the corners. n_values is
-  // the count of all these numbers.
+  // Skips the cells of a file of version 4 or earlier. A cell is stored as its number of corners, followed by its corners.
+  // n_values is the count of all these numbers.
   void counted_cells(std::int64_t n_cells, std::int64_t n_values, const std::string &name) {
     line();
     corners_ = rest_;
@@ -450,7 +456,8 @@ class Scan {
     if (n_left != 0) refuse("has ", name, " with ", n_left, " numbers too many");
   }
 
-  // Returns the values of an array whose type was the last word. The values begin on the next line.
+  // Returns the values of an array. The word before the values was the type of the array. The values begin on the next line of
+  // the file.
   std::string_view values_behind_line() const {
     std::string_view values = rest_;
     take_line(values);
@@ -463,7 +470,7 @@ class Scan {
     return {values, binary_ ? size : 0};
   }
 
-  // VTK stores each type in a byte, so only the lowest byte counts.
+  // VTK stores the type of a cell in a byte, so only the lowest byte counts.
   bool has_polyhedra() const {
     Numbers types = numbers(types_, "int");
     for (std::int64_t i = 0; i < n_types_; ++i)
@@ -471,7 +478,7 @@ class Scan {
     return false;
   }
 
-  // Checks the faces of polyhedra, because VTK follows them without checks while it reads them.
+  // Checks the faces of polyhedra, because VTK's reader uses them without a check.
   void check_polyhedra() const {
     Numbers types = numbers(types_, "int"), corners = numbers(corners_, type_of_corners_);
     Numbers offsets = numbers(offsets_, type_of_offsets_);
@@ -494,8 +501,8 @@ class Scan {
     }
   }
 
-  // Checks the n numbers of a polyhedron. The numbers are the number of faces and, for each face, the number of points and the
-  // points.
+  // Checks the n numbers of a polyhedron's faces. The numbers are the number of faces and, for each face, the number of its
+  // points and the points.
   void check_polyhedron(std::int64_t cell, std::int64_t n, Numbers &corners) const {
     const auto broken = [&] { refuse("cell ", cell, " has broken polyhedron faces"); };
     if (n < 1) broken();
@@ -521,7 +528,7 @@ class Scan {
     return value;
   }
 
-  // Skips an array of POINT_DATA or CELL_DATA. Returns false if the keyword does not begin such an array.
+  // Skips an array of POINT_DATA or CELL_DATA. Returns false for any other keyword.
   bool attribute(const std::string &keyword) {
     static const std::map<std::string, int> widths = {{"vectors", 3},   {"normals", 3},    {"tensors", 9},
                                                       {"tensors6", 6},  {"global_ids", 1}, {"pedigree_ids", 1},
@@ -548,7 +555,7 @@ class Scan {
     return true;
   }
 
-  // In a binary file, colours are bytes. In an ASCII file, the values are numbers from 0 to 1.
+  // In a binary file, colours are bytes. In an ASCII file, colours are numbers from 0 to 1.
   std::string type_of_colors() const { return binary_ ? "unsigned_char" : "float"; }
 
   void scalars() {
@@ -577,8 +584,8 @@ class Scan {
   std::int64_t n_cells_ = -1;                    // -1 if not known yet
   std::int64_t n_types_ = -1;
   std::int64_t n_points_ = 0;
-  // Each view begins at its array. Files up to version 4 have no offsets: each cell begins with its number of corners, and its
-  // corners follow.
+  // Views of the arrays of cells. Each begins at its array. Files up to version 4 have no offsets. In files up to version 4, each
+  // cell is its number of corners, followed by its corners.
   std::string_view types_, offsets_, corners_;
   std::string type_of_offsets_ = "int", type_of_corners_ = "int";
   std::int64_t n_corners_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront's .obj files: the vertices and the polygons. Texture coordinates, normals, groups and materials are skipped. A face
-// may also refer to vertices that come after it.
+// Reads Wavefront's .obj files: the vertices and the polygons. Texture coordinates, normals, groups and materials are skipped. A
+// face may refer to vertices that come after it in the file.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -13,7 +13,7 @@
 namespace riis::vtk {
 namespace {
 
-// Keywords that say nothing about the places of faces.
+// Keywords that do not concern the positions of faces.
 constexpr std::array<std::string_view, 16> keywords_to_skip = {
     "vt",     "vn",     "vp",     "g",     "s",        "o",   "mg",         "mtllib",
     "usemtl", "usemap", "maplib", "bevel", "c_interp", "lod", "shadow_obj", "trace_obj"};
@@ -25,7 +25,7 @@ class ObjFile {
   vtkSmartPointer<vtkUnstructuredGrid> read() {
     if (const std::string_view mark = "\xef\xbb\xbf"; bytes_.substr(0, mark.size()) == mark) in_.skip(mark.size());
     while (!in_.rest().empty()) {
-      // The statement is copied before its lines are skipped, so that errors name its first line.
+      // The statement is copied before its lines are skipped. Error messages then name the first line of the statement.
       std::string_view rest = in_.rest();
       read_statement(statement(rest));
       in_.skip(in_.rest().size() - rest.size());
@@ -35,7 +35,8 @@ class ObjFile {
   }
 
  private:
-  // Takes a statement from the text. A backslash at the end of a line joins the next line to it, unless it is in a comment.
+  // Removes one statement from the text and returns it. A backslash at the end of a line joins the next line to it, except in a
+  // comment.
   std::string_view statement(std::string_view &text) {
     joined_.clear();
     for (;;) {
@@ -63,7 +64,7 @@ class ObjFile {
     }
   }
 
-  // Reads x, y and z. A weight or a colour may follow.
+  // Reads the coordinates x, y and z. A weight or a colour may follow the coordinates.
   void read_vertex(std::string_view text) {
     std::array<double, 7> values{};
     std::size_t n = 0;
@@ -84,7 +85,7 @@ class ObjFile {
     positions_.push_back(bytes_.size() - in_.rest().size());
   }
 
-  // Returns the vertex of a corner such as 7, 7/1, 7/1/3 or 7//3. A number below 0 counts back from the last vertex.
+  // Returns the vertex of a corner such as 7, 7/1, 7/1/3 or 7//3. A negative number counts backwards from the last vertex.
   std::int64_t corner_of(std::string_view word) const {
     constexpr int most_numbers = 3;
     const std::string_view corner = word;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of OpenFOAM: the files points, faces, owner and neighbour of a folder polyMesh, as text or binary, compressed by gzip or
-// not. The format is in OpenFOAM's user guide, "Mesh description" and "Basic input/output format". VTK's reader of OpenFOAM
-// returns coordinates in single precision. This reader keeps doubles. Cells with the faces of a tetrahedron, pyramid, prism or
-// hexahedron become these cells of VTK, and all other cells become polyhedra.
+// Reads meshes of OpenFOAM: the files points, faces, owner and neighbour in a folder polyMesh. The files are text or binary, and
+// may be compressed by gzip. The format is described in OpenFOAM's user guide, "Mesh description" and "Basic input/output
+// format". VTK's reader of OpenFOAM returns coordinates in single precision. This reader keeps the doubles of the file. A
+// tetrahedron, pyramid, prism or hexahedron becomes the cell of VTK with this shape. All other cells become polyhedra.
 #include <vtk_zlib.h>
 
 #include <algorithm>
@@ -34,7 +34,8 @@ std::optional<double> time_of(const fs::path &folder) {
   return read_number(std::string_view(folder.filename().string()), time) ? std::optional<double>(time) : std::nullopt;
 }
 
-// Unpacks a gzip file. A damaged file causes an error, and the memory grows only with the content.
+// Unpacks a gzip file. A damaged file gives an error. The memory grows with the unpacked content, not with a size that the file
+// states.
 std::string unpacked(const std::string &path, std::string_view packed) {
   z_stream stream{};
   if (inflateInit2(&stream, 15 + 16) != Z_OK) throw std::bad_alloc();
@@ -62,7 +63,7 @@ std::string unpacked(const std::string &path, std::string_view packed) {
   return content;
 }
 
-// A file of OpenFOAM: a header, then lists of numbers.
+// A file of OpenFOAM: a header, followed by lists of numbers.
 class FoamFile {
  public:
   FoamFile(const fs::path &folder, const char *name) : path_(path_of(folder, name)) {
@@ -105,7 +106,7 @@ class FoamFile {
         });
   }
 
-  // Reads lists of nodes one after the other, and the end of each list in `ids`.
+  // Reads lists of nodes one after the other. `ids` also gets the end of each list.
   void read_faces(Ids &ids, Ids &ends) {
     if (is_compact()) {
       ends = labels();
@@ -171,7 +172,7 @@ class FoamFile {
     }
   }
 
-  // Returns the next word, which may be one of ( ) { } ;. Returns "" at the end of the file.
+  // Returns the next word, or one of the characters ( ) { } ;. At the end of the file, returns "".
   std::string_view token() {
     skip_comments();
     const std::string_view rest = in_->rest();
@@ -187,7 +188,8 @@ class FoamFile {
     return rest.substr(0, length);
   }
 
-  // Reads the rest of an entry: words up to a ";", or a dictionary in braces. Returns the words, joined.
+  // Reads the rest of an entry, which is a sequence of words up to a ";", or a dictionary in braces. Returns the words as one
+  // text.
   std::string entry(const char *within) {
     std::string words;
     for (std::int64_t depth = 0;;) {
@@ -233,7 +235,7 @@ class FoamFile {
     scalar_bytes_ = bytes_in("scalar", 8);
   }
 
-  // Reads "N (...)", or "N {value}" for N equal values. A binary list has its bytes between the parentheses.
+  // Reads a list "N (...)", or "N {value}" for N equal values. In a binary list, bytes stand between the parentheses.
   template <class Reserve, class ReadOne>
   void read_list(int least_bytes, const char *things, const Reserve &reserve, const ReadOne &read_one) {
     const std::int64_t n = in_->integer_of(token());
@@ -241,7 +243,7 @@ class FoamFile {
     skip_comments();
     if (!has_content && (in_->rest().empty() || (in_->rest()[0] != '(' && in_->rest()[0] != '{'))) return;
     if (!in_->rest().empty() && in_->rest()[0] == '{') {
-      // Only lists of labels have this form.
+      // In OpenFOAM, only lists of labels have one value in braces.
       if (is_binary_ || least_bytes != 2) in_->refuse("equal ", things, " in {} are not read");
       return read_equal(n, things, read_one);
     }
@@ -255,8 +257,8 @@ class FoamFile {
     expect(")");
   }
 
-  // A list of equal entries is longer than its file, so such a list has a separate limit. The limit is the number of entries that
-  // a mesh of one block of cells could need.
+  // A list of equal entries may be much longer than its file, so it needs a separate limit. The limit is the number of entries
+  // that a mesh with one block of cells could need.
   template <class ReadOne>
   void read_equal(std::int64_t n, const char *things, const ReadOne &read_one) {
     constexpr std::int64_t most = 1 << 20;
@@ -277,12 +279,12 @@ class FoamFile {
   int label_bytes_ = 4, scalar_bytes_ = 8;
 };
 
-// The folders of a mesh. Points that move are in the folder of a time.
+// The folders of a mesh. If points move, the file points is in the folder of a time.
 struct Folders {
   fs::path mesh, points;
 };
 
-// The faces of one folder, and the cells on their sides.
+// The faces of one folder, and the cells on the two sides of each face.
 struct Faces {
   Ids node_ids, ends, owner, neighbor;
   std::int64_t n_cells = 0;
@@ -299,7 +301,7 @@ Faces read_all_faces(const Folders &folders, std::int64_t n_points) {
   face_file.read_faces(faces.node_ids, faces.ends);
   faces.owner = owner_file.labels();
   faces.neighbor = neighbor_file.labels();
-  // Old versions of OpenFOAM write -1 for the faces of the boundary.
+  // Old versions of OpenFOAM write -1 as the neighbour of a boundary face.
   while (!faces.neighbor.empty() && faces.neighbor.back() == -1) faces.neighbor.pop_back();
   const std::int64_t n = faces.n_faces();
   if (view(faces.owner).size() != n)
@@ -325,7 +327,7 @@ Faces read_all_faces(const Folders &folders, std::int64_t n_points) {
   return faces;
 }
 
-// A cell's faces. Each entry is a face's number, and whether the face's normal points out of the cell.
+// The faces of a cell. An entry has the number of a face, and tells whether the face's normal points out of the cell.
 struct CellFace {
   std::int64_t face;
   bool is_outward;
@@ -345,7 +347,7 @@ Corners sorted(Corners corners) {
   return corners;
 }
 
-// One of VTK's linear cells, which has a base. The other nodes of the cell are one apex, or one node above each node of the base.
+// A linear cell of VTK with a base. All other nodes of the cell are one apex, or one node above each node of the base.
 struct Shape {
   int vtk_type;
   std::int64_t n_faces, base_size, n_nodes;
@@ -356,7 +358,8 @@ constexpr Shape shapes[] = {{VTK_TETRA, 4, 3, 4, false},
                             {VTK_WEDGE, 5, 3, 6, true},
                             {VTK_HEXAHEDRON, 6, 4, 8, false}};
 
-// Returns the only node of the cell that shares an edge with `corner` and is not in the base, or -1.
+// Returns the node that shares an edge of the cell with `corner` and is not in the base. Returns -1 if no node fits, or if
+// several nodes fit.
 vtkIdType node_above(const Faces &faces, const std::vector<CellFace> &cell, const Corners &base, vtkIdType corner) {
   vtkIdType above = -1;
   for (const CellFace of : cell) {
@@ -374,7 +377,7 @@ vtkIdType node_above(const Faces &faces, const std::vector<CellFace> &cell, cons
   return above;
 }
 
-// Returns the nodes of a cell of this shape in VTK's order, and no nodes for another cell.
+// Returns the nodes of a cell of this shape in VTK's order. For a cell of another shape, returns no nodes.
 Corners nodes_as(const Shape &shape, const Faces &faces, const std::vector<CellFace> &cell) {
   if (static_cast<std::int64_t>(cell.size()) != shape.n_faces) return {};
   const auto base_face =
@@ -386,7 +389,7 @@ Corners nodes_as(const Shape &shape, const Faces &faces, const std::vector<CellF
   const bool has_apex = shape.n_nodes == shape.base_size + 1;
   if (has_apex && std::count(top.begin(), top.end(), top[0]) != shape.base_size) return {};
   if (std::find(top.begin(), top.end(), -1) != top.end()) return {};
-  // The faces that such a cell must have.
+  // The faces that a cell of the shape must have.
   std::vector<Corners> wanted = {sorted(base)}, found;
   const auto n = static_cast<std::size_t>(shape.base_size);
   for (std::size_t i = 0; i < n; ++i) {
@@ -405,7 +408,7 @@ Corners nodes_as(const Shape &shape, const Faces &faces, const std::vector<CellF
   return wanted == found && are_distinct ? nodes : Corners();
 }
 
-// Adds a cell as a linear cell of VTK, or as a polyhedron with its faces.
+// Adds a cell as a linear cell of VTK, or as a polyhedron with its faces if VTK has no such cell.
 void add_cell(const Faces &faces, const std::vector<CellFace> &cell, PlainGrid &mesh) {
   for (const Shape &shape : shapes) {
     const Corners nodes = nodes_as(shape, faces, cell);
@@ -444,7 +447,7 @@ void add_cells(const std::string &path, const Faces &faces, PlainGrid &mesh) {
   }
 }
 
-// Returns whether the file has single precision.
+// Returns whether the numbers of the file have single precision.
 bool read_folder(const Folders &folders, PlainGrid &mesh) {
   FoamFile points(folders.points, "points");
   points.read_points(mesh.xyz);
@@ -455,8 +458,8 @@ bool read_folder(const Folders &folders, PlainGrid &mesh) {
 
 // ---- Decomposed cases ----
 
-// Returns the ids that the parts' nodes or cells have in the whole mesh. Fails unless the ids are all numbers from 0 to some
-// number.
+// Returns the ids in the whole mesh of the nodes or the cells of all parts. Fails if the ids are not exactly the numbers from 0
+// to the largest id.
 std::vector<Ids> read_addresses(const std::vector<fs::path> &folders, const char *name, const Ids &sizes) {
   std::vector<Ids> all;
   std::int64_t n_claimed = 0, most = -1;
@@ -490,8 +493,8 @@ std::int64_t n_of(const std::vector<Ids> &addresses) {
   return most + 1;
 }
 
-// Joins the parts of a decomposed case. Nodes and cells get the order of the whole mesh. A node that parts share is taken from
-// the first part.
+// Joins the parts of a decomposed case to one mesh. Nodes and cells have the order of the whole mesh. If several parts share a
+// node, the node is taken from the first of these parts.
 bool read_parts(const std::string &path, const std::vector<fs::path> &folders, PlainGrid &whole) {
   std::vector<std::unique_ptr<PlainGrid>> parts;
   Ids n_points, n_cells;
@@ -536,7 +539,7 @@ bool read_parts(const std::string &path, const std::vector<fs::path> &folders, P
 
 bool is_mesh(const fs::path &folder) { return has_file(folder, "faces") && has_file(folder, "owner"); }
 
-// Returns the polyMesh folders of the parts of a decomposed case in their order, or none.
+// Returns the folders polyMesh of the parts of a decomposed case, in the order of the parts. Returns none for other cases.
 std::vector<fs::path> parts_of(const fs::path &root) {
   std::vector<fs::path> folders;
   std::error_code error;
@@ -545,7 +548,8 @@ std::vector<fs::path> parts_of(const fs::path &root) {
   return folders;
 }
 
-// Finds the latest folder of a case that has a file of the mesh, not after the time.
+// Finds the latest folder of a case in which this file of the mesh exists. The time of the folder must not be after the given
+// time.
 fs::path latest_with(const fs::path &root, double time, const char *file) {
   std::map<double, fs::path> found;
   std::error_code error;
@@ -556,7 +560,7 @@ fs::path latest_with(const fs::path &root, double time, const char *file) {
   return found.empty() ? root / "constant" / "polyMesh" : found.rbegin()->second;
 }
 
-// Returns whether the case has a folder such as processors4, with the parts of all processes in each file.
+// Returns whether the case has a folder such as processors4. Each file in the folder processors4 has the parts of all processes.
 bool has_collated_parts(const fs::path &root) {
   std::error_code error;
   const fs::directory_iterator entries(root, error);

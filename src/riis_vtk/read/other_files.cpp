@@ -110,7 +110,7 @@ double Source::real_of(std::string_view text) const {
   const std::string_view digits = text[0] == '+' ? text.substr(1) : text;
   const auto [end, error] = number_from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool is_whole = end == digits.data() + digits.size();
-  // Numbers that are too small for a double count as 0.
+  // A number counts as 0 if it is too small for a double.
   if (is_whole && error == std::errc::result_out_of_range && digits.find("e-") != std::string_view::npos) return 0;
   if (!is_whole || error != std::errc()) refuse("\"", std::string(text.substr(0, 40)), "\" is not a number");
   return value;

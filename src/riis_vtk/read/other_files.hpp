@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes and surfaces of other programs.
-// In: a path. Out: a grid with points in double precision, whose cells have VTK's types and orders of nodes. read_grid checks the
-// cells again. No count of a file is believed before the file is known to hold as many bytes as the count needs.
+// Reads meshes and surfaces in formats of other programs.
+// In: a path. Out: a grid with points in double precision. The cells of the grid have VTK's types and VTK's order of nodes.
+// read_grid checks the cells again. A stated count is believed only if the file has enough bytes for the counted items.
 #pragma once
 
 #include <array>
@@ -19,38 +19,40 @@
 
 namespace riis::vtk {
 
-// The field array that a grid has if its file holds single precision. riis_vtk_mesh_get_notes reads it.
+// The field array of a grid whose numbers have single precision in the file. riis_vtk_mesh_get_notes reads it.
 inline constexpr const char *note_array = "riis_note";
-// The cell array with the first of gmsh's physical groups. Arrays of its name, _2, _3 and so on have further groups, or 0.
+// The cell array with the first physical group of each cell, as gmsh gives it. Arrays with this name and an added _2, _3 and so
+// on have further groups, or 0.
 inline constexpr const char *physical_array = "gmsh:physical";
-// The field array with the numbers and the names of the physical groups of volumes, in turn.
+// A field array in which the numbers and the names of the physical groups of volumes alternate.
 inline constexpr const char *region_names_array = "riis_region_names";
 void add_note(vtkUnstructuredGrid *grid, const std::string &note);
 
-// Gmsh's .msh of versions 2 and 4.1, as text or binary (gmsh.cpp).
+// Reads gmsh's .msh files of versions 2 and 4.1, as text or binary (gmsh.cpp).
 vtkSmartPointer<vtkUnstructuredGrid> read_gmsh(const std::string &path);
 
-// A case of OpenFOAM, a time of a case, a folder polyMesh, or a file .foam in a case (openfoam.cpp).
+// Reads a case of OpenFOAM. The path is the case, a time of the case, a folder polyMesh, or a file .foam in the case
+// (openfoam.cpp).
 bool is_openfoam(const std::string &path);
 vtkSmartPointer<vtkUnstructuredGrid> read_openfoam(const std::string &path);
 std::string foam_case_of(const std::string &path);
 
-// Whether the path is a folder of a time in a case of OpenFOAM. The folder may be missing.
+// Returns whether the path is the folder of a time in an OpenFOAM case. The folder need not exist.
 bool is_foam_time(const std::string &path);
 
-// XDMF with its data in the file itself or in HDF5 files (xdmf.cpp).
+// Reads XDMF files, whose data is in the file or in HDF5 files (xdmf.cpp).
 vtkSmartPointer<vtkUnstructuredGrid> read_xdmf(const std::string &path);
 void write_xdmf(const std::string &path, vtkUnstructuredGrid *grid);
 
-// Exodus by VTK, and the .vtu files of a .vtm (blocks.cpp).
+// Reads Exodus files by VTK, and the .vtu files that a .vtm file lists (blocks.cpp).
 vtkSmartPointer<vtkUnstructuredGrid> read_exodus(const std::string &path, const CaughtOutput &caught);
 vtkSmartPointer<vtkUnstructuredGrid> read_blocks(const std::string &path, const CaughtOutput &caught);
 
-// Surfaces: the polygons of .obj and .ply files, with the vertices of the file (obj.cpp, ply.cpp).
+// Reads surfaces: the polygons of .obj and .ply files, with all vertices of the file (obj.cpp, ply.cpp).
 vtkSmartPointer<vtkUnstructuredGrid> read_obj(const std::string &path);
 vtkSmartPointer<vtkUnstructuredGrid> read_ply(const std::string &path);
 
-// A mesh while a file is read.
+// A mesh whose file is being read now.
 struct PlainGrid {
   vtkNew<vtkDoubleArray> xyz;  // (3, n)
   vtkNew<vtkIdTypeArray>
@@ -74,7 +76,8 @@ struct PlainGrid {
 // The names and the types of the patches of a case's mesh.
 std::vector<std::array<std::string, 2>> read_patches(const std::string &foam_case);
 
-// The content of a file, from its beginning to its end, as text or binary numbers. Errors name the file and the position.
+// The content of a file, which is read from its beginning to its end. Numbers are text or binary. Error messages name the file
+// and the position.
 class Source {
  public:
   Source(const std::string &path, std::string_view bytes) : path_(path), bytes_(bytes), rest_(bytes) {}
@@ -89,13 +92,14 @@ class Source {
   // Returns the number that a word stands for.
   std::int64_t integer_of(std::string_view text) const;
   double real_of(std::string_view text) const;
-  // Reads the next number. A binary number has n_bytes bytes. A real number of 4 bytes is a float.
+  // Reads the next number. A binary number has n_bytes bytes. A real number with 4 bytes is a float.
   std::int64_t integer(int n_bytes);
   double real(int n_bytes);
   // Reads the next binary number of this type.
   template <class T>
   T raw();
-  // Returns the next count. Fails if the rest of the file cannot hold so many items, of which each takes `least_bytes` or more.
+  // Reads and returns a count. Fails if the rest of the file is too short for so many items. Each item takes at least
+  // `least_bytes` bytes.
   std::int64_t count(int n_bytes, std::int64_t least_bytes, const char *things);
   void check_count(std::int64_t n, std::int64_t least_bytes, const char *things) const;
 
@@ -111,38 +115,38 @@ class Source {
   std::string_view bytes_, rest_;
 };
 
-// In: the bytes of an XML file. Out: its elements. Elements suffice for XDMF and .vtm files: names, attributes, and the text
-// before an element's first child. Declarations and comments are skipped, and a document type is not followed.
+// In: the bytes of an XML file. Out: its elements. For XDMF and .vtm files it suffices to know the elements: names, attributes,
+// and the text before an element's first child. Declarations and comments are skipped. A document type is ignored.
 struct XmlElement {
   std::string name;
   std::map<std::string, std::string> attributes;
   std::string_view text;  // part of the file's bytes
   std::vector<XmlElement> children;
 
-  // Returns the attribute, or "".
+  // Returns the value of the attribute, or "" if it is missing.
   std::string attribute(const std::string &attribute_name) const;
-  // Returns the first child of that name, or NULL.
+  // Returns the first child with this name, or NULL.
   const XmlElement *child(const std::string &child_name) const;
 };
 
-// Returns the outermost element. Fails if the file is truncated or not XML. Elements are at most 64 deep.
+// Returns the outermost element. Fails if the file is truncated or is not XML. Elements may be nested at most 64 deep.
 XmlElement parse_xml(const std::string &path, std::string_view bytes);
 
-// Returns the text with the five predefined entities replaced.
+// Returns the text, in which the five predefined entities are replaced.
 std::string plain_text(std::string_view text);
 
-// Datasets of HDF5 files. Only hdf5_file.cpp includes HDF5's headers, and riis_vtk can be built without HDF5. HDF5 itself can
-// crash on a damaged file.
+// Reads datasets of HDF5 files. Only hdf5_file.cpp includes HDF5's headers, and riis_vtk can be built without HDF5. A damaged
+// file can crash the HDF5 library.
 
-// Whether this build has HDF5.
+// Tells whether this build of riis_vtk has HDF5.
 extern const bool has_hdf5;
 
-// Reads n numbers of a dataset as doubles or as 64-bit integers. Fails unless the dataset has exactly n numbers and the file
-// holds them all. is_single tells whether they are real numbers of 32 bits in the file.
+// Reads n numbers of a dataset as doubles or as 64-bit integers. Fails if the dataset has fewer or more numbers, or if numbers
+// are missing in the file. `is_single` tells whether the numbers are real numbers of 32 bits in the file.
 template <class Number>
 std::vector<Number> read_hdf5(const std::string &path, const std::string &name, std::int64_t n, bool &is_single);
 
-// Writes an HDF5 file. Like a ReplacingFile, the file gets its name when it is complete.
+// Writes an HDF5 file, which gets its name when it is complete, as a ReplacingFile does.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(const std::string &path);

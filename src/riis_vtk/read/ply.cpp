@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stanford's .ply files, as text or binary: the vertices, the polygons, and the single numbers of each face, which become cell
+// Reads Stanford's .ply files, as text or binary. Vertices and polygons are read, and single numbers of each face become cell
 // arrays. Other elements and lists are skipped.
 #include <algorithm>
 #include <set>
@@ -13,7 +13,7 @@
 namespace riis::vtk {
 namespace {
 
-// Only trimesh writes the types of 8 bytes.
+// Only the program trimesh writes types with 8 bytes.
 struct PlyType {
   std::string_view name, other_name;
   int n_bytes;
@@ -40,7 +40,7 @@ struct PlyElement {
     return std::any_of(properties.begin(), properties.end(),
                        [&](const PlyProperty &p) { return !p.count && p.name == property; });
   }
-  // Returns the list of a face's vertices, or NULL.
+  // Returns the list with the vertices of a face, or NULL.
   const PlyProperty *corners() const {
     const auto found = std::find_if(properties.begin(), properties.end(), [](const PlyProperty &p) {
       return p.count && !p.type->is_real && (p.name == "vertex_indices" || p.name == "vertex_index");
@@ -57,7 +57,7 @@ class PlyFile {
     const std::vector<PlyElement> elements = read_header();
     for (const PlyElement &element : elements) read_element(element);
     if (in_.is_binary ? !in_.rest().empty() : !in_.word().empty())
-      in_.refuse("the file holds more than its header claims");
+      in_.refuse("the file holds more data than its header states");
     const auto grid = mesh_.grid(path_);
     for (const auto &array : arrays_) grid->GetCellData()->AddArray(array);
     return grid;
@@ -66,7 +66,7 @@ class PlyFile {
  private:
   // ---- The header ----
 
-  // Takes a line that ends in a line feed or in a carriage return alone. Old files have the latter, and their first line tells.
+  // Removes and returns a line, which ends in a line feed or in a single carriage return.
   std::string_view take_header_line(std::string_view &text) const {
     if (!has_returns_) return take_line(text);
     const std::string_view line = text.substr(0, text.find('\r'));
@@ -96,7 +96,7 @@ class PlyFile {
         if (elements.empty()) in_.refuse("a property comes before the first element");
         elements.back().properties.push_back(property_of(line));
       } else if (keyword != "end_header" && keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-        in_.refuse("the keyword '", keyword.substr(0, 40), "' is not one of a header");
+        in_.refuse("the keyword '", keyword.substr(0, 40), "' does not belong to a header");
       }
       in_.skip(in_.rest().size() - rest.size());
       if (keyword == "end_header") break;
@@ -230,11 +230,11 @@ class PlyFile {
     expect_end_of_line();
   }
 
-  // In a text file, each vertex and each face has its own line.
+  // In a text file, each vertex and each face is on a separate line.
   void expect_end_of_line() const {
     if (in_.is_binary) return;
     std::string_view rest = in_.rest(), line = take_line(rest);
-    if (!take_word(line).empty()) in_.refuse("a line has other numbers than its element claims");
+    if (!take_word(line).empty()) in_.refuse("a line has more or fewer numbers than its element states");
   }
 
   const std::string &path_;

@@ -93,7 +93,7 @@ class XmlParser {
     rest_.remove_prefix(length + 1);
   }
 
-  // Reads an element, whose "<" is the next character.
+  // Reads an element. The next character is the element's "<".
   XmlElement element(int depth) {
     if (depth > 64) refuse("elements are more than 64 deep");
     rest_.remove_prefix(1);

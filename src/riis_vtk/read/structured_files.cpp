@@ -30,7 +30,8 @@
 namespace riis::vtk {
 namespace {
 
-// Returns the corners of the first cell. Adding a node's number gives the corners of the cell that begins at this node.
+// Returns the corners of the first cell of the grid. The corners of any cell are the first cell's corners plus the number of the
+// cell's first node.
 std::vector<std::int64_t> corners_of_first(const std::array<std::int64_t, 3> &n) {
   std::vector<std::int64_t> corners = {0};
   std::int64_t stride = 1;
@@ -38,7 +39,7 @@ std::vector<std::int64_t> corners_of_first(const std::array<std::int64_t, 3> &n)
     if (size == 1) continue;
     std::vector<std::int64_t> opposite = corners;
     for (std::int64_t &corner : opposite) corner += stride;
-    // The corners of a quad go around it.
+    // The corners of a quad run round it.
     if (opposite.size() == 2) std::swap(opposite[0], opposite[1]);
     corners.insert(corners.end(), opposite.begin(), opposite.end());
     stride *= size;
@@ -46,8 +47,8 @@ std::vector<std::int64_t> corners_of_first(const std::array<std::int64_t, 3> &n)
   return corners;
 }
 
-// Returns whether the corners of a hexahedron have the wrong orientation. An odd number of descending axes makes the wrong
-// orientation.
+// Returns whether the corners of a hexahedron have the wrong orientation. The orientation is wrong if an odd number of axes
+// descend.
 bool is_turned_over(vtkPoints *points, const std::vector<std::int64_t> &corners) {
   double at[4][3], side[3][3];
   constexpr std::size_t of[4] = {0, 1, 3, 4};
@@ -103,7 +104,7 @@ Sizes sizes_of(DataSet *data) {
   return {sizes[0], sizes[1], sizes[2]};
 }
 
-// Returns the axes if each axis strictly ascends and has two or more nodes.
+// Returns the axes if each axis has at least two nodes and strictly ascends.
 std::unique_ptr<const GridAxes> usable(GridAxes axes) {
   for (const std::vector<double> &axis : axes.of) {
     const bool ascends =
@@ -123,7 +124,7 @@ std::unique_ptr<const GridAxes> axes_of(vtkImageData *data) {
     image.spacing[axis] = data->GetSpacing()[axis];
     image.first[axis] = data->GetExtent()[2 * axis];
     for (std::int64_t i = 0; i < n[axis]; ++i) {
-      // The product is rounded before the sum.
+      // The product is rounded before the origin is added.
       const double step = static_cast<double>(image.first[axis] + i) * image.spacing[axis];
       axes.of[axis].push_back(image.origin[axis] + step);
     }
@@ -146,7 +147,7 @@ bool is_single(vtkImageData *) { return false; }
 bool is_single(vtkRectilinearGrid *data) { return data->GetXCoordinates()->GetDataType() == VTK_FLOAT; }
 bool is_single(vtkStructuredGrid *data) { return data->GetPoints()->GetDataType() == VTK_FLOAT; }
 
-// Fails unless each axis has as many coordinates as the grid has nodes along it. VTK believes the grid.
+// Fails if an axis of a grid has more or fewer coordinates than nodes. VTK would trust the stated number of nodes.
 void check_axes(const std::string &path, vtkRectilinearGrid *data) {
   const Sizes n = sizes_of(data);
   vtkDataArray *const coordinates[3] = {data->GetXCoordinates(), data->GetYCoordinates(), data->GetZCoordinates()};
@@ -161,7 +162,7 @@ void check_axes(const std::string &path, vtkStructuredGrid *data) {
   if (!data->GetPoints()) fail_file(path, "holds no points");
 }
 
-// Fails if the memory for a grid far exceeds the size of its file. An image may claim any size, because it stores no coordinates.
+// Fails if a grid needs far more memory than its file has bytes. An image may state any size, because it stores no coordinates.
 void check_claim(const std::string &path, const Sizes &n, bool has_axes) {
   constexpr double base = 2e9, per_byte = 1000, bytes_of_coordinate = 8, bytes_of_node = 100;
   double n_all = 1, n_along = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a .vti, .vtr or .vts file, or a legacy file of these kinds. Out: axes and arrays, or an unstructured grid if no ascending
-// axes give the nodes.
+// In: a .vti, .vtr or .vts file, or a legacy file with a structured grid. Out: axes and arrays, or an unstructured grid if the
+// nodes do not lie on ascending axes.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@
 
 namespace riis::vtk {
 
-// The axes of a rectilinear grid. Each axis has two or more coordinates, which are finite and ascend. Nodes and cells have VTK's
-// order: the first index changes fastest.
+// The axes of a rectilinear grid. Each axis has at least two coordinates, which are finite and ascend. Nodes and cells are in
+// VTK's order, in which the first index changes fastest.
 struct GridAxes {
-  // The form of an image. The image's axes are origin + i * spacing, with i from `first` on.
+  // The description of an image, whose axes are origin + i * spacing. i begins at `first`.
   struct Image {
     std::array<double, 3> origin, spacing;
     std::array<int, 3> first;
@@ -33,14 +33,13 @@ struct GridAxes {
   std::int64_t n_cells() const { return (size(0) - 1) * (size(1) - 1) * (size(2) - 1); }
 };
 
-// Adds the cells of a structured grid with n nodes along each axis to the grid of its points. The cells are hexahedra, or quads,
-// lines or a vertex for axes with one node.
+// Adds the cells of a structured grid, which has n nodes along each axis, to a grid of points.
 void add_structured_cells(vtkUnstructuredGrid *grid, const std::array<std::int64_t, 3> &n);
 
-// Lets a data set have the arrays of another one, on points, cells and the whole.
+// Gives a data set all arrays of another data set: the arrays on points, on cells and on the whole.
 void share_arrays(vtkDataSet *from, vtkDataSet *to);
 
-// Whether the ending, or the header of a legacy file, says that the file has a structured grid.
+// Returns whether the file has a structured grid. Looks at the file's ending, and in a legacy file at the header.
 bool is_structured(const std::string &path);
 
 struct StructuredFile {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// VTK's readers, watched. If the file holds less data than an array needs, the array is refused before VTK reads it. The data set
-// has the sizes that the file states.
+// Readers of VTK that are watched while they read. If the file has less data than an array needs, the array is refused before VTK
+// reads it. The resulting data set is as large as the file states.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +27,8 @@ namespace riis::vtk {
   fail_file(path, "cell ", cell, " has broken polyhedron faces");
 }
 
-// Runs steps in callbacks from VTK. Exceptions must not pass through VTK, so the first exception is kept, and rethrow() throws it
-// later.
+// Runs functions in callbacks from VTK. An exception must not pass through VTK. Therefore the first exception is stored, and
+// rethrow() throws it later.
 class Steps {
  public:
   template <class Step>
@@ -49,15 +49,15 @@ class Steps {
   std::exception_ptr failure_;
 };
 
-// Returns a value as an id. An impossible value becomes -1 or a very large id, so later checks refuse it.
+// Returns a value as an id of VTK. A value that is no id becomes -1 or a very large id, and later checks refuse it.
 inline vtkIdType id_at(vtkDataArray *array, vtkIdType i) {
   constexpr double most = 1e15;
   const double value = array->GetTuple1(i);
   return value >= 0 ? static_cast<vtkIdType>(std::min(value, most)) : -1;
 }
 
-// Makes failures visible that VTK's XML readers only record. Refuses an array before VTK reads it if the file holds less
-// data than VTK would read.
+// Makes failures visible that VTK's XML readers only record. If the file has less data than VTK would read for an array, the
+// array is refused before VTK reads it.
 template <class Reader>
 class WatchedReader : public Reader {
  public:
@@ -95,7 +95,7 @@ class WatchedReader : public Reader {
            steps_.run(check_next);
   }
 
-  // Fails unless the file holds n values for an element.
+  // Fails if the file does not have n values for an element.
   void check_held(vtkXMLDataElement *element, vtkIdType n, vtkAbstractArray *array) {
     sizes_->check_values(this->XMLParser, element, n, array);
   }
@@ -103,7 +103,7 @@ class WatchedReader : public Reader {
   Steps &steps() { return steps_; }
 
  private:
-  // Checks the array that VTK reads after an array of offsets. The last offset is that array's number of values.
+  // Checks the array that VTK reads after an array of offsets. The last offset is the number of values in this array.
   void check_next_array(vtkXMLDataElement *element, vtkDataArray *array, vtkIdType n) {
     const std::string name = element->GetAttribute("Name") ? element->GetAttribute("Name") : "";
     const std::string parent = element->GetParent() ? element->GetParent()->GetName() : "";
@@ -127,7 +127,7 @@ class WatchedReader : public Reader {
     if (values) check_held(next, id_at(array, last), values);
   }
 
-  // Checks the faces of polyhedra, because VTK follows them without checks while it reads them.
+  // Checks the faces of polyhedra, because VTK's reader uses them without a check.
   void check_stream(vtkDataArray *faces, vtkIdType n) const {
     vtkIdType at = 0;
     for (std::int64_t cell = 0; cell < view(face_ends_).size(); ++cell) {
@@ -151,8 +151,8 @@ class WatchedReader : public Reader {
                                       // polyhedra
 };
 
-// Explains why a file could not be read. VTK 9.1 crashes while it writes its message about an unreadable array, so the first
-// reader ran without messages. A second reader skips the arrays, so it can report any other fault.
+// Explains why a file could not be read. When VTK 9.1 writes its message about an unreadable array, it crashes. The first reader
+// therefore ran without messages. The second reader skips the arrays, so it can report all other faults.
 template <class Watched>
 [[noreturn]] void explain_failure(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Watched> reader;
@@ -161,7 +161,7 @@ template <class Watched>
   fail_file(path, "is damaged: not all of its arrays can be read");
 }
 
-// Reads a file with a watched XML reader. Compares the data set with the sizes that the file states.
+// Reads a file with a VTK XML reader that is watched. The data set is then compared with the sizes that the file states.
 template <class Watched, class DataSet>
 vtkSmartPointer<DataSet> read_xml(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Watched> reader;
@@ -176,7 +176,7 @@ vtkSmartPointer<DataSet> read_xml(const std::string &path, const CaughtOutput &c
   return data;
 }
 
-// Reads a legacy file with VTK. `n_cells` is the number of cells that the scan found.
+// Reads a legacy file by VTK. The scan has found `n_cells` cells.
 template <class Reader, class DataSet>
 vtkSmartPointer<DataSet> read_scanned(const std::string &path, std::int64_t n_cells, const CaughtOutput &caught) {
   vtkNew<Reader> reader;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// XDMF: an .xdmf file describes a mesh, and the numbers are in this file, in HDF5 files or in plain binary files (xdmf.org, "XDMF
-// Model and Format"). The reader knows XDMF as FEniCS, dolfinx and meshio write it. The nodes of a cell have VTK's order, as in
-// these programs.
+// Reads XDMF: an .xdmf file describes a mesh, and its numbers are in this file, in HDF5 files or in plain binary files (xdmf.org,
+// "XDMF Model and Format"). The reader reads XDMF as FEniCS, dolfinx and meshio write it. The nodes of a cell are in VTK's order,
+// as in FEniCS, dolfinx and meshio.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,8 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A type of cells: its number in a mixed list, and its names without "_" in lower case. n_nodes is 0 if it varies. The first name
-// is written. The number is 0 if XDMF gives none, as for cells of order 3, which dolfinx writes with VTK's order of nodes.
+// A type of cells: its number in a list of mixed types, and its names in lower case without "_". If the number of nodes varies,
+// n_nodes is 0. If a type of cells has several names, the first name is written. If XDMF gives no number to a type of cells, the
+// number is 0. For example, dolfinx writes cells of order 3 with VTK's order of nodes.
 struct Topology {
   int number, vtk_type, n_nodes;
   const char *written;
@@ -90,7 +91,7 @@ class XdmfFile {
   }
 
  private:
-  // Returns the first grid that is not a collection. A collection over time begins with its first time.
+  // Returns the first grid that is not a collection. For a collection over time, returns the grid of the first time.
   const XmlElement &first_mesh(const XmlElement &parent) const {
     const XmlElement *grid = parent.child("Grid");
     if (!grid) fail_file(path_, "holds no Grid with a Topology");
@@ -104,12 +105,12 @@ class XdmfFile {
     return *grid;
   }
 
-  // Returns the Topology or the Geometry of a grid. A grid of a series in time may refer to the Topology or Geometry of another
-  // grid, which meshio and dolfinx write once.
+  // Returns the element Topology or Geometry of a grid. In a series in time, a grid may refer to another grid's Topology or
+  // Geometry, which meshio and dolfinx write only once.
   const XmlElement &part_of(const XmlElement &domain, const XmlElement &grid, const char *name) const {
     if (const XmlElement *own = grid.child(name)) return *own;
     for (const XmlElement &child : grid.children) {
-      // The element's name may have any prefix.
+      // The name of the element may have any prefix.
       const std::string &element = child.name;
       if (element.substr(element.rfind(':') + 1) != "include") continue;
       if (!child.attribute("href").empty()) fail_file(path_, "includes the mesh of another file");
@@ -119,7 +120,7 @@ class XdmfFile {
     fail_file(path_, "has a Grid without a Topology or without a Geometry");
   }
 
-  // Returns the name in a pointer such as //Grid[@Name="mesh"]/..., or "" for a pointer without a name.
+  // Returns the name in a pointer such as //Grid[@Name="mesh"]/.... If the pointer has no name, returns "".
   static std::string named_in(const std::string &pointer) {
     const std::string begin = "@Name=";
     const std::size_t at = pointer.find(begin);
@@ -128,8 +129,8 @@ class XdmfFile {
     return pointer.substr(first, pointer.find(pointer[first - 1], first) - first);
   }
 
-  // Returns the first grid with its own part of a mesh and with the given name, on itself or on a grid around it. The name ""
-  // stands for any name. Returns NULL if there is no such grid.
+  // Returns the first grid that has its own part of a mesh. The grid, or a grid around it, must have the given name. With "" as
+  // the name, every grid is accepted. Returns NULL if no grid fits.
   static const XmlElement *grid_with(const XmlElement &parent, const char *part, const std::string &name) {
     for (const XmlElement &child : parent.children) {
       if (child.name != "Grid") continue;
@@ -148,14 +149,14 @@ class XdmfFile {
     return *item;
   }
 
-  // FEniCS writes the attribute NumberType, and meshio DataType.
+  // FEniCS writes the attribute as NumberType, and meshio writes it as DataType.
   static bool is_real(const XmlElement &item) {
     const std::string type =
         item.attribute("NumberType").empty() ? item.attribute("DataType") : item.attribute("NumberType");
     return type.empty() || lower_case(type) == "float";
   }
 
-  // Returns the numbers of rows and columns. A single dimension is a number of rows with one column.
+  // Returns the number of rows and the number of columns. A single dimension is the number of rows, and there is one column.
   std::array<std::int64_t, 2> size_of(const XmlElement &item) const {
     const std::string text = item.attribute("Dimensions");
     std::string_view rest = text;
@@ -173,7 +174,7 @@ class XdmfFile {
     return size;
   }
 
-  // Reads the numbers of an item as doubles or whole numbers.
+  // Reads the numbers of an item as doubles or as whole numbers.
   template <class Number>
   std::vector<Number> numbers(const XmlElement &item) {
     const auto [n_rows, n_columns] = size_of(item);
@@ -183,7 +184,7 @@ class XdmfFile {
     const std::string kind = lower_case(item.attribute("ItemType")), format = lower_case(item.attribute("Format"));
     if (!kind.empty() && kind != "uniform")
       fail_file(path_, "has a DataItem of the kind ", shortened(kind), "; only Uniform is read");
-    if (!item.attribute("Reference").empty()) fail_file(path_, "has a DataItem that refers to another one");
+    if (!item.attribute("Reference").empty()) fail_file(path_, "has a DataItem that refers to another DataItem");
     if (format.empty() || format == "xml") return numbers_of_text<Number>(item, n);
     if (format == "hdf" || format == "h5") return numbers_of_hdf5<Number>(item, n);
     if (format == "binary") return numbers_of_binary<Number>(item, n);
@@ -198,7 +199,7 @@ class XdmfFile {
     in.check_count(n, 1, "numbers");
     std::vector<Number> values(static_cast<std::size_t>(n));
     for (Number &value : values) {
-      // Checks only the end, because a check of the whole rest would take a time that grows with the square of n.
+      // Only the end is checked. A check of the whole rest after each number would take a time proportional to the square of n.
       if (in.rest().size() < 64 && std::all_of(in.rest().begin(), in.rest().end(), is_blank))
         in.refuse("a DataItem has ", static_cast<std::int64_t>(&value - values.data()), " of its ", n, " numbers");
       if constexpr (std::is_same_v<Number, double>)
@@ -211,7 +212,7 @@ class XdmfFile {
     return values;
   }
 
-  // Returns the path of the file that an item names, which is relative to this file.
+  // Returns the path of the file that an item names. The name is relative to the folder of the .xdmf file.
   std::string beside(const std::string &name) const { return (fs::path(path_).parent_path() / name).string(); }
 
   template <class Number>
@@ -220,7 +221,7 @@ class XdmfFile {
     while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
     while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
     const std::string name = plain_text(text);
-    // FEniCS's checkpoints write FILE.h5:DATASET. A dataset's name may have colons.
+    // The checkpoints of FEniCS name data as FILE.h5:DATASET. The name of a dataset may contain colons.
     std::size_t colon = name.rfind(":/");
     if (colon == std::string::npos) colon = name.rfind(':');
     if (colon == std::string::npos || colon == 0 || colon + 1 == name.size())
@@ -252,7 +253,7 @@ class XdmfFile {
     in.check_count(n, n_bytes, "numbers");
     std::vector<Number> values(static_cast<std::size_t>(n));
     const bool are_real = is_real(item);
-    if (are_real && !std::is_same_v<Number, double>) fail_file(path_, "has real numbers in the place of whole ones");
+    if (are_real && !std::is_same_v<Number, double>) fail_file(path_, "has real numbers in place of whole numbers");
     for (Number &value : values)
       value = are_real ? static_cast<Number>(in.real(n_bytes)) : static_cast<Number>(in.integer(n_bytes));
     note_precision(item);
@@ -312,7 +313,7 @@ class XdmfFile {
 
   void add_cell(const Topology &known, std::int64_t n_nodes, const std::int64_t *nodes, std::int64_t base) {
     for (std::int64_t i = 0; i < n_nodes; ++i) {
-      // The subtraction of an invalid base could overflow.
+      // If the base were invalid, the subtraction could overflow.
       const std::int64_t n = mesh_.xyz->GetNumberOfTuples(), node = nodes[i];
       if (base < 0 || base > 1 || node < base || node - base >= n)
         fail_file(path_, "cell ", mesh_.types->GetNumberOfValues(), " names point ", node, " of ", n);
@@ -325,8 +326,8 @@ class XdmfFile {
     mesh_.end_cell(type);
   }
 
-  // Reads cells of several types: the number of each cell's type is followed by its nodes. Types of varying size have their
-  // number of nodes before the nodes.
+  // Reads cells of several types. Each cell consists of the number of its type, followed by its nodes. If a type has no fixed
+  // number of nodes, the number precedes the nodes.
   void read_mixed(const std::vector<std::int64_t> &values, std::int64_t base) {
     std::int64_t at = 0;
     const std::int64_t end = view(values).size();
@@ -347,7 +348,7 @@ class XdmfFile {
     }
   }
 
-  // Adds the values of nodes or cells. Other values, such as the functions of FEniCS's checkpoints, are left out.
+  // Adds the values of nodes or cells as arrays. Other values are left out, such as the functions in checkpoints of FEniCS.
   void read_attribute(const XmlElement &attribute, vtkUnstructuredGrid *grid) {
     const std::string center = lower_case(attribute.attribute("Center")), name = attribute.attribute("Name");
     const bool is_of_cells = center == "cell";
@@ -387,7 +388,7 @@ const Topology *topology_of(vtkUnstructuredGrid *grid, vtkIdType cell) {
   int vtk_type = grid->GetCellType(cell);
   if (vtk_type == VTK_LINE) vtk_type = VTK_POLY_LINE;
   if (vtk_type == VTK_VERTEX) vtk_type = VTK_POLY_VERTEX;
-  // The number of nodes of a Lagrange cell tells its order.
+  // The order of a Lagrange cell follows from its number of nodes.
   const vtkIdType n_nodes = grid->GetCells()->GetCellSize(cell);
   const auto *const found = std::find_if(std::begin(topologies), std::end(topologies), [&](const Topology &t) {
     return t.vtk_type == vtk_type && (t.number != 0 || t.n_nodes == n_nodes);
@@ -395,7 +396,7 @@ const Topology *topology_of(vtkUnstructuredGrid *grid, vtkIdType cell) {
   return found == std::end(topologies) ? nullptr : found;
 }
 
-// Writes the file's text. The numbers go into this text or into an HDF5 file.
+// Writes the text of the .xdmf file. Numbers go into the text, or into an HDF5 file.
 class XdmfWriter {
  public:
   XdmfWriter(const std::string &path, vtkUnstructuredGrid *grid) : path_(path), grid_(grid) {
@@ -486,13 +487,14 @@ class XdmfWriter {
     text_ += "</Topology>\n";
   }
 
-  // Returns the attribute with the array's unit. The unit is an attribute, because readers expect one element, the numbers.
+  // Returns an attribute with the unit of an array. The unit is an attribute, because readers expect only the numbers inside the
+  // element.
   static std::string unit_of(vtkDataArray *array) {
     if (!array->HasInformation() || !array->GetInformation()->Has(vtkDataArray::UNITS_LABEL())) return "";
     return joined(" Unit=\"", in_xml(array->GetInformation()->Get(vtkDataArray::UNITS_LABEL())), "\"");
   }
 
-  // Writes the numbers of nodes or cells. Names and other text have no place in XDMF.
+  // Writes the numbers of nodes or cells as elements. Names and other texts cannot be written to XDMF.
   void write_arrays(vtkDataSetAttributes *from, const char *center) {
     for (int i = 0; i < from->GetNumberOfArrays(); ++i) {
       vtkDataArray *const array = from->GetArray(i);
@@ -506,7 +508,7 @@ class XdmfWriter {
                       "\" Center=\"", center, "\"", unit_of(array), ">\n");
       std::string dataset = std::string(center) + "_" + name;
       std::replace(dataset.begin(), dataset.end(), '/', '_');
-      // Without the ending, the names a/b and a_b would become one name.
+      // The ending is added, because the arrays a/b and a_b would otherwise get the same name.
       while (!datasets_.insert(dataset).second) dataset += '_';
       const std::int64_t n = array->GetNumberOfTuples();
       if (array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT) {

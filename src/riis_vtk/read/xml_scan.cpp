@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks a VTK XML file: its tags before VTK parses it, and the sizes of its arrays before VTK reads them.
+// Checks a VTK XML file. The tags are checked before VTK parses the file, and the sizes of arrays before VTK reads them.
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -20,14 +20,14 @@
 namespace riis::vtk {
 namespace {
 
-// A start tag: the element's name, and the values of its attributes "type" and "NumberOfComponents". A missing attribute has the
-// value "".
+// A start tag: the name of the element, and the values of its attributes "type" and "NumberOfComponents". If an attribute is
+// missing, its value is "".
 struct Tag {
   std::string_view name, type, n_components;
 };
 
-// Walks through the start tags of an XML text. Skips comments, instructions and end tags. Within an attribute's value, '>' does
-// not end the tag, and words are not attributes.
+// Walks through the start tags of an XML text. Comments, instructions and end tags are skipped. Within the value of an attribute,
+// '>' does not end the tag, and words are not attributes.
 class Tags {
  public:
   explicit Tags(std::string_view text) : rest_(text) {}
@@ -64,8 +64,8 @@ class Tags {
     return text;
   }
 
-  // Moves to the value of the tag's next attribute, and sets attribute_ to the attribute's name. Returns the value's quotation
-  // mark, or 0 at the end of the tag.
+  // Moves to the value of the tag's next attribute, and stores the attribute's name in attribute_. Returns the quotation mark
+  // before the value, or 0 at the end of the tag.
   char next_attribute() {
     attribute_ = take_until("=\"'<>");
     if (rest_.empty() || rest_[0] == '<' || rest_[0] == '>') return 0;
@@ -78,7 +78,7 @@ class Tags {
   std::string_view attribute_;
 };
 
-// Checks the number of components early, because VTK looks for a name of each component before it looks for the data.
+// The number of components is checked before the data, because VTK looks for the names of all components first.
 void check_components(const std::string &path, std::string_view text, std::string_view given) {
   const std::string_view number = take_word(given);
   std::int64_t n = 0;
@@ -99,7 +99,7 @@ void check_arrays(const std::string &path, std::string_view text) {
   }
 }
 
-// Returns the type of the VTKFile element at the beginning of an XML file, or "" if there is none.
+// Returns the type of the element VTKFile at the beginning of an XML file, or "" if there is no such element.
 std::string xml_type(std::string_view head) {
   Tag tag;
   for (Tags tags(head); tags.next(tag);) {
@@ -108,7 +108,7 @@ std::string xml_type(std::string_view head) {
   return "";
 }
 
-// Returns the least number of bits of a value. A string takes at least its final byte.
+// Returns the least number of bits that a value needs. A string needs at least its final byte.
 std::uint64_t bits_of(const char *type) {
   static const std::map<std::string_view, std::uint64_t> sizes = {{"Bit", 1},    {"Int16", 16},  {"UInt16", 16},
                                                                   {"Int32", 32}, {"UInt32", 32}, {"Float32", 32},
@@ -123,14 +123,14 @@ std::uint64_t bits_of(vtkAbstractArray *array) {
   return 8 * static_cast<std::uint64_t>(array->GetDataTypeSize());
 }
 
-// Returns the largest number of bytes that one byte of compressed data can represent. Runs of zeros shrink to 1/1032 of their
-// size in zlib and to 1/255 in LZ4. LZMA has no such limit, and 1/7000 was the least that was measured.
+// Returns the largest number of bytes that one byte of compressed data can stand for. Runs of zeros shrink to 1/1032 of their
+// size in zlib, and to 1/255 in LZ4. LZMA has no limit. The strongest compression that was measured with LZMA is to 1/7000.
 std::uint64_t most_from_a_byte(vtkDataCompressor *compressor) {
   return std::strcmp(compressor->GetClassName(), "vtkLZMADataCompressor") == 0 ? 20'000 : 1'100;
 }
 
-// Returns the six bits that a character of base64 represents. Returns 0 for the padding at the end and for other characters,
-// since VTK stops at them.
+// Returns the six bits for a character of base64. Returns 0 for other characters and for the padding at the end, because VTK
+// stops there.
 std::uint32_t bits_of_character(char c) {
   if (c >= 'A' && c <= 'Z') return static_cast<std::uint32_t>(c - 'A');
   if (c >= 'a' && c <= 'z') return static_cast<std::uint32_t>(c - 'a' + 26);
@@ -174,7 +174,8 @@ void XmlSizes::refuse(vtkXMLDataElement *element, const Parts &...parts) const {
   fail_file(path_, "is damaged: array ", name ? std::string(name).substr(0, 40) : "without a name", " ", parts...);
 }
 
-// Finds the data as VTK does. If there is an offset, the data is appended, regardless of the format attribute.
+// Finds the data in the same way as VTK. If an element has an offset, its data is appended, and its attribute "format" does not
+// count.
 XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElement *element) const {
   const std::size_t size = bytes_.size();
   if (element->GetAttribute("offset")) {
@@ -183,7 +184,7 @@ XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElemen
     vtkXMLDataElement *appended = parser->GetRootElement()->FindNestedElementWithName("AppendedData");
     const char *encoding = appended ? appended->GetAttribute("encoding") : nullptr;
     const vtkTypeInt64 start = parser->GetAppendedDataPosition();
-    // The comparison subtracts, because the sum of offset and start could overflow.
+    // The comparison uses a difference, because the sum of the offset and the start could overflow.
     const bool is_inside = offset >= 0 && start >= 0 && start <= static_cast<vtkTypeInt64>(size) &&
                            offset <= static_cast<vtkTypeInt64>(size) - start;
     return {encoding && std::strcmp(encoding, "raw") == 0 ? ArrayData::raw : ArrayData::base64,
@@ -196,7 +197,7 @@ XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElemen
           std::min(bytes_.find('<', begin), size)};
 }
 
-// Returns the first n words. Fails if there are fewer.
+// Returns the first n words. Fails if the text has fewer than n words.
 std::vector<std::uint64_t> XmlSizes::words(const ArrayData &data, int size, bool is_big, std::uint64_t n) const {
   const auto byte = [&](std::uint64_t i) -> std::uint64_t {
     if (data.form == ArrayData::raw) return static_cast<unsigned char>(bytes_[data.begin + i]);
@@ -213,9 +214,9 @@ std::vector<std::uint64_t> XmlSizes::words(const ArrayData &data, int size, bool
   return made;
 }
 
-// Returns the number of bytes of values that a block of binary data claims. An uncompressed block begins with this number. A
-// compressed block begins with four entries: number of parts, size of a part, size of a smaller last part, and compressed sizes.
-// In base64, these numbers are encoded separately from the data.
+// Returns the stated number of bytes in a block of binary data. An uncompressed block begins with its number of bytes. A
+// compressed block begins with the number of parts, the size of a part, the size of a smaller last part, and the compressed sizes
+// of the parts. In base64, the numbers at the beginning are encoded separately from the data.
 std::uint64_t XmlSizes::n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *element, const ArrayData &data) const {
   vtkXMLDataElement *root = parser->GetRootElement();
   const char *header_type = root->GetAttribute("header_type"), *byte_order = root->GetAttribute("byte_order");
@@ -262,10 +263,10 @@ void XmlSizes::check_bits(vtkXMLDataParser *parser, vtkXMLDataElement *element, 
   if (is_new) {
     const ArrayData data = data_of(parser, element);
     held.is_text = data.form == ArrayData::ascii;
-    // A number takes at least one character, and a blank before the next number.
+    // In a text, a number takes at least two characters: a digit and the blank before the next number.
     held.n = held.is_text ? (data.end - data.begin + 1) / 2 : n_bytes_in(parser, element, data);
   }
-  // Each number of a text is one value, or eight values of one bit.
+  // Each number of a text stands for one value, or for eight values of one bit.
   const std::uint64_t n_values = held.is_text ? held.n * (n_bits == 1 ? 8 : 1) : held.n * 8 / n_bits;
   if (n < 0 || static_cast<std::uint64_t>(n) > n_values)
     refuse(element, "must have ", n, " values and has ", held.is_text ? "at most " : "", n_values);
@@ -276,7 +277,7 @@ void XmlSizes::check_values(vtkXMLDataParser *parser, vtkXMLDataElement *element
   check_bits(parser, element, n, bits_of(array));
 }
 
-// Checks an array of n tuples.
+// Checks an array with n tuples.
 void XmlSizes::check_array(vtkXMLDataParser *parser, vtkXMLDataElement *element, std::int64_t n) {
   int width = 1;
   element->GetScalarAttribute("NumberOfComponents", width);
@@ -287,8 +288,8 @@ void XmlSizes::check_array(vtkXMLDataParser *parser, vtkXMLDataElement *element,
   check_bits(parser, element, n * n_components, bits_of(element->GetAttribute("type")));
 }
 
-// Returns the value of an attribute. Returns 0 for an attribute that is missing or not a number. VTK also reads such an attribute
-// as 0, or refuses the file.
+// Returns the value of an attribute. If the attribute is missing or is not a number, returns 0. For a missing or wrong attribute,
+// VTK also reads 0, or refuses the file.
 std::int64_t XmlSizes::count(vtkXMLDataElement *element, const char *attribute) const {
   vtkIdType n = 0;
   if (!element->GetScalarAttribute(attribute, n)) return 0;
@@ -321,7 +322,7 @@ Lattice XmlSizes::lattice(vtkXMLDataElement *element) const {
   return made;
 }
 
-// VTK allocates the whole extent before it reads the pieces.
+// VTK allocates memory for the whole extent before it reads the pieces.
 void XmlSizes::check_extents(vtkXMLDataElement *primary) const {
   const std::array<int, 6> whole = extent(primary, "WholeExtent");
   int n_pieces = 0;

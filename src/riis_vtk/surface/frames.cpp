@@ -17,8 +17,8 @@
 namespace riis::vtk {
 namespace {
 
-// The unchanged cells of the first file, for comparison with the other files. The faces cannot be compared, because they depend
-// on the vertices' positions, which differ between files.
+// The cells of the first file, which are compared with the cells of the other files. Faces cannot be compared, because they
+// depend on the positions of the vertices, which differ between the files.
 class FirstCells {
  public:
   explicit FirstCells(vtkPointSet *data) : n_points_(data->GetNumberOfPoints()) {
@@ -31,7 +31,7 @@ class FirstCells {
     }
   }
 
-  // Fails unless another file has the same cells.
+  // Fails if another file does not have the same cells.
   void compare(const std::string &path, vtkPointSet *data) const {
     compare_numbers(path, "points", data->GetNumberOfPoints(), n_points_);
     compare_numbers(path, "cells", data->GetNumberOfCells(), view(types_).size());
@@ -65,11 +65,11 @@ class FirstCells {
   std::vector<std::size_t> ends_;  // the end of each cell in ids_
 };
 
-// The corners of triangles from files without shared vertices, such as .stl files. Corners at the same position in the first
-// file become one vertex.
+// The corners of triangles in a file whose triangles share no vertices, such as an .stl file. Corners that are at one position in
+// the first file become one vertex.
 class MergedCorners {
  public:
-  // Merges the vertices of the faces. Vertices are numbered in the order of their first corners.
+  // Merges vertices of the faces. Vertices are numbered in the order of their first corners.
   explicit MergedCorners(Faces &faces) {
     const std::vector<std::int64_t> places = places_of(faces);
     std::vector<std::int64_t> vertex_at(places.size(), -1);
@@ -87,8 +87,8 @@ class MergedCorners {
     faces.xyz = std::move(xyz);
   }
 
-  // Returns the positions of the vertices, from the positions of all corners. Fails if corners of the same vertex have different
-  // positions.
+  // Returns the positions of the vertices. The positions of all corners are given. Fails if two corners of a vertex have
+  // different positions.
   std::vector<double> merged(const std::string &path, const std::vector<double> &corners) const {
     for (std::size_t corner = 0; corner < vertex_of_.size(); ++corner) {
       const std::size_t first = corner_of_[vertex_of_[corner]];
@@ -114,7 +114,7 @@ struct Displacement {
   vtkDataArray *array;  // owned by the data set
 };
 
-// Returns the number in a name such as PREFIX_12 or PREFIX12, or -1 for any other name.
+// Returns the number in a name such as PREFIX_12 or PREFIX12. Returns -1 for a name of another form.
 std::int64_t number_in(const std::string &name, const std::string &prefix) {
   if (name.rfind(prefix, 0) != 0) return -1;
   const std::size_t begin = prefix.size() + (name.size() > prefix.size() && name[prefix.size()] == '_' ? 1 : 0);
@@ -168,12 +168,12 @@ std::vector<double> times_in_file(const std::string &path, vtkPointSet *data, co
                 "; it must be finite and at most 1e30 in magnitude");
     if (i > 0 && !(times[i] > times[i - 1]))
       fail_file(path, "value ", i, " of field array ", time_array, " is ", times[i],
-                ", which is not above the one before, ", times[i - 1]);
+                ", which is not above the value before it, ", times[i - 1]);
   }
   return times;
 }
 
-// Fails for a coordinate that the core would refuse. In the message, the text `after` follows the point's number.
+// Fails if the core would refuse a coordinate. In the message, `after` follows the number of the point.
 void check_places(const std::string &path, const std::vector<double> &xyz, const std::string &after) {
   constexpr double largest = 1e60;  // the limit in riis.h
   constexpr std::array<const char *, 3> axes{"x", "y", "z"};
@@ -185,7 +185,7 @@ void check_places(const std::string &path, const std::vector<double> &xyz, const
 
 // Appends a frame. frames.times must already have the times of all frames.
 void add_frame(Frames &frames, const std::vector<double> &xyz) {
-  // Reserves the memory for all frames at once, because an array that doubles may take twice its memory.
+  // The memory for all frames is reserved at once. An array that grows by doubling may need twice its memory.
   if (frames.xyz.empty()) frames.xyz.reserve(xyz.size() * frames.times.size());
   frames.xyz.insert(frames.xyz.end(), xyz.begin(), xyz.end());
 }
@@ -201,7 +201,7 @@ void add_displaced(const std::string &path, Frames &frames, const Displacement &
   add_frame(frames, xyz);
 }
 
-// Returns the file with the faces of svMultiPhysics's frames.
+// Returns the file that has the faces for svMultiPhysics's frames.
 std::string face_file_of(const std::string &path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const std::string stem = std::filesystem::path(path).stem().string();
@@ -273,11 +273,12 @@ Frames frames_of_text(const std::string &path, double time_step, const LeafletAr
 void append_frames(Frames &frames, const Frames &other) {
   const std::int64_t n = view(frames.times).size();
   if (view(other.times).size() != n)
-    refuse_argument("the motions have ", n, " and ", view(other.times).size(), " frames; all need the same times");
+    refuse_argument("the motions have ", n, " and ", view(other.times).size(),
+                    " frames; all motions need the same times");
   for (std::int64_t i = 0; i < n; ++i)
     if (view(frames.times)[i] != view(other.times)[i])
       refuse_argument("frame ", i, " is at the time ", view(frames.times)[i], " in one motion and at ",
-                      view(other.times)[i], " in the other; all need the same times");
+                      view(other.times)[i], " in the other; all motions need the same times");
   const std::vector<double> &first = frames.xyz, &second = other.xyz;
   const auto n_first = view(first).size() / n, n_second = view(second).size() / n;
   std::vector<double> xyz;
@@ -293,7 +294,7 @@ void append_frames(Frames &frames, const Frames &other) {
 Frames frames_of_displacements(const std::string &path, const std::string &prefix, const std::vector<double> *times,
                                const LeafletArray &leaflets, const CaughtOutput &caught) {
   const std::string ending = ending_of(path);
-  if (ending != "vtp" && ending != "vtu") fail_file(path, "displacements are in a .vtp or .vtu file");
+  if (ending != "vtp" && ending != "vtu") fail_file(path, "displacements must be in a .vtp or .vtu file");
   const vtkSmartPointer<vtkPointSet> data = read_surface_data(path, caught);
   const std::vector<Displacement> displacements = displacements_of(path, data, prefix);
   const std::int64_t n = view(displacements).size();

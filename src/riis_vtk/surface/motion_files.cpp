@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion of riis_vtk.h. Reads the frames of a surface from files into arrays for the core's keyframes. Also reads ParaView's
-// collections of files in time.
+// The motion of a surface, as in riis_vtk.h. Reads the frames of a surface from files, into arrays for the core's keyframes. Also
+// reads ParaView's lists of files in time.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct riis_vtk_motion {
 namespace riis::vtk {
 namespace {
 
-// A DataSet element as written in the file.
+// A DataSet element, whose texts are as in the file.
 struct NamedDataSet {
   std::optional<std::string> file, timestep;
 };
@@ -46,14 +46,14 @@ std::vector<NamedDataSet> data_sets_of(const std::string &path, const CaughtOutp
   return data_sets;
 }
 
-// The files of a collection and their times.
+// The files in a collection, and their times.
 struct Collection {
   std::vector<std::string> paths;  // a relative name is preceded by the collection's folder
   std::vector<double> times;       // finite and strictly ascending
 };
 
-// Reads a .pvd file, ParaView's collection of files in time. Fails for a file that is not a collection or names no files, and
-// for timesteps that are not ascending numbers.
+// Reads a .pvd file, in which ParaView lists files in time. Fails if the file has no list of files, or an empty list. Also fails
+// if the timesteps are not numbers in ascending order.
 Collection read_collection(const std::string &path, const CaughtOutput &caught) {
   if (ending_of(path) != "pvd") fail_file(path, "a collection of files in time must be a .pvd file");
   const std::vector<NamedDataSet> data_sets = data_sets_of(path, caught);
@@ -68,7 +68,7 @@ Collection read_collection(const std::string &path, const CaughtOutput &caught) 
     if (!data_set.timestep) fail_file(path, which, " has no timestep");
     const double time = time_of(path, which, *data_set.timestep);
     if (!collection.times.empty() && !(time > collection.times.back()))
-      fail_file(path, which, " has the timestep ", time, ", which is not above that of the DataSet before, ",
+      fail_file(path, which, " has the timestep ", time, ", which is not above the timestep before it, ",
                 collection.times.back());
     collection.times.push_back(time);
     collection.paths.push_back((folder / *data_set.file).string());
@@ -83,7 +83,7 @@ std::vector<double> checked_times(const char *count, std::int64_t n, const doubl
     if (!is_time(times[i]))
       refuse_argument("times[", i, "] is ", times[i], "; it must be finite and at most 1e30 in magnitude");
     if (i > 0 && !(times[i] > times[i - 1]))
-      refuse_argument("times[", i, "] is ", times[i], "; it must be above the one before, ", times[i - 1]);
+      refuse_argument("times[", i, "] is ", times[i], "; it must be above the time before it, ", times[i - 1]);
   }
   return {times, times + n};
 }
@@ -150,7 +150,7 @@ RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_s
     require(motion, "motion");
     if (!(time_step > 0 && is_time(time_step))) refuse_argument("time_step is ", time_step, "; it must be above 0");
     *motion = naming(path, [&] {
-      if (ending_of(path) != "dat") fail_file(path, "frames of svMultiPhysics are in a .dat file");
+      if (ending_of(path) != "dat") fail_file(path, "frames of svMultiPhysics must be in a .dat file");
       return motion_of(frames_of_text(path, time_step, LeafletArray(leaflets), caught), {path});
     });
   });
@@ -165,7 +165,7 @@ RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_
     std::vector<const char *> paths;
     for (const std::string &file : files) paths.push_back(file.c_str());
     append_frames(motion->frames, other->frames);
-    // The texts stay in place when the list of files moves.
+    // The texts stay in place when the list of files moves in memory.
     motion->files = std::move(files);
     motion->paths = std::move(paths);
   });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces of riis_vtk.h. Reads a file of one of the formats of docs/formats.md into arrays for the core, and writes the core's
-// surface to a .vtp file.
+// The surfaces of riis_vtk.h, from and to files. Reads a file in one of the formats of docs/formats.md into arrays for the core.
+// Writes the core's surface to a .vtp file.
 #include <riis/riis_vtk.h>
 
 #include <memory>
@@ -22,16 +22,16 @@ namespace {
 constexpr std::int64_t binary_header_size = 84;  // 80 arbitrary bytes, then the number of triangles
 constexpr std::int64_t binary_triangle_size = 50;
 
-// Returns the number of triangles stated in the header of a binary file (little endian). Returns 0 if the file is too short for
-// a header.
+// Returns the number of triangles in the header of a binary file. The number is little endian. Returns 0 if the file is too short
+// for a header.
 std::int64_t binary_count(std::string_view bytes) {
   if (bytes.size() < static_cast<std::size_t>(binary_header_size)) return 0;
   const auto byte = [&](std::size_t i) { return static_cast<std::int64_t>(static_cast<unsigned char>(bytes[i])); };
   return byte(80) | byte(81) << 8 | byte(82) << 16 | byte(83) << 24;
 }
 
-// Returns the number of triangles in an ASCII file. Only the first word of a line is a keyword: in "solid endfacet part", the
-// word endfacet belongs to a name. Blank lines may follow the last endsolid.
+// Counts the triangles in an ASCII file. Only the first word of a line is a keyword. For example, in the line "solid endfacet
+// part", the word endfacet is part of a name. Blank lines may follow the last endsolid.
 std::int64_t ascii_count(const std::string &path, std::string_view text) {
   std::int64_t n = 0;
   std::string keyword;
@@ -46,8 +46,8 @@ std::int64_t ascii_count(const std::string &path, std::string_view text) {
   return n;
 }
 
-// Returns the number of triangles that reading the file must give. VTK ignores the count in a binary file and the end mark in an
-// ASCII file. VTK therefore reads a truncated file as a smaller surface.
+// Returns the number of triangles that a reader of the file must find. VTK ignores the count in a binary file, and the end mark
+// in an ASCII file. From a truncated file, VTK therefore reads a smaller surface.
 std::int64_t promised_triangles(const std::string &path, std::string_view bytes) {
   const std::int64_t n = binary_count(bytes);
   const std::int64_t n_behind =
@@ -61,8 +61,9 @@ std::int64_t promised_triangles(const std::string &path, std::string_view bytes)
   fail_file(path, "is truncated or not an STL file: ", bytes.size(), " bytes, ", n, " triangles in its header");
 }
 
-// Reads an .stl file, ASCII or binary. Returns polydata with the triangles in the file's order. Each triangle has its own three
-// points. If points were merged, triangles would vanish, and the ids of others would change.
+// Reads an ASCII or binary .stl file. Returns polydata with the triangles in the order of the file. Each triangle has three
+// points that no other triangle has. If points were merged, some triangles would vanish, and the ids of later triangles would
+// change.
 vtkSmartPointer<vtkPolyData> read_stl(const std::string &path, const CaughtOutput &caught) {
   const std::int64_t n_promised = promised_triangles(path, MappedFile(path, check_readable(path)).bytes());
   if (n_promised == 0) fail_file(path, "holds no faces");

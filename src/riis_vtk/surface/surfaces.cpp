@@ -35,7 +35,7 @@ void add_triangle(std::vector<std::int64_t> &triangles, const vtkIdList *ids, vt
 }
 
 void cut_strip(const vtkIdList *ids, std::vector<std::int64_t> &triangles) {
-  // Every second triangle of a strip has the opposite winding.
+  // In a strip, the corners of every second triangle run in the opposite direction.
   for (vtkIdType i = 0; i + 2 < const_cast<vtkIdList *>(ids)->GetNumberOfIds(); ++i) {
     add_triangle(triangles, ids, i, i % 2 == 0 ? i + 1 : i + 2, i % 2 == 0 ? i + 2 : i + 1);
   }
@@ -55,7 +55,7 @@ void cut_polygon(const std::string &path, vtkPointSet *data, vtkIdType cell_id, 
   }
 }
 
-// Returns twice the vector area of a triangle.
+// Returns the normal of a triangle. The normal's length is twice the triangle's area.
 std::array<double, 3> area_of(vtkPointSet *data, const vtkIdList *ids, vtkIdType a, vtkIdType b, vtkIdType c) {
   auto *list = const_cast<vtkIdList *>(ids);
   double p[3], q[3], r[3], area[3];
@@ -68,22 +68,23 @@ std::array<double, 3> area_of(vtkPointSet *data, const vtkIdList *ids, vtkIdType
   return {area[0], area[1], area[2]};
 }
 
-// Returns whether the diagonal from corner i to the opposite corner cuts a quad into two triangles that face the same way.
+// Returns whether a diagonal of a quad makes two triangles that face the same way. The diagonal begins at corner i.
 bool is_inner_diagonal(vtkPointSet *data, const vtkIdList *ids, vtkIdType i) {
   const std::array<double, 3> one = area_of(data, ids, i, i + 1, i + 2);
   const std::array<double, 3> other = area_of(data, ids, i, i + 2, (i + 3) % 4);
   return vtkMath::Dot(one.data(), other.data()) > 0;
 }
 
-// This file and the core both cut quads from their first corner to their third. If only the other diagonal lies inside the quad,
-// the list of corners is therefore rotated by one.
+// A quad is cut by the diagonal from its first to its third corner, here and in the core. If only the other diagonal lies inside
+// the quad, the list of corners is rotated by one.
 void put_inner_diagonal_first(vtkPointSet *data, vtkIdList *ids) {
   if (!is_inner_diagonal(data, ids, 0) && is_inner_diagonal(data, ids, 1)) {
     std::rotate(ids->begin(), ids->begin() + 1, ids->end());
   }
 }
 
-// The triangles of a quadratic face, by its nodes in VTK's order. The triangles' nodes are the nodes of the face.
+// The triangles of a quadratic face, given by positions in VTK's list of the face's nodes. All nodes of the triangles are nodes
+// of the face.
 const std::vector<std::array<vtkIdType, 3>> *triangles_of_quadratic(int vtk_type) {
   using Triangles = std::vector<std::array<vtkIdType, 3>>;
   static const std::map<int, Triangles> triangles = {
@@ -95,7 +96,7 @@ const std::vector<std::array<vtkIdType, 3>> *triangles_of_quadratic(int vtk_type
   return found == triangles.end() ? nullptr : &found->second;
 }
 
-// Appends the triangles of one cell.
+// Appends the triangles of a cell.
 void cut_cell(const std::string &path, vtkPointSet *data, vtkIdType cell_id, vtkIdList *ids,
               std::vector<std::int64_t> &triangles) {
   const int type = data->GetCellType(cell_id);
@@ -125,14 +126,14 @@ bool holds_quads_only(vtkPointSet *data) {
   return true;
 }
 
-// Returns one leaflet id for each cell, or none if the array is missing. Fails if the array is missing but required.
+// Returns a leaflet id for each cell. If the array is missing, returns none. Fails if the array is required but missing.
 std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet *data, const LeafletArray &wanted) {
   const std::string name = "cell array " + wanted.name;
   vtkAbstractArray *abstract = data->GetCellData()->GetAbstractArray(wanted.name.c_str());
   if (!abstract && wanted.is_required) fail_file(path, "has no ", name, list_of_arrays(data->GetCellData()));
   if (!abstract) return {};
   vtkDataArray *array = vtkDataArray::SafeDownCast(abstract);
-  if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name, " must hold one number a cell");
+  if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name, " must hold one number for each cell");
   if (array->GetNumberOfTuples() != data->GetNumberOfCells()) {
     fail_file(path, name, " has ", array->GetNumberOfTuples(), " values for ", data->GetNumberOfCells(), " cells");
   }
@@ -148,13 +149,13 @@ std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet
   return leaflets;
 }
 
-// Returns for each point whether it is attached, or nothing if the array is missing.
+// Returns whether each point is attached. If the array is missing, returns nothing.
 std::vector<std::uint8_t> attached_points(const std::string &path, vtkPointSet *data) {
   const std::string name = std::string("point array ") + attached_array;
   vtkAbstractArray *abstract = data->GetPointData()->GetAbstractArray(attached_array);
   if (!abstract) return {};
   vtkDataArray *array = vtkDataArray::SafeDownCast(abstract);
-  if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name, " must hold one number a point");
+  if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name, " must hold one number for each point");
   if (array->GetNumberOfTuples() != data->GetNumberOfPoints())
     fail_file(path, name, " has ", array->GetNumberOfTuples(), " values for ", data->GetNumberOfPoints(), " points");
   std::vector<std::uint8_t> attached;
@@ -192,8 +193,8 @@ void add_triangles(const riis_triangles &of, vtkPolyData *data) {
   data->GetCellData()->AddArray(array_of<vtkTypeInt64Array>(triangle_array, triangle_id, 1, n));
 }
 
-// Marks the attached vertices, and all vertices at the same places. Programs that merge points or drop unused points then keep
-// the attachment.
+// Marks the attached vertices. Also marks other vertices at the same places. The attachment then survives in programs that merge
+// points or remove unused points.
 void add_attachment(const riis_surface *surface, const riis_triangles &of, vtkPolyData *data) {
   riis_attachment attachment{};
   if (riis_surface_get_attachment(surface, &attachment, sizeof attachment) != RIIS_OK || attachment.n_edges == 0)
@@ -276,7 +277,7 @@ void append_faces(Faces &faces, const Faces &other) {
   if (joined.attached.empty() || added.attached.empty())
     joined.attached.clear();
   else
-    // In a batch of files, gcc 14 falsely warns of insert.
+    // If files are compiled in a batch, gcc 14 wrongly warns of this insert.
     for (const auto is_attached : added.attached) joined.attached.push_back(is_attached);
   joined.leaflet_id.resize(joined.vertex_ids.size() / n_corners, joined.n_joined++);
   faces = std::move(joined);
@@ -318,7 +319,7 @@ void give_arrays(const Faces &faces, riis_surface_arrays *arrays, std::int64_t s
   whole.corners_per_face = faces.corners_per_face;
   whole.leaflet_id = faces.leaflet_id.empty() ? nullptr : faces.leaflet_id.data();
   whole.attached = faces.attached.empty() ? nullptr : faces.attached.data();
-  // The struct of an older caller ends before the last fields.
+  // The struct of an older caller ends before the newest fields.
   check_core(riis_surface_arrays_init(arrays, struct_size));
   whole.struct_size = struct_size;
   std::memcpy(arrays, &whole, static_cast<std::size_t>(struct_size));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a file with a surface, or a surface of the core, into a data set. From a data set, makes plain arrays for the core with
-// a leaflet id for each face, and finds the connected pieces of faces.
+// Reads a surface from a file, or takes it from the core, and makes a data set of it. From the data set, makes plain arrays for
+// the core, with a leaflet id for each face. Also finds pieces of faces that are connected.
 #pragma once
 
 #include <cmath>
@@ -14,13 +14,14 @@ class vtkPolyData;
 
 namespace riis::vtk {
 
-// Reads a file of a surface in any of the formats of docs/formats.md. Checks all cells, as faces_of requires.
+// Reads the file of a surface. All formats of docs/formats.md are allowed. Checks all cells, as faces_of requires.
 vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const CaughtOutput &caught);
 
-// Returns exactly the triangles of the surface, with points in double precision and the arrays that riis_vtk.h names.
+// Returns a data set with exactly the surface's triangles. The points have double precision, and the arrays are those of
+// riis_vtk.h.
 vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface);
 
-// Faces as plain arrays: quads if the data set has only quads, and otherwise triangles.
+// Faces as plain arrays. If the data set has only quads, the faces are quads. Otherwise they are triangles.
 struct Faces {
   std::vector<double> xyz;  // (3, n_vertices), all points, used or not
   // (corners_per_face, n_faces); the diagonal from a quad's first corner to its third lies inside the quad
@@ -34,38 +35,38 @@ struct Faces {
 // Returns the positions of all points, (3, n).
 std::vector<double> coordinates_of(vtkPointSet *data);
 
-// Names the cell array with the leaflet ids of the faces.
+// The name of the cell array with the faces' leaflet ids.
 struct LeafletArray {
-  // `given` is the name of the array that the caller chose, which must exist. NULL means riis_leaflet, which may be missing.
+  // `given` is the name of an array that the caller chose. This array must exist. NULL stands for the array riis_leaflet, which
+  // may be missing.
   explicit LeafletArray(const char *given) : name(given ? given : leaflet_array), is_required(given != nullptr) {}
 
   std::string name;
   bool is_required;
 };
 
-// Converts a data set of triangles, quads, polygons and triangle strips to faces. The cells must have been checked. The path is
-// only used in messages.
+// Converts a data set of triangles, quads, polygons and triangle strips to faces. The cells must have been checked before. The
+// path is used only in messages.
 Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted);
 
-// Appends the faces of another surface with their vertices. Each of the joined surfaces becomes a leaflet. Quads are cut if only
-// one of the two surfaces has quads. The attachment is lost if only one of the two surfaces has an attachment.
+// Appends the faces and the vertices of another surface. Each appended surface becomes a leaflet. If only one of the two surfaces
+// has quads, its quads are cut into triangles. If only one of the two surfaces has an attachment, the attachment is lost.
 void append_faces(Faces &faces, const Faces &other);
 
-// Returns a number for each vertex, from 0 to the number of vertices minus 1. Two vertices have the same number if and only if
-// their coordinates are exactly equal.
+// Gives each vertex a number from 0 to the number of vertices minus 1, and returns these numbers. Two vertices have the same
+// number if and only if their coordinates are exactly equal.
 std::vector<std::int64_t> places_of(const Faces &faces);
 
-// Returns the piece to which every face belongs. Pieces are numbered in the order of their first faces. Faces are connected
-// if they share a vertex or have vertices with exactly equal coordinates.
+// For each face, returns the piece to which the face belongs. Pieces are numbered in the order of their first faces. Two faces
+// are connected if they share a vertex, or if vertices of both have exactly equal coordinates.
 std::vector<std::int32_t> pieces_of(const Faces &faces);
 
-// Fills the caller's struct with the arrays of the faces. struct_size is the size of the struct in the caller's release of
-// riis.h.
+// Stores the arrays of the faces in the caller's struct. struct_size is the size of the struct in the caller's release of riis.h.
 void give_arrays(const Faces &faces, riis_surface_arrays *arrays, std::int64_t struct_size);
 
-// Motions.
-// In: files of a surface at several times, or one file with displacements. Out: the faces of the first file, and the positions
-// of the vertices at all times.
+// Motions of surfaces.
+// In: files of a surface at several times, or one file with displacements. Out: the faces of the first file, and the positions of
+// the vertices at all times.
 
 inline constexpr std::int64_t most_frames = 1'000'000;  // the limit of riis_keyframe_arrays
 
@@ -77,24 +78,25 @@ struct Frames {
   std::vector<double> xyz;    // (3, n_vertices, n_keys)
 };
 
-// Reads a file for each time. Fails for a file whose cells differ from the first file's, and for a coordinate that is not finite.
-// In .stl files, corners at the same position in the first file become one vertex. In each other file, these corners must also
-// share one position.
+// Reads a surface file for each time. Fails if the cells of a file differ from those of the first file, or if a coordinate is not
+// finite. In .stl files, corners that are at one position in the first file become one vertex. In every other .stl file, the
+// corners of one vertex must also be at one position.
 Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
                        const CaughtOutput &caught);
 
-// Reads the frames from point arrays of displacements in one file. Each array's name is the prefix, then "_" or nothing, then a
-// number. The frames are in the order of these numbers. If `times` is NULL, the times come from the field array TimeValue.
+// Reads the frames of a motion from point arrays with displacements. All arrays of the motion are in one file. The name of an
+// array is the prefix, then "_" or nothing, then a number. The numbers in the names give the order of the frames. If `times` is
+// NULL, the field array TimeValue gives the times.
 Frames frames_of_displacements(const std::string &path, const std::string &prefix, const std::vector<double> *times,
                                const LeafletArray &leaflets, const CaughtOutput &caught);
 
-// Reads the frames of svMultiPhysics: a .dat file with the positions of all nodes, frame by frame. The faces are in a .vtu or
-// .vtp file in the same folder. For NAME_motion_open.dat the file is NAME_motion_open, NAME_motion or NAME, each also followed by
-// _mesh or _face. The times are multiples of the time step, from 0.
+// Reads the frames that svMultiPhysics uses: a .dat file with the positions of all nodes, frame by frame. The faces are in a .vtu
+// or .vtp file in the same folder. For NAME_motion_open.dat, the file with the faces is NAME_motion_open, NAME_motion or NAME.
+// The name of the file with the faces may also end in _mesh or _face. The times are multiples of the time step, beginning with 0.
 Frames frames_of_text(const std::string &path, double time_step, const LeafletArray &leaflets,
                       const CaughtOutput &caught);
 
-// Appends the faces of another motion, as append_faces does. The two motions must have the same times.
+// Appends the faces of another motion, in the same way as append_faces. Both motions must have the same times.
 void append_frames(Frames &frames, const Frames &other);
 
 }  // namespace riis::vtk

@@ -45,7 +45,8 @@ RHO, MU, R, EPS, DT = (CASE[name] for name in ("density", "viscosity", "resistan
 assert gmsh  # dolfinx reads mesh.msh by it
 EACH = 10  # steps from one file to the next
 MMHG = 133.322
-# Of each step. The balance is the flow out of all ends. The area is that of the leaflets and the skirt in the mesh.
+# Numbers of each step. The balance is the flow out of all ends together. The area is the area of the leaflets and the skirt in
+# the mesh.
 COLUMNS = ("step", "time_s", "opening", "before_Pa", "behind_Pa", "flow_m3_s", "fastest_m_s", "fastest_in_band_m_s",
            "balance_m3_s", "area_m2")
 
@@ -158,7 +159,7 @@ def main(n_steps):
     W = fem.functionspace(mesh, basix.ufl.mixed_element([P1_3, P1]))
     V, Q = fem.functionspace(mesh, P1_3), fem.functionspace(mesh, P1)
 
-    # K and K u_valve live at the quadrature points, where riis marks exactly.
+    # K and K u_valve are computed at the quadrature points, where riis marks exactly.
     inside = dx(metadata={"quadrature_degree": 2})
     at_points = [basix.ufl.quadrature_element(mesh.basix_cell(), shape, degree=2) for shape in ((), (3,))]
     K, K_u = (fem.Function(fem.functionspace(mesh, element)) for element in at_points)
@@ -169,7 +170,8 @@ def main(n_steps):
     (u, p), (v, q) = TrialFunctions(W), TestFunctions(W)
     h = CellDiameter(mesh)
     speed2 = inner(u_old, u_old)
-    # The largest K of an element limits its stabilisation, which otherwise lets the pressure through at the edges of the band.
+    # The stabilisation of an element is limited by the element's largest K. Otherwise the pressure would pass at the edges of the
+    # band.
     K_most = fem.Function(fem.functionspace(mesh, ("DG", 0)))
     tau = 1 / sqrt((2 * RHO / DT) ** 2 + (2 * RHO / h) ** 2 * speed2 + (12 * MU / h**2) ** 2 + K_most**2)
     # Every form is linear in (u, p), so the residual gives the matrix and the right-hand side.
@@ -182,7 +184,8 @@ def main(n_steps):
     a += (tau * inner(momentum(u, p), streamline) + h**2 / (12 * tau) * div(u) * div(v)) * inside
     L = (inner(known, v) + tau * inner(known, streamline)) * inside
 
-    # The ends have pressures. Blood that enters has the pressure as its total pressure, so a reversed flow stays stable.
+    # A pressure is given at each end. Where blood enters, this pressure is the total pressure, so that a reversed flow stays
+    # stable.
     normal, ds = FacetNormal(mesh), Measure("ds", mesh, subdomain_data=tags, metadata={"quadrature_degree": 2})
     pressures = {name: fem.Constant(mesh, 0.0) for name in groups if name != "wall"}
     for name, pressure in pressures.items():
@@ -217,7 +220,7 @@ def main(n_steps):
         now = step * DT
         for name, pressure in pressures.items():
             pressure.value = driven[name](now) if name in driven else bodies[name].pressure(flows[name])
-        # The pressures and the flow of the last step move the valve, so a step needs no iteration.
+        # The pressures and the flow of the last step move the valve, so that a step needs no iteration.
         opening_before = state.opening
         if step > 1:
             state = law.advance(state, now, before.mean(p_old) - behind.mean(p_old), -flows["inlet"])

@@ -19,7 +19,8 @@ def rows_of(case, name, file):
     for folder in sorted((case / "postProcessing" / name).glob("*"), key=lambda path: float(path.name)):
         for time in [time for time in rows if time > float(folder.name) + 1e-9]:
             del rows[time]
-        # A run that was cut off before it wrote a time begins there again, with files such as riisValve_0.dat.
+        # A run that was cut off before it wrote a time starts again from the beginning. Its new files have names such as
+        # riisValve_0.dat.
         stem, ending = file.split(".")
         for path in sorted([*folder.glob(file), *folder.glob(f"{stem}_*.{ending}")], key=lambda path: path.stat().st_mtime):
             for line in path.read_text().split("\n"):
@@ -55,7 +56,8 @@ def steps_of(case, closed_area):
         if not all(time in table for table in [*flows, fastest]):
             continue  # the run was cut off while it wrote this step
         opening, difference, flow = map(float, valve[time][:3])
-        # The columns of fieldMinMax are the field, the least and the largest value, on several ranks each with its rank.
+        # The columns of fieldMinMax are the field, the least value and the largest value. With several ranks, a rank follows each
+        # value.
         speed = float(fastest[time][2 if len(fastest[time]) < 5 else 3])
         steps.append({"time": time, "opening": opening, "difference": difference, "flow": flow, "band": float(valve[time][8]),
                       "fastest": speed, "balance": sum(float(table[time][0]) for table in flows),

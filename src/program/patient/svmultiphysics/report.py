@@ -119,7 +119,7 @@ def steps_of(results, case):
     for step in sorted(set(flows) & set(pressures)):
         outlets = [p for name, p in pressures[step].items() if name.startswith("outlet")]
         difference = PASCALS * (pressures[step]["inlet"] - sum(outlets) / len(outlets))
-        # Blood enters at the inlet, so the inlet's flow is negative while the valve is open.
+        # Blood enters at the inlet. The flow out of the inlet is therefore negative while the valve is open.
         steps.append({"time": dt * step, "opening": openings[step], "flow": -CUBIC_METRES * flows[step]["inlet"],
                       "difference": difference, "balance": CUBIC_METRES * sum(flows[step].values()),
                       "fastest": speeds.get(step),
