@@ -659,7 +659,7 @@ def test_files_that_are_no_meshes(tmp_path):
         reading.number_of("wide", "scale")
 
 
-def test_walls_and_points_from_files(tmp_path):
+def test_walls_and_points_from_files(tmp_path, recwarn):
     """Walls are surfaces, or the boundaries of meshes. Points are surfaces, or rows of numbers. Other files are refused."""
     ball = pyvista.Sphere(radius=2.0)
     for name in ("ball.stl", "ball.vtp", "ball.ply"):
@@ -674,9 +674,13 @@ def test_walls_and_points_from_files(tmp_path):
     assert found.surface.closest_points(numpy.array([[0.0, 0.0, 0.5]])).distance[0] == pytest.approx(2.0)
     (tmp_path / "no.stl").write_text("")
     (tmp_path / "no.txt").write_text("no")
+    for name in ("stl", "vtp"):
+        (tmp_path / f"half.{name}").write_bytes((tmp_path / f"ball.{name}").read_bytes()[:20000])
     pyvista.PolyData(numpy.eye(3)).save(tmp_path / "points.vtp")
     for name, text in (
-        ("none.stl", "there is no such file"), ("no.stl", "has no triangles"), ("points.vtp", "has no triangles"),
+        ("none.stl", "there is no such file"), ("no.stl", "is not a surface that VTK can read"),
+        ("points.vtp", "has no triangles"), ("half.stl", "is not a surface that VTK can read"),
+        ("half.vtp", "is not a surface that VTK can read"),
         ("no.txt", "a wall is a surface, .stl, .vtp, .obj, .ply, or a mesh, .vtu"),
     ):  # fmt: skip
         with pytest.raises(reading.Refusal, match=text) as refused:
@@ -688,11 +692,12 @@ def test_walls_and_points_from_files(tmp_path):
     for name, content, text in (
         ("a.csv", "1,2\n", "line 1 has 2 columns; it must have x, y and z"), ("a.csv", "1,2,b\n", "line 1: 'b' is not a number"),
         ("a.csv", "# none\n", "has no points"), ("a.msh", "", "points are a surface, .*, or rows of x, y and z"),
-        ("a.stl", "", "has no points"),
+        ("a.stl", "", "is not a surface that VTK can read"),
     ):  # fmt: skip
         (tmp_path / name).write_text(content)
         with pytest.raises(reading.Refusal, match=text):
             reading.read_points(str(tmp_path / name))
+    assert [str(one.message) for one in recwarn if issubclass(one.category, UserWarning)] == []
 
 
 @pytest.mark.parametrize("kinds", [["mitral"], ["coapting", "bileaflet"]])

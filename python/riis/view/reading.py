@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 import re
 import shlex
+import warnings
 from typing import Any
 
 import numpy
@@ -50,7 +51,9 @@ def read_mesh(path: str, progress: dict[str, float] | None = None, *, cells_wher
     if ending in BY_MESHIO:
         grid, names = _by_meshio(path)
     else:
-        grid = _by_vtk(path, {} if progress is None else progress)
+        grid = _by_vtk(path, "mesh", progress)
+        if isinstance(grid, pyvista.PolyData):
+            raise Refusal(f"{path}: is a surface; riis view needs a mesh of volume cells")
     if not isinstance(grid, pyvista.UnstructuredGrid):
         raise Refusal(f"{path}: holds {type(grid).__name__}, not an unstructured grid")
     if grid.n_points == 0:
@@ -58,13 +61,15 @@ def read_mesh(path: str, progress: dict[str, float] | None = None, *, cells_wher
     return grid if cells_where is None else chosen_cells(grid, cells_where, names)
 
 
-def _by_vtk(path: str, progress: dict[str, float]) -> Any:
+def _by_vtk(path: str, kind: str, progress: dict[str, float] | None = None) -> Any:
+    """Returns the data of a file. Refuses a file that VTK calls damaged, a "mesh" or a "surface"."""
     import pyvista
 
     said: list[str] = []
+    part = {} if progress is None else progress
     reader = pyvista.get_reader(path)
     low = reader.reader
-    low.AddObserver("ProgressEvent", lambda source, _: progress.update(part=float(source.GetProgress())))
+    low.AddObserver("ProgressEvent", lambda source, _: part.update(part=float(source.GetProgress())))
 
     def hear(_: Any, __: str, text: str = "") -> None:
         said.append(text)
@@ -72,15 +77,16 @@ def _by_vtk(path: str, progress: dict[str, float]) -> Any:
     hear.CallDataType = "string0"  # type: ignore[attr-defined]
     low.AddObserver("ErrorEvent", hear)
     try:
-        grid = reader.read()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # PyVista repeats VTK's errors, and the refusal has them
+            data = reader.read()
     except Exception as error:  # PyVista raises many kinds of exceptions for files that it cannot parse
-        raise Refusal(f"{path}: is not a mesh that VTK can read ({error})") from error
+        said.append(str(error))
     if said or low.GetErrorCode() != 0:
-        lines = [re.sub(r" ?\(0x[0-9a-f]+\):?", "", line).strip() for line in " ".join(said).splitlines() if line.strip()]
-        raise Refusal(f"{path}: is not a mesh that VTK can read" + (f" ({lines[-1]})" if lines else ""))
-    if isinstance(grid, pyvista.PolyData):
-        raise Refusal(f"{path}: is a surface; riis view needs a mesh of volume cells")
-    return grid
+        first = said[0] if said else ""  # the later ones follow from it
+        lines = [re.sub(r" ?\(0x[0-9a-f]+\):?", "", line).strip() for line in first.splitlines() if line.strip()]
+        raise Refusal(f"{path}: is not a {kind} that VTK can read" + (f" ({lines[-1]})" if lines else ""))
+    return data
 
 
 def _by_meshio(path: str) -> tuple[Any, dict[str, float]]:
@@ -119,10 +125,10 @@ def read_surface(path: str) -> dict[str, Any]:
     if ending not in (".vtp", ".stl", ".pvd"):
         raise Refusal(f"{path}: a surface is a file .vtp, .stl or .pvd")
     try:
-        reader = pyvista.get_reader(path)
         if ending != ".pvd":
-            frames, times = [_triangles_of(reader.read(), path)], None
+            frames, times = [_triangles_of(_by_vtk(path, "surface"), path)], None
         else:
+            reader = pyvista.get_reader(path)
             times = numpy.array(reader.time_values, float)
             frames = []
             for value in times:
@@ -147,8 +153,6 @@ def read_surface(path: str) -> dict[str, Any]:
 
 def read_wall(path: str) -> Wall:
     """Returns the wall of a file: a surface, or the boundary of the volume cells of a mesh, as the program's --wall takes it."""
-    import pyvista
-
     if not os.path.isfile(path):
         raise Refusal(f"{path}: there is no such file")
     ending = os.path.splitext(path)[1].lower()
@@ -159,10 +163,7 @@ def read_wall(path: str) -> Wall:
         has_volumes = bool(numpy.isin(grid.celltypes, VOLUME_TYPES).any())
         data = boundary_of(_volumes_of(grid) if has_volumes else grid)
     elif ending in WALLS:
-        try:
-            data = pyvista.read(path)
-        except Exception as error:  # PyVista raises many kinds of exceptions for files that it cannot parse
-            raise Refusal(f"{path}: is not a surface that VTK can read ({error})") from error
+        data = _by_vtk(path, "surface")
     else:
         raise Refusal(f"{path}: a wall is a surface, {', '.join(WALLS)}, or a mesh, {', '.join(BY_VTK + BY_MESHIO)}")
     triangles = _triangles_of(data, path)
@@ -197,10 +198,7 @@ def read_points(path: str) -> Any:
         raise Refusal(f"{path}: points are a surface, {', '.join(WALLS)}, or rows of x, y and z in a .csv, .txt or .xyz")
     import pyvista
 
-    try:
-        data = pyvista.read(path)
-    except Exception as error:  # PyVista raises many kinds of exceptions for files that it cannot parse
-        raise Refusal(f"{path}: is not a surface that VTK can read ({error})") from error
+    data = _by_vtk(path, "surface")
     if not isinstance(data, pyvista.PolyData) or data.n_points == 0:
         raise Refusal(f"{path}: has no points, or is not a surface that VTK can read")
     return data

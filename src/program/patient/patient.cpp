@@ -446,8 +446,11 @@ class PatientRun {
           ", because the band closes the gap of " + options_.disease + ", which a smaller --half-thickness leaves open";
     text += ", and the open valve lets the blood pass";
     if (open.contains("orifice")) {
-      text += " through " + printed("%.3g", square_cm * open["orifice"]["effective_area"].get<double>()) + " cm2";
-      report_["effective_area_cm2"] = square_cm * open["orifice"]["effective_area"].get<double>();
+      // The captions of the pictures have the orifice, which is larger.
+      const double orifice = square_cm * open["orifice"]["area"].get<double>();
+      const double effective = square_cm * open["orifice"]["effective_area"].get<double>();
+      text += ": the band leaves " + printed("%.3g", effective) + " of " + printed("%.3g", orifice) + " cm2";
+      report_["effective_area_cm2"] = effective;
     }
     steps_.say("passage", text, steps_.seconds() - begin);
   }
