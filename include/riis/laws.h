@@ -24,7 +24,7 @@ extern "C" {
  * - `now` may be the struct `before` itself. `now` gets the struct_size of `before`. To repeat a step, start from `before`
  *   again. */
 
-/* An opening by its values at keys in time. */
+/* An opening that is given by its values at keys in time. */
 typedef struct riis_opening_table {
   int64_t struct_size;   /* set by the init function */
   int64_t n_keys;        /* 1 to 1,000,000 */
@@ -43,8 +43,9 @@ RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t 
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
 
-/* An opening by the times of two ramps. The ramps are of fifth degree, so neither the rate nor its derivative jumps. For
- * example, a mitral valve opens from 0.45 s and closes from 0.95 s in each second, and takes 0.05 s for both. */
+/* An opening that is given by the times of two ramps. The ramps are of fifth degree, so the rate and its derivative are
+ * continuous. For example, a mitral valve opens from 0.45 s and closes from 0.95 s in each second, and each motion takes 0.05
+ * s. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
   double opening_start;   /* when the valve begins to open. Default NaN here and in the next three fields; NaN is
@@ -109,9 +110,9 @@ RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
  * system including heart valve dynamics and atrioventricular interaction", Med. Eng. Phys. 28 (2006):
  *   angle'' = -friction angle' + (pressure_gain dp + flow_gain Q) cos(angle)
  *             - vortex_gain max(Q, 0) sin(2 angle)
- * with angles in radians, between stops where the speed becomes 0. The opening is the angle's share of its range.
- * The paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the
- * aortic and 3.5 for the mitral valve. */
+ * Angles are in radians here. At the stops angle_min and angle_max the speed becomes 0. The opening is the angle's share of its
+ * range. The paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and
+ * 3.5 for the mitral valve. */
 typedef struct riis_opening_angle {
   int64_t struct_size;  /* set by the init function */
   double pressure_gain; /* K_p, >= 0. Default NaN here and in the next three fields; NaN is refused */

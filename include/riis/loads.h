@@ -46,21 +46,21 @@ RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /*
  * nodes, and all ranks then add up their sums.
  * Errors: RIIS_INVALID_ARGUMENT naming the field, or the edge, node or weight and its value. */
 RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_points *nodes, const double *weight, double *sums);
-/* Adds the forces of the leaflets at nodes of tissue. For each leaflet, their sum is leaflet_force and their moment is
+/* Adds the forces of the leaflets at nodes of tissue. The forces of a leaflet have the sum leaflet_force and the moment
  * leaflet_moment, up to rounding.
  *   loads, nodes, weight  as in riis_loads_add_sums
  *   sums        (11, n_leaflets): of riis_loads_add_sums, added up over all ranks
  *   node_force  (3, n_points): forces are added
  * The force of a leaflet at a node is m w(d) (a + b x s). Here m is the weight of the node, d its distance from the leaflet's
- * edges, w(d) = (1 + cos(pi d / radius)) / 2 up to the radius, and s its place from the middle of the leaflet's nodes. The
- * vectors a and b belong to the leaflet. Of all forces with this sum and moment, these forces have the least sum
- * of |force|^2 / (m w). In a rigid motion the power of these forces is force times velocity plus moment times angular velocity.
+ * edges, w(d) = (1 + cos(pi d / radius)) / 2 up to the radius, and s the vector from the middle of the leaflet's nodes to the
+ * node. The vectors a and b belong to the leaflet. These forces have the least sum of |force|^2 / (m w) among all forces with
+ * this sum and moment. In a rigid motion the power of these forces is force times velocity plus moment times angular velocity.
  * The forces are linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to get the forces of one leaflet.
  * The mechanics of a membrane plays no part in these forces.
- * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also for a leaflet with a force or a moment whose nodes within the
- * radius are fewer than three, or lie nearly on a line. Nodes lie nearly on a line if their root-mean-square distance from it is
- * less than a hundredth of their root-mean-square distance from their middle. Nodes also lie nearly on a line if the first
- * distance is less than a thousandth of the size of the edges (docs/theory/loads.md). */
+ * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also for a leaflet with a force or a moment, if fewer than three nodes
+ * lie within the radius, or if these nodes lie nearly on a line. Nodes lie nearly on a line if their root-mean-square distance
+ * from it is less than a hundredth of their root-mean-square distance from their middle. Nodes also lie nearly on a line if their
+ * root-mean-square distance from it is less than a thousandth of the size of the edges (docs/theory/loads.md). */
 RIIS_API riis_status riis_loads_add_forces(const riis_loads *loads, const riis_points *nodes, const double *weight,
                                            const double *sums, double *node_force);
 

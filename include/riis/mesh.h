@@ -23,27 +23,27 @@ typedef struct riis_mesh riis_mesh;
  * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride, riis_mesh **mesh);
-/* Tells the mesh that its coordinates changed, in place or by other arrays, and checks the coordinates again. Call it after every
- * change of coordinates. The adjacency stays if n_nodes is the same. For other nodes make a new handle. Arguments and errors as
- * riis_mesh_create. */
+/* Tells the mesh that its coordinates have changed, in the old arrays or in other arrays, and checks them again. Call this
+ * function after every change of coordinates. The adjacency stays if n_nodes is the same. A mesh with other nodes needs a new
+ * handle. Arguments and errors are as in riis_mesh_create. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y,
                                       const double *z, int64_t stride);
-/* Copies node coordinates, such as a Fortran temporary or single precision, and checks them. Single precision is
- * converted to double once, exactly. The handle keeps 24 bytes per node.
+/* Copies node coordinates and checks them. Use this call for a temporary array of Fortran, or for single precision, which is
+ * converted to double exactly. The handle keeps 24 bytes per node.
  * Errors: as riis_mesh_create. */
 RIIS_API riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh);
 /* Does the same as riis_mesh_update, but copies the coordinates. A mesh may change between borrowed and copied coordinates. */
 RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes);
 /* Destroys the handle. The caller's coordinates and all marks stay. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
-/* Makes the clusters of RIIS_SEARCH_CLUSTERS now, not in the first marking that uses them. Clusters copy the
- * coordinates: they take 41 bytes per node while the handle lives, and 32 more while they are made. A grid needs none.
+/* Makes the clusters of RIIS_SEARCH_CLUSTERS in advance, so that no marking has to make them. Clusters copy the coordinates: they
+ * take 41 bytes per node while the handle lives, and 32 more while they are made. A grid needs no such copy.
  * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
 /* A rectilinear grid: three axes, and the place of each node in the caller's arrays. Node (i, j, k) is at (x[i], y[j], z[k])
- * and has the number first + i stride[0] + j stride[1] + k stride[2], all from 0. Other numbers below n_nodes, such as the
- * numbers of halos, have no node. */
+ * and has the number first + i stride[0] + j stride[1] + k stride[2], all from 0. Any other number below n_nodes, such as the
+ * number of a halo's entry, has no node. */
 typedef struct riis_grid {
   int64_t struct_size;   /* set by the init function */
   int64_t ni, nj, nk;    /* nodes along each axis, each >= 1 */
@@ -54,8 +54,8 @@ typedef struct riis_grid {
   double origin[3];      /* of axes with NULL. Default 0 */
   double spacing[3];     /* of axes with NULL, above 0. Default 1 */
   int64_t first;         /* the number of node (0, 0, 0), >= 0. Default 0 */
-  int64_t stride[3];     /* from a node to the next along each axis, >= 1. No two nodes may have one number. Default 0, for
-                            all three, stands for 1, ni and ni nj */
+  int64_t stride[3];     /* the difference of numbers from a node to the next along each axis, >= 1. Two nodes must not have the
+                            same number. Default 0, for all three axes, stands for 1, ni and ni nj */
   int64_t n_nodes;       /* the length of the caller's arrays, above the last node's number and at most 2^40. Default 0
                             stands for the least length */
   int32_t real_bits;     /* of x, y and z: 64, the default, or 32 */
@@ -73,13 +73,13 @@ RIIS_API riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **me
  * Errors: as riis_mesh_create_grid; the mesh then keeps its nodes. */
 RIIS_API riis_status riis_mesh_update_grid(riis_mesh *mesh, const riis_grid *grid);
 
-/* Neighbours of nodes, as compressed sparse rows. With base = index_base, node i of 0 to n_rows - 1 has the
- * neighbours columns[k] - base for k from offsets[i] - base to offsets[i + 1] - base - 1. */
+/* Neighbours of nodes, as compressed sparse rows. Let base be index_base. Node i, from 0 to n_rows - 1, has the neighbours
+ * columns[k] - base, with k from offsets[i] - base to offsets[i + 1] - base - 1. */
 typedef struct riis_csr {
   int64_t struct_size;   /* set by the init function */
   int64_t n_rows;        /* the mesh's n_nodes */
-  int64_t n_all;         /* columns are below this number, at least n_rows. Columns from n_rows on are ghosts, nodes
-                            of other ranks, and are ignored. Default 0 stands for n_rows */
+  int64_t n_all;         /* columns are below this number, which is at least n_rows. Columns from n_rows on are ghosts, which
+                            belong to other ranks, and are ignored. Default 0 stands for n_rows */
   const void *offsets;   /* (n_rows + 1), ascending from the base; a row may be empty. NULL only for 0 rows */
   const void *columns;   /* (offsets[n_rows] - base), in any order; repetitions and the node itself are ignored */
   int32_t offset_bits;   /* of offsets */
@@ -100,8 +100,9 @@ RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *cs
 /* Compressed sparse rows that the library owns: ascending columns without repetition, symmetric, base 0. */
 typedef struct riis_adjacency riis_adjacency;
 
-/* Cells by their nodes, in the order of VTK, Abaqus, CGNS and Gmsh: the base, then the apex or the nodes above.
- * The number of nodes tells the shape: 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron. */
+/* Cells that are given by their nodes. The order of the nodes is that of VTK, Abaqus, CGNS and Gmsh: first the base, then the
+ * apex or the nodes above the base. The number of nodes tells the shape: 4 for a tetrahedron, 5 for a pyramid, 6 for a prism, 8
+ * for a hexahedron. */
 typedef struct riis_mesh_cells {
   int64_t struct_size;     /* set by the init function */
   int64_t n_nodes;         /* of the mesh, >= 0 */

@@ -42,14 +42,13 @@ typedef struct riis_vtk_mesh riis_vtk_mesh;
  * Errors: RIIS_FILE_ERROR naming the file, if it is missing, unreadable, of another kind, truncated, or has
  * no points. */
 RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
-/* Gives notes on the file in one line, such as "its points have single precision", or "". The text is valid
+/* Gives notes on the file in one line, such as "its points have single precision", or gives "" without notes. The text is valid
  * until the mesh is destroyed. */
 RIIS_API riis_status riis_vtk_mesh_get_notes(const riis_vtk_mesh *mesh, const char **notes);
 /* Replaces the nodes of the mesh by the centres of its cells, in the order of the cells. The call serves solvers with unknowns at
  * cell centres, and computes centres as OpenFOAM does. Two nodes are then neighbours if their cells share a face. Arrays that are
  * set later become arrays of cells. A mesh of centres has no parts (riis_vtk_mesh_extract).
- * Errors: RIIS_INVALID_ARGUMENT for a cell that is neither a linear volume cell nor a polyhedron, naming it.
- * The mesh then keeps its nodes. */
+ * Errors: RIIS_INVALID_ARGUMENT naming a cell that is no linear volume cell and no polyhedron. The mesh then keeps its nodes. */
 RIIS_API riis_status riis_vtk_mesh_use_centers(riis_vtk_mesh *mesh);
 /* Destroys the mesh. */
 RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
@@ -60,9 +59,9 @@ RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
 RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
                                              const double **xyz);
 
-/* Gives the axes of a mesh whose nodes are a rectilinear grid, for riis_mesh_create_grid: a .vti or .vtr file, or a
- * legacy file of these kinds, with two or more nodes along each axis and coordinates that strictly ascend. The cells
- * are hexahedra. Coordinates and cells are stored only after a call that needs them, such as riis_vtk_mesh_get_nodes.
+/* Gives the axes of a mesh whose nodes are a rectilinear grid, for riis_mesh_create_grid. Such a mesh comes from a .vti or .vtr
+ * file, or from a legacy file of these kinds. It has two or more nodes along each axis, and coordinates that strictly ascend. The
+ * cells are hexahedra. Coordinates and cells are stored only after a call that needs them, such as riis_vtk_mesh_get_nodes.
  * riis_vtk_mesh_set_marks and the other calls for arrays do not need them.
  *   grid  ni, nj and nk are 0 for any other mesh, and after riis_vtk_mesh_use_centers or riis_vtk_mesh_choose_cells. x,
  *         y and z are valid until the mesh is destroyed */
@@ -73,15 +72,15 @@ RIIS_API riis_status riis_vtk_mesh_get_axes(const riis_vtk_mesh *mesh, riis_grid
  * not.
  * - A linear cell, a prism with more than three sides and a polyhedron have the edges of their faces.
  * - A quadratic cell has edges from each corner to the middles of its sides, and between the middles of
- *   neighbouring sides of a face. If a face has a node in its middle, edges join this node to all others of the face
+ *   neighbouring sides of a face. If a face has a node in its middle, edges join this node to all other nodes of the face
  *   instead.
  * - A Lagrange or Bezier tetrahedron, wedge or hexahedron has edges along the lines of its lattice.
  * The edges of two kinds of volume cells are not known here: convex point sets, and Lagrange and
  * Bezier cells with nodes beyond their lattice. */
 RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads,
                                                     riis_adjacency **adjacency);
-/* Counts the volume cells. In a mesh without volume cells, such as a mesh of triangles, no edge could
- * leak, so leaks are unknown.
+/* Counts the volume cells. In a mesh without volume cells, such as a mesh of triangles, no edge can be found to leak, so leaks
+ * are unknown.
  *   n_volume_cells    NULL if not wanted
  *   n_cells_left_out  the number of volume cells whose edges are not known here; NULL if not wanted */
 RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
@@ -138,23 +137,24 @@ RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const ch
  *   unit  1 to 64 characters of ASCII that can be printed, such as "g/(cm3 s)"
  * Errors: RIIS_INVALID_ARGUMENT for a name that the mesh lacks, and for another unit. */
 RIIS_API riis_status riis_vtk_mesh_set_unit(riis_vtk_mesh *mesh, const char *name, const char *unit);
-/* Tells whether the mesh has a point array of that name: *has is then 1, otherwise 0. */
+/* Tells whether the mesh has a point array of that name: *has becomes 1 or 0. */
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
-/* Gives the median length of the edges of volume cells, as in riis_vtk_mesh_create_adjacency, and of faces
- * other than polygons. The length is 0 if the mesh has no such cells. An edge counts once for each of its cells. At most 20,000
+/* Gives the median length of edges. The edges of volume cells count, as in riis_vtk_mesh_create_adjacency, and the edges of all
+ * faces except polygons. The length is 0 if the mesh has no such cells. An edge counts once for each of its cells. At most 20,000
  * cells, at equal distances in the list, are measured. */
 RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length);
 
-/* Keeps only the cells with certain values in a cell array, such as the fluid of a mesh that also has the wall, and
- * their nodes. Nodes and cells keep their order and their data. As in riis_vtk_mesh_extract, riis_node_id and
- * riis_cell_id have their ids in the whole mesh, also in later parts of this mesh.
+/* Keeps only the cells with certain values in a cell array, and their nodes. An example is the fluid of a mesh that also has the
+ * wall. Nodes and cells keep their order and their data. As in riis_vtk_mesh_extract, the arrays riis_node_id and riis_cell_id
+ * have the ids in the whole mesh. Later parts of this mesh also keep these ids.
  *   where     NAME=VALUES, such as "region=1,2". NAME is a cell array of single numbers. For gmsh's physical groups NAME is
  *             gmsh:physical, and VALUES may be names of groups; all groups of a cell count
  *   n_chosen  the number of cells with such a value; only volume cells count if the mesh has some. NULL refuses none
  * Errors: RIIS_INVALID_ARGUMENT if there is no such array or name; the mesh is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_choose_cells(riis_vtk_mesh *mesh, const char *where, int64_t *n_chosen);
-/* Gives a cell array that probably numbers domains. Volume cells have 2 to 16 whole numbers in this array, and two cells of one
- * type with a common node have different numbers. Arrays named for something else, such as "rank", do not count.
+/* Gives a cell array that probably numbers domains. The volume cells have 2 to 16 different whole numbers in this array.
+ * Somewhere two cells of one type with a common node have different numbers. Arrays named for something else, such as "rank", do
+ * not count.
  *   array     its name, until the next call or the mesh's destruction. "" if there is none
  *   n_values  the number of its values; 0 if there is none
  *   values    (n_values), ascending. NULL if they are not wanted */
@@ -165,14 +165,15 @@ RIIS_API riis_status riis_vtk_mesh_find_regions(riis_vtk_mesh *mesh, const char 
  * order have straight edges here. A point is outside a mesh in pieces if it is outside each piece.
  *   xyz         (3, n_points), finite
  *   distance    >= 0, finite, in the unit of xyz. With the distance 0 the call finds the points that no cell contains
- *   is_outside  (n_points). In: 0 for points that are not wanted. Out: 0 also for the points that are not outside
+ *   is_outside  (n_points). Before the call, 0 stands for points that are not wanted. The call also writes 0 for points that are
+ *               not outside
  * Errors: RIIS_INVALID_ARGUMENT naming the argument and its value; is_outside is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64_t n_points, const double *xyz,
                                                 double distance, uint8_t *is_outside);
 
 /* Makes a mesh of all cells that have one of the given nodes, with all nodes of these cells. Nodes and cells
- * keep their order and their data. Two new arrays give their ids in the whole mesh: riis_node_id of points
- * and riis_cell_id of cells (Int64). The part borrows nothing.
+ * keep their order and their data. Two new arrays give the ids of nodes and cells in the whole mesh: riis_node_id of points and
+ * riis_cell_id of cells (Int64). The part borrows nothing.
  *   n_ids     >= 0
  *   node_ids  (n_ids), 0 to n_nodes - 1, in any order
  * Errors: RIIS_INVALID_ARGUMENT naming the id and its position in node_ids. */
@@ -183,12 +184,12 @@ RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_
 RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes);
 
 /* Writes the mesh with all its arrays to a file. The points are Float64.
- *   path  ends in .vtu, or in .xdmf. If the mesh was read as the axes of a grid, the path may also end in .vtr, or in .vti if the
- *         axes are evenly spaced, as in an image; neither format stores cells. The numbers of NAME.xdmf are in NAME.h5 beside it,
- *         or in NAME.xdmf itself if riis was built without HDF5. Polyhedra and text have no place in an .xdmf. If the mesh was
- *         read from a case of OpenFOAM, with nodes at centres, the path may also be a time folder of the case, such as CASE/0.
- *         The arrays of cells become the folder's fields, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface
- *         becomes Ku. Such a folder may be written in part if an error occurs */
+ *   path  ends in .vtu, or in .xdmf. A mesh that was read as the axes of a grid can also go to a .vtr file, or with evenly spaced
+ *         axes to a .vti file. These two formats store no cells. The numbers of NAME.xdmf are in NAME.h5 beside it, or in
+ *         NAME.xdmf itself if riis was built without HDF5. An .xdmf file cannot hold polyhedra or text. If the mesh was read from
+ *         a case of OpenFOAM, with nodes at centres, the path may also be a time folder of the case, such as CASE/0. The arrays
+ *         of cells become the fields of this folder, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface becomes
+ *         Ku. Such a folder may be written in part if an error occurs */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
 
 /* ---- Meshes in pieces ---------------------------------------------------------------------------------- */
@@ -323,8 +324,8 @@ RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaf
 RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *const *paths,
                                                 const double *times, const char *leaflets,
                                                 riis_vtk_motion **motion);
-/* Reads a motion from one .vtp or .vtu file with displacements. Each frame is the points plus a point array of
- * 3 components. The points alone make no frame.
+/* Reads a motion from one .vtp or .vtu file with displacements. A frame consists of the points plus the displacements in a point
+ * array of 3 components. The points alone make no frame.
  *   prefix   the name of each array is the prefix, then "_" or nothing, then a whole number, as in
  *            displacement_0 and displacement_10. Frames are in the order of the numbers, which may have gaps
  *   n_times  the number of these arrays, or 0
@@ -334,9 +335,9 @@ RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *con
 RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const char *prefix, int64_t n_times,
                                                         const double *times, const char *leaflets,
                                                         riis_vtk_motion **motion);
-/* Reads a motion from a file of svMultiPhysics, as riis export writes it: the positions of all nodes, frame by
- * frame. The faces are in a .vtu or .vtp file in the same folder. For NAME_motion_open.dat this file
- * is NAME_motion_open, NAME_motion or NAME, each also followed by _mesh or _face.
+/* Reads a motion from a file for svMultiPhysics that riis export wrote. The file has the positions of all nodes, frame by frame.
+ * The faces are in a .vtu or .vtp file in the same folder. For NAME_motion_open.dat the name of this file is NAME_motion_open,
+ * NAME_motion or NAME, each also followed by _mesh or _face.
  *   path       ends in .dat
  *   time_step  above 0: the time from a frame to the next one. The first frame is at 0
  * Errors: RIIS_INVALID_ARGUMENT for a bad time_step. */
@@ -401,19 +402,19 @@ typedef struct riis_vtk_picture_options {
   const char *const *leaflet_names; /* (n_leaflet_names): the names by leaflet_id, for the key of the colours. Default
                                        NULL: "leaflet 0", ..., as for leaflets without a name here */
   int64_t n_leaking_edges;/* >= 0, default 0 */
-  const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, which are drawn dark red before the rest. Default
-                                   NULL: the picture says nothing of leaks. If n_leaking_edges is 0 and leaking_edges is not NULL,
-                                   the picture says that no edge leaks */
+  const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, which are drawn dark red in front of everything
+                                   else. Default NULL: the picture says nothing about leaks. If n_leaking_edges is 0 and
+                                   leaking_edges is not NULL, the picture says that no edge leaks */
   int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */
   int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
   int32_t reserved;       /* 0 */
-  double rotation_axis[3]; /* of the valve's placement, for RIIS_VTK_VIEW_VALVE_*; ranges as in
+  double rotation_axis[3]; /* the rotation axis of the valve's placement, for RIIS_VTK_VIEW_VALVE_*, with the ranges of
                               riis_surface_options. Default (0, 0, 1) */
   double rotation_angle;  /* degrees. Default 0: the valve has the mesh's axes */
   const riis_surface *wall; /* the wall around a surface without a mesh. With a mesh, whose boundary is the wall, this field is
                                ignored. Default NULL: none */
   double background[4];   /* red, green and blue, 0 to 1, then the opacity, 0 or 1. Texts are dark on a bright colour, and bright
-                             on a dark one. The opacity 0 makes a transparent picture, with the texts that fit the colour. Default
+                             on a dark one. The opacity 0 makes the picture transparent; the texts still suit the colour. Default
                              (1, 1, 1, 1): white */
   int32_t captions;       /* RIIS_VTK_CAPTIONS_*. Default RIIS_VTK_CAPTIONS_ALL */
   int32_t panels;         /* RIIS_VTK_PANELS_*. Default RIIS_VTK_PANELS_BOTH */
@@ -432,8 +433,8 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  * - Captions name the half thickness and count the marked nodes.
  * - Axes and a scale bar are below the panels. If a mesh is much longer than the surface, the picture cuts
  *   it at dashed lines. Pictures lower than 120 pixels have no texts, axes or bar.
- * - RIIS_VTK_VIEW_THREE and RIIS_VTK_VIEW_VALVE_THREE draw one column for each view, with the panels above each
- *   other. The columns have the same scale.
+ * - RIIS_VTK_VIEW_THREE and RIIS_VTK_VIEW_VALVE_THREE draw one column for each view, with one panel above the other. The columns
+ *   have the same scale.
  *
  *   mesh  must have marks set. NULL draws the surface alone, in one panel
  *   path  ends in .png
@@ -462,7 +463,7 @@ typedef struct riis_vtk_film riis_vtk_film;
  * bounds that are not finite or do not ascend. */
 RIIS_API riis_status riis_vtk_film_create(const riis_vtk_mesh *mesh, const double *lower, const double *upper,
                                           const riis_vtk_picture_options *options, riis_vtk_film **film);
-/* Draws the surface and the marks that the mesh has at present into a .png file, as riis_vtk_draw does.
+/* Draws the surface and the present marks of the mesh into a .png file, as riis_vtk_draw does.
  *   title  as in riis_vtk_picture_options
  * Errors: as riis_vtk_draw. */
 RIIS_API riis_status riis_vtk_film_draw(riis_vtk_film *film, const riis_surface *surface, const char *title,

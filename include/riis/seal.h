@@ -29,9 +29,10 @@ RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and 
  * row or in both, and appears once in the list. Edges to ghosts are ignored. Edges that are at most two half thicknesses long
  * do not leak (docs/meshes.md). With an offset o, edges of at most 2 (1 - |o|) half thicknesses do not leak. Longer edges may
  * leak beside rims, but seldom if they are at most 2 sqrt(1 - o^2) half thicknesses long. With an offset, an edge does not leak
- * if both ends are off rims and on the same side. Such an edge only cuts the corner of a fold. A marking of the same triangles
- * with the half thickness of riis_leak_list closes all of these edges, except by RIIS_SEARCH_PAPER. But riis_surface_update with
- * that half thickness moves a valve's triangles by up to tolerance * half_thickness. Search for leaks again after such an update.
+ * if both of its nodes are off rims and on the same side, because it only cuts the corner of a fold. If the same triangles are
+ * marked again with the half thickness of riis_leak_list, no edge leaks. Only RIIS_SEARCH_PAPER may still leave leaks. But
+ * riis_surface_update with that half thickness moves a valve's triangles by up to tolerance * half_thickness. Search for leaks
+ * again after such an update.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that
  * have another number of nodes or half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh,
@@ -40,7 +41,7 @@ RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mes
 
 /* Mesh edges that leak, ascending by their first node, then by their second. Lengths are in mesh units. */
 typedef struct riis_leak_list {
-  int64_t n_edges;            /* the number of edges that leak. If this number is 0, node ids are -1, and all other fields but
+  int64_t n_edges;            /* the number of edges that leak. If this number is 0, node ids are -1, and all other fields except
                                  seconds are 0 */
   const int64_t *node_id;     /* (2, n_edges): the two nodes, the lower id first */
   const double *length;       /* (n_edges) */
@@ -83,9 +84,9 @@ typedef struct riis_passage {
   int64_t node_id;  /* the path's node that is nearest to the surface; -1 without a path. If nodes have equal distances,
                        the higher id counts as nearest */
   double distance;  /* the distance of node_id. A half thickness of at least this distance closes the passage between these
-                       triangles, and a smaller one leaves it open. 0 without a path. With an offset o, `distance` is the least
-                       half thickness that marks the node, and nodes are ordered by it: s / (1 + o) for a signed distance s >= 0,
-                       and -s / (1 - o) for s < 0 */
+                       triangles. A smaller half thickness leaves the passage open. 0 without a path. With an offset o, `distance`
+                       is the least half thickness that marks the node, and nodes are ordered by it: s / (1 + o) for a signed
+                       distance s >= 0, and -s / (1 - o) for s < 0 */
   double point[3];  /* the coordinates of node_id; 0 without a path */
   double seconds;   /* wall time of riis_find_passage */
   int32_t state;    /* RIIS_PASSAGE_* */

@@ -75,12 +75,12 @@ RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name
 
 /* Gives the valve a second state. At opening 0 the valve then has its own state, and at opening 1 the state of the valve `open`.
  *   open  a valve of the same kind, which is copied. The opening, leaflet ids and open state of the second valve are ignored. Two
- *         valves from patches must have the same curves, sides and degrees (1 may stand for 2). Two bileaflet valves must both
- *         have a ring, or both lack it
+ *         valves from patches must have the same curves, sides and degrees (degree 1 may stand for degree 2). Two bileaflet
+ *         valves must both have a ring, or both lack it
  * A second call replaces the open state. No call removes an open state. Control points are blended linearly between the states
  * (docs/theory/openings.md). A bileaflet valve blends lengths and angles instead. The middle of a coapting cusp's free edge hangs
- * as deep as the edge's length requires. All kinds but aortic and bileaflet take the closed shape from their own parameters, and
- * the open shape from the parameters of `open`.
+ * as deep as the edge's length requires. All kinds except aortic and bileaflet take the closed shape from their own parameters,
+ * and the open shape from the parameters of `open`.
  * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
 
@@ -105,7 +105,7 @@ typedef struct riis_patches {
 RIIS_API riis_status riis_patches_init(riis_patches *patches, int64_t struct_size); /* the defaults */
 
 /* Makes a valve from copies of the patches. The valve's parameters are "opening" and "skirt_length". A skirt continues each side
- * v = 0 that belongs to only one patch. patch_id is the patch's number, from 0.
+ * v = 0 that belongs to only one patch. The patch_id of a triangle is the number of its patch, from 0.
  * Errors: RIIS_INVALID_PARAMETER naming the curve or patch and its value, such as sides that do not meet. */
 RIIS_API riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve);
 
@@ -146,11 +146,11 @@ typedef struct riis_valve_patches {
   const int32_t *patch_id;    /* (n_patches): as in riis_triangles */
   const int32_t *attached;    /* (n_patches): the side that is attached, 0 to 3 in the order of curve_id, or -1 */
   const double *bulge;        /* (n_patches): 0 for a Coons patch. Otherwise the line at each u is an arc from v = 0 to
-                                 v = 1. W is the width and T is the unit tangent of the side v = 0. The middle control
-                                 point lies bulge |W| unit(W x T) beside the middle of the straight line */
+                                 v = 1. W is the width and T is the unit tangent of the side v = 0. The arc's middle control point
+                                 lies bulge |W| unit(W x T) beside the middle of the straight line */
 } riis_valve_patches;
 /* Gives the curves and patches of a valve at its opening. The arrays are valid until the next call that may change the
- * valve. On a side, u or v of a point is the point's share of the side's length. All normals S_u x S_v have the directions that
+ * valve. Along a side, u or v is the share of the side's length up to the point. All normals S_u x S_v have the directions that
  * riis_surface_create describes. A mitral patch has a bulge, so a Coons patch of its sides differs from it.
  * Errors: RIIS_INVALID_PARAMETER as riis_surface_create. */
 RIIS_API riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patches *patches, int64_t struct_size);
