@@ -1,11 +1,11 @@
-// SPDX-License-Identifier: Apache-2.0
-// Computes with sixteen floats or eight doubles at once, in the registers of the instruction set that the including file is
-// compiled for. Everything has internal linkage. Files for different instruction sets must not share a function, because the
-// linker could take it from the wrong file. This file also includes no header whose inline functions the compiler may emit as
-// separate functions.
+// SPDX-License-Identifier: Apache-2.0 This file computes with sixteen floats or eight doubles at once. It uses the registers of
+// the instruction set for which the including file is compiled. Everything has internal linkage. Files for different instruction
+// sets must not share a function, because the linker could take it from the wrong file. This file also includes no header whose
+// inline functions the compiler may emit as separate functions.
 #pragma once
 
-// RIIS_PORTABLE_LANES selects the code for processors without SSE2 or NEON. Tests run that code on other processors.
+// RIIS_PORTABLE_LANES selects the code for processors without SSE2 or NEON. Tests also run this code on processors with SSE2 or
+// NEON.
 #if defined(__SSE2__) && !defined(RIIS_PORTABLE_LANES)
 #define RIIS_SSE2
 #include <immintrin.h>
@@ -18,8 +18,8 @@
 namespace riis {
 
 // Counts the operations of kernels that are compiled with RIIS_COUNT_OPERATIONS. Only ./run bench roofline links such kernels.
-// In all other kernels, counting compiles to nothing. `operations` counts arithmetic instructions and comparisons in one lane.
-// A multiply-add counts as one. `pairs` counts the pairs of a node and a triangle whose distance the filter computed.
+// In all other kernels, counting compiles to nothing. `operations` counts arithmetic instructions and comparisons in one lane. A
+// multiply-add counts as one operation. `pairs` counts the pairs of a node and a triangle whose distance the filter computed.
 struct Counts {
   int64_t operations, pairs;
 };
@@ -167,8 +167,8 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = x - Register{};
     return lanes;
   }
-  // load and store need memory aligned to 64 bytes. Each register is moved as a whole. GCC copies longer memory in pieces of
-  // another size. A register that is read from two such pieces has to wait until both are written.
+  // load and store need memory aligned to 64 bytes. They move each register as a whole. GCC would copy longer memory in pieces of
+  // another size, and a register that is read from two such pieces has to wait until both pieces are written.
   static RIIS_INLINE Lanes load(const Scalar *from) {
     Lanes lanes;
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const InMemory *>(from)[i];
@@ -263,9 +263,8 @@ RIIS_INLINE Row high_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 
 template <int n, class Address>
 RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
 #if defined(__AVX2__)
-  // For each lane, a row has the three numbers of a point and the next number. No number follows the last point, so its row
-  // begins with the number before the point. A single point has no number before it either, so a mask leaves out the fourth
-  // number.
+  // A row has the three numbers of a point and the next number. The array ends after the last point, so the last row begins with
+  // the number before the point. A single point has no number before it, so a mask leaves out the fourth number.
   constexpr int last = n - 1;
   const auto load = [](const double *from, int k) __attribute__((always_inline)) {
     if constexpr (n == 1) return _mm256_maskload_pd(from, _mm256_setr_epi64x(-1, -1, -1, 0));
@@ -322,7 +321,8 @@ RIIS_INLINE Mask opposite(Mask a) {
 RIIS_INLINE uint32_t bits(uint16x8_t mask) {
   return vaddvq_u16(vandq_u16(mask, uint16x8_t{1, 2, 4, 8, 16, 32, 64, 128}));
 }
-// The same for sixteen lanes. A byte of each lane suffices. The bytes of lanes i and i + 8 become neighbours.
+// Takes 0 or -1 in each of sixteen lanes, and returns one bit for each. A byte of each lane suffices. The bytes of lanes i and i
+// + 8 become neighbours.
 RIIS_INLINE uint32_t bits(uint16x8_t first, uint16x8_t last) {
   const uint8x16_t bytes = vtrn1q_u8(vreinterpretq_u8_u16(first), vreinterpretq_u8_u16(last));
   const uint16x8_t own_bits = {0x0101, 0x0202, 0x0404, 0x0808, 0x1010, 0x2020, 0x4040, 0x8080};
@@ -390,7 +390,7 @@ RIIS_INLINE uint32_t bits_different(Floats a, Floats b) {
 #endif
 }
 
-// Returns the distance of x from the interval -half..half, perhaps with a minus sign.
+// Returns the distance of x from the interval -half..half. The result may have a minus sign.
 RIIS_INLINE Floats beyond(Floats x, Floats half) {
 #if defined(__AVX512DQ__)
   // One instruction limits the magnitude of x and keeps the sign of x.
@@ -445,7 +445,7 @@ RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
 }
 
 #if defined(__AVX2__) && !defined(__AVX512F__)
-// For each set of eight lanes, the numbers of these lanes in ascending order. The rest is 0.
+// For each set of lanes among eight lanes, the numbers of the lanes in the set, in ascending order. Unused entries are 0.
 struct LanesOfSets {
   alignas(64) uint8_t lane[256][8] = {};
   constexpr LanesOfSets() {
@@ -481,11 +481,11 @@ RIIS_INLINE void fill(int32_t x, int32_t *to) {
 
 RIIS_INLINE bool any(Doubles::Mask mask) { return bits(mask) != 0; }
 
-// Writes the least lane of each of four Floats.
+// Writes the least number in the lanes of each of four Floats.
 RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
   count(&Counts::operations, 4 * (Floats::n - 1));
 #if defined(__AVX512F__)
-  // Each step compares two quarters of a register, or two lanes of a quarter, and keeps the lesser.
+  // Each step compares two quarters of a register, or two lanes of a quarter, and keeps the lesser numbers.
   constexpr int first_half = 0x44, last_half = 0xee, even = 0x88, odd = 0xdd, neighbours = 0xb1, pairs = 0x4e;
   const auto halves = [&](int i) __attribute__((always_inline)) {
     const __m512 a = (__m512)of[i].part[0], b = (__m512)of[i + 1].part[0];
@@ -507,7 +507,7 @@ RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
     m[i] = (__m128)least(least(of[i].part[0], of[i].part[1]), least(of[i].part[2], of[i].part[3]));
 #endif
   }
-  // Combines neighbouring halves twice. Each step keeps the lesser of two lanes.
+  // Combines neighbouring halves twice. Each step keeps the lesser number of two lanes.
   const __m128 first = _mm_min_ps(_mm_unpacklo_ps(m[0], m[1]), _mm_unpackhi_ps(m[0], m[1]));
   const __m128 last = _mm_min_ps(_mm_unpacklo_ps(m[2], m[3]), _mm_unpackhi_ps(m[2], m[3]));
   _mm_storeu_ps(least_lane, _mm_min_ps(_mm_movelh_ps(first, last), _mm_movehl_ps(last, first)));

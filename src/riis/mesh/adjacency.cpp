@@ -19,13 +19,13 @@
 namespace riis {
 namespace {
 
-// Makes an adjacency from items, which are cells or faces. First it lists the items of each node.
-// In: lists of items. Out: sorted rows without repeats, which do not depend on the number of threads.
+// Makes an adjacency from items, which are cells or faces. The code first lists the items of each node. The rows are sorted, have
+// no repeats, and do not depend on the number of threads.
 
 // Memory from malloc, which realloc can shrink in place. The content must be plain data.
 class PlainMemory {
  public:
-  // Keeps as much of the content as fits in both the old and the new size.
+  // Keeps the content up to the lesser of the old and the new size.
   void resize(std::int64_t n_bytes) {
     if (n_bytes == 0) return memory_.reset();
     void *const moved = std::realloc(memory_.get(), static_cast<std::size_t>(n_bytes));

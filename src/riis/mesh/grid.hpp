@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rectilinear grid: three ascending axes, and the place of each node in the caller's arrays. No memory is taken for nodes.
-// In: axes, the first number and strides. Out: the coordinates, number and neighbours of each node.
+// A rectilinear grid: three ascending axes, and the place of each node in the caller's arrays. Nothing is stored for a node. The
+// axes, the first number and the strides give each node's coordinates, number and neighbours.
 #pragma once
 
 #include <array>

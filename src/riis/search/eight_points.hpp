@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Up to eight points, each with its closest triangle. The kernels compute the data about their closest points together.
+// Up to eight points, each with its closest triangle. The kernels compute the data of the eight closest points together.
 #pragma once
 
 #include <algorithm>

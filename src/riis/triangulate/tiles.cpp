@@ -14,7 +14,7 @@
 namespace riis {
 namespace {
 
-// Returns the seam of an image, or null if it has none.
+// Returns the seam of an image, or null if the image has no seam.
 const Seam *seam_of(const PatchSet &set, std::size_t patch, std::size_t image) {
   for (const Seam &seam : set.seams)
     if (seam.patch == patch && seam.image == image) return &seam;
@@ -57,7 +57,7 @@ PatchVertices vertices_of(const LevelledGrid &levelled) {
     const int level = *level_of_next++;
     if (level == 0) return;
     // At one level, all parts of a bilinear quad have the same flatness. Recursive halving would therefore end in equal
-    // parts. This loop makes them directly.
+    // parts. This loop makes these parts directly.
     const int n_parts = 1 << level;
     const double step = 1.0 / n_parts;  // a power of two
     const Quad quad = quad_of(grid, i, j);
@@ -209,8 +209,8 @@ void close_gaps(const Vector<Tile> &tiles, TriangleSet &triangles) {
 }  // namespace
 
 bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
-  // A triangle without area is only a segment, its longest edge, or a point. A triangle that is a point can be dropped without
-  // loss. A triangle that is a segment can be dropped if the segment is the diagonal of a quad whose other half was kept.
+  // A triangle without area is either a point or a segment, which is its longest edge. A triangle that is a point can be dropped
+  // without loss. A triangle that is a segment can be dropped if the segment is the diagonal of a quad whose other half was kept.
   const Vec3 corner = set.vertex(triangle.corner), a = set.vertex(triangle.a), b = set.vertex(triangle.b);
   const double diagonal = distance(a, b), other = std::max(distance(corner, a), distance(corner, b));
   const bool is_on_diagonal = triangle.other_was_kept && other <= (1 + 1e-9) * diagonal;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bileaflet mechanical valve. Two rigid flat leaflets in a round housing turn about their hinges (docs/theory/bileaflet.md).
-// In: the parameters of two states, the opening. Out: patches of two leaflets and, if ring_height is not 0, of the housing's
-// wall.
+// From the parameters of two states and the opening, this file makes the patches of the two leaflets. If ring_height is not 0, it
+// also makes the patches of the housing's wall.
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -81,7 +81,7 @@ struct Shape {
 };
 
 Shape blended(const ValveState &closed, const ValveState &open, double at) {
-  // Returns a value without blending if both states have it. A housing that does not move thus keeps its bits.
+  // If both states have the same value, returns this value without blending, so that a housing that does not move keeps its bits.
   const auto both = [&](Parameter parameter) {
     const double from = closed.values[parameter][0], to = open.values[parameter][0];
     return from == to ? from : blend(from, to, at);
@@ -133,8 +133,8 @@ double arc_deviation(double whole_angle) {
   return (1 + rounding) * (2.0 / 27.0) * cube * cube / (cosine * cosine);
 }
 
-// Returns the arc of a circle about the axis, from (radius, 0) to the point (last_x, last_y) of the circle, last_y > 0. `placed`
-// takes points of the plane, such as control points, to space.
+// Returns the arc of a circle about the axis, from (radius, 0) to the point (last_x, last_y) of the circle, where last_y > 0.
+// `placed` takes points of the plane, such as control points, to space.
 template <class ToSpace>
 Curve make_arc(double circle_radius, double whole_angle, double last_x, double last_y, const ToSpace &placed) {
   const double step = whole_angle / n_spans;
