@@ -46,7 +46,7 @@ struct Speed {
     quadratic = curve.degree == 3 ? 3.0 * ((q[3] - q[0]) - 3.0 * (q[2] - q[1])) : Vec3{0, 0, 0};
   }
   double operator()(double t) const { return length(constant + t * (linear + t * quadratic)); }
-  // Computes |B'(t)| for two parameters at once, with the same bits as one at a time.
+  // Computes |B'(t)| for two parameters at once, with the same bits as for one parameter at a time.
   Two operator()(Two t) const {
     const Two x = constant.x + t * (linear.x + t * quadratic.x), y = constant.y + t * (linear.y + t * quadratic.y),
               z = constant.z + t * (linear.z + t * quadratic.z);
@@ -95,8 +95,8 @@ double length_tolerance(const Bezier &curve) {
 }
 
 double length_between(const Speed &speed, double tolerance, double t0, double t1) {
-  // The largest number of halvings is 40. At a cusp (|B'| = 0) each halving only halves the error, so 40 leave an error of about
-  // 1e-12 of the length.
+  // The largest number of halvings is 40. At a cusp (|B'| = 0) each halving only halves the error, so 40 halvings leave an error
+  // of about 1e-12 of the length.
   return adaptive_length(speed, t0, t1, quadrature(speed, t0, t1), tolerance, 40);
 }
 
@@ -123,8 +123,8 @@ double short_quadrature(const Speed &speed, double t0, double t1) {
   return half * (speed(middle - half * node) + speed(middle + half * node));
 }
 
-// Integrates the speed in steps of t of at most 1/12. In such steps the rule with 8 points is exact to rounding, unless the speed
-// is nearly 0 somewhere.
+// Integrates the speed in steps of t of at most 1/12. In such steps the rule with 8 points is exact to rounding if the speed is
+// nowhere nearly 0.
 double stepwise_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double longest = 1.0 / 12;
   if (t1 - t0 <= longest) return quadrature(speed, t0, t1);
@@ -201,7 +201,7 @@ double arc_length(const Bezier &curve, double t0, double t1) {
   return length_between(Speed(curve), length_tolerance(curve), t0, t1);
 }
 
-// Every point has its own variable. In an array, the compiler would store points and load them again at once.
+// Every point has its own variable. With an array, the compiler would store the points and load them again immediately.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t) {
   const auto &q = curve.control;
   const Vec3 a = mix(q[0], q[1], t), b = mix(q[1], q[2], t), ab = mix(a, b, t);
@@ -217,7 +217,7 @@ double flatness(const Bezier &curve) {
   return largest;
 }
 
-// Bounds the curvature |B' x B''| / |B'|^3. The bound is infinite if the curve may turn on the spot. B' and B'' are Bézier
+// Bounds the curvature |B' x B''| / |B'|^3. The bound is infinite if the derivative may be 0 somewhere. B' and B'' are Bézier
 // curves with these control points. Products of these points bound the numerator. The least component of B' along the chord,
 // taken over its control points, bounds the denominator from below.
 template <std::size_t n, std::size_t m>

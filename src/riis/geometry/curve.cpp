@@ -12,10 +12,10 @@
 namespace riis {
 namespace {
 
-// A curve has at most 2^20 parts. A request with more parts than this would make more triangles than the library can hold.
+// A curve has at most 2^20 parts. More parts would make more triangles than the library can hold.
 constexpr int max_depth = 20;
-// The velocity does not halve parts narrower than this. If a curve nearly turns on the spot, such halving would not
-// end.
+// Parts narrower than this are not halved because of the velocity. If a curve's derivative is nearly 0 somewhere, such halving
+// would not end.
 constexpr double narrowest_for_velocity = 1.0 / 32;
 
 // Collects the chords of parts. Each part is within max_error of its chord.
@@ -74,7 +74,7 @@ class Flattening {
 
   // Compares points of the part and of the chord. Each pair has equal shares of the part's and the chord's own lengths. The
   // distance of two such points is at most length^2 / 8 times the largest curvature, as for linear interpolation. Joints do not
-  // matter, because the direction is continuous there. If the curve may turn on the spot, the distance is at most the length.
+  // matter, because the direction is continuous there. If the curve's derivative may be 0, the distance is at most the length.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {

@@ -93,8 +93,8 @@ void count(const Level &level, LevelledGrid &made) {
   if (n > 1) made.n_vertices += (n + 1) * (n + 1);
 }
 
-// Counts the triangles with two equal corners. Most lie along a collapsed side of the patch, so only quads at the sides are
-// counted.
+// Counts the triangles with two equal corners. Most such triangles lie along a collapsed side of the patch, so only quads at the
+// sides are counted.
 void count_collapsed(LevelledGrid &made) {
   const QuadGrid &grid = made.grid;
   const std::size_t n_u = grid.u.size() - 1, n_v = grid.v.size() - 1;

@@ -131,7 +131,7 @@ bool names_fit(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 
   return false;
 }
 
-// The names determine which of the possible turns about the axis it is.
+// The names determine which of the possible orders about the axis is right.
 Order order_around(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle) {
   const Order turn = turn_of(landmarks, axis, middle);
   const std::size_t n = leaflets.n();

@@ -34,9 +34,9 @@ void for_each_array(const FieldSet &fields, const Visit &visit) {
   if (has(field_height) && has(RIIS_FIELD_GRADIENT)) visit(&NodeFields::height_gradient, fields.n_directions);
 }
 
-// The mean of the velocities of the leaflets that tie at a node. A leaflet's velocity is the mean over its tied points. The
-// constructor takes the velocity at the closest triangle. Afterwards the caller adds the tied points of the other leaflets,
-// leaflet by leaflet.
+// The mean of the velocities of the leaflets that are equally near to a node. A leaflet's velocity is the mean over its tied
+// points. The constructor takes the velocity at the closest triangle. Afterwards the caller adds the tied points of the other
+// leaflets, leaflet by leaflet.
 class MeanOfLeaflets {
  public:
   MeanOfLeaflets(std::int32_t closest_leaflet, Vec3 velocity) : closest_leaflet_(closest_leaflet) {
@@ -101,8 +101,7 @@ class TriangleFields {
   }
 
   void write(const Range &range) const {
-    // The nodes of a list lie far apart in memory. The coordinates of such nodes are therefore fetched while earlier nodes are
-    // computed.
+    // The nodes of a list lie far apart in memory. Their coordinates are therefore fetched while earlier nodes are computed.
     constexpr std::int64_t ahead = 4 * pairs_at_once;
     for (std::int64_t first = range.begin; first < range.end; first += pairs_at_once) {
       for (std::int64_t i = first + ahead; i < std::min(first + ahead + pairs_at_once, range.end); ++i)
@@ -188,7 +187,8 @@ class TriangleFields {
     for (std::int64_t lane = 0; has(RIIS_FIELD_GRADIENT) && lane < n; ++lane)
       for (std::int64_t k = 0; k < n_directions(); ++k) {
         const std::int64_t at = n_directions() * (first + lane) + k;
-        // At an edge or a vertex the normal is the way from the closest point, unless rounding decides the direction of this way.
+        // At an edge or a vertex, the normal is the direction from the closest point to the node, if rounding does not decide
+        // this direction.
         const bool has_way = (eight.on.at_border >> lane & 1) != 0 && !is_on_rim[lane] && distance[lane] > least_way_;
         view(made_.height_gradient)[at] = has_way ? (height[lane] > 0 ? 1 : -1) * view(made_.distance_gradient)[at]
                                                   : height_rate(eight, lane, k, is_on_rim[lane] != 0);
@@ -284,7 +284,7 @@ struct TieOrder {
   }
 };
 
-// Stores the numbers that the fields need vertex by vertex, so that the fields of a node read few places in memory.
+// Stores, for each vertex, the numbers that the fields need, so that the fields of a node read few places in memory.
 void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threads, FieldScratch &scratch) {
   const bool has_velocity = fields & RIIS_FIELD_VELOCITY, has_uv = fields & RIIS_FIELD_UV;
   if (!has_velocity && !has_uv) return;
@@ -429,7 +429,7 @@ void make_fields(const SearchRequest &request, std::int32_t fields, const NodeLi
 
 namespace {
 
-// Copies n numbers, unless they stay in their places.
+// Copies n numbers if their place changes.
 template <class Array>
 void copy_range(const Array &from, const Range &range, Array &to, std::int64_t at) {
   if (from.data() + range.begin != to.data() + at)

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0
-// The inverse of an area that depends on one number, such as a valve's orifice that depends on its opening. The area may jump by
-// a little, may grow in one part and fall in another, and has no derivative.
+// SPDX-License-Identifier: Apache-2.0 Finds numbers at which an area has given values. The area depends on one number, as a
+// valve's orifice depends on its opening. The area may jump slightly, may grow in one part of its range and fall in another part,
+// and has no derivative.
 // In: a function and a range. Out: numbers at which the area has given values.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace riis {
 
 class AreaSearch {
  public:
-  // Returns the area at a value, or nothing if there is none. find() needs an area at each value.
+  // Returns the area at a value, or nothing if the value has no area. find() needs an area at each value.
   using Area = std::function<std::optional<double>(double value)>;
 
   // A change by at most this share of the largest area may be a jump.
@@ -45,7 +45,7 @@ class AreaSearch {
 
  private:
   // The points from `first` to `last`, over which the area only grows or only falls, apart from jumps. No value between these two
-  // was refused.
+  // points was refused.
   struct Part {
     std::size_t first, last;
   };

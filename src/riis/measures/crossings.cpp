@@ -15,8 +15,8 @@
 namespace riis {
 namespace {
 
-// Measures how deep two triangles penetrate each other, and finds the segment that they have in common.
-// In: two triangles with an area, coordinates up to 1e60. Out: the penetration depth, the segment's middle and length.
+// Measures how deep two triangles penetrate each other, and finds the segment that they have in common. The triangles have an
+// area, and coordinates up to 1e60.
 
 using Triangle = std::array<Vec3, 3>;
 
@@ -26,8 +26,9 @@ struct CommonSegment {
 };
 
 // Finds the least overlap of two triangles over the directions that are passed to along(). A face of the Minkowski difference of
-// two triangles either has the normal of one triangle or is spanned by an edge of each. The least overlap over these normals is
-// the distance from the origin to the boundary of the difference. The distance to this boundary is the penetration depth.
+// two triangles either has the normal of one triangle or is spanned by one edge of each triangle. The least overlap over the
+// normals of these faces is the distance from the origin to the boundary of the difference. This distance is the penetration
+// depth.
 class Overlap {
  public:
   Overlap(const Triangle &a, const Triangle &b, double limit) : a_(a), b_(b), limit_(limit) {}

@@ -107,8 +107,8 @@ SpansOfLines inside(const Outline &outline, const ScanLines &lines) {
   return spans;
 }
 
-// Collects the intervals of convex shapes on the lines. A convex shape meets a line in at most one interval. Only for areas,
-// intervals of successive shapes are joined if they meet, so there are fewer to sort.
+// Collects the intervals of convex shapes on the lines. A convex shape meets a line in at most one interval. If only areas are
+// measured, intervals of successive shapes are joined where they meet, so that fewer intervals are sorted.
 template <class AnEnd>
 class Covered {
  public:
@@ -209,7 +209,7 @@ double total(const Spans &spans) {
   return sum;
 }
 
-// Sorts the spans, and joins those that meet.
+// Sorts the spans, and joins spans that meet.
 void join(Spans &spans) {
   std::sort(spans.begin(), spans.end(),
             [](const Interval<Place> &a, const Interval<Place> &b) { return a.begin.x < b.begin.x; });
@@ -223,7 +223,7 @@ void join(Spans &spans) {
   spans.resize(n);
 }
 
-// Measures the part of disjoint spans that no cover contains. The covers are joined.
+// Measures the part of disjoint spans that no cover contains. The covers must have been joined.
 double length_without(const Spans &spans, const Spans &covers) {
   double length = 0;
   for (const Interval<Place> &span : spans) {
@@ -238,10 +238,10 @@ double length_without(const Spans &spans, const Spans &covers) {
   return length;
 }
 
-// Measures the edges of the covers at the ends of the part of disjoint spans that no cover contains.
+// In disjoint spans, measures the edges of the covers at the ends of the uncovered part.
 double edge_without(const Spans &spans, std::vector<Interval<End>> covers) {
-  // Covers of folded leaflets may begin or end in one point. The order of such covers then says which edge counts, so the order
-  // is total.
+  // Covers of folded leaflets may begin or end in the same point. Their order then decides which edge counts, so the order must
+  // be total.
   std::sort(covers.begin(), covers.end(), [](const Interval<End> &a, const Interval<End> &b) {
     return std::tie(a.begin.x, a.end.x, a.begin.along, a.end.along) <
            std::tie(b.begin.x, b.end.x, b.begin.along, b.end.along);

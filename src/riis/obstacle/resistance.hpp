@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the resistive term of the momentum equation and its sums (paper, eq. "RIIS"; docs/theory/marks.md, "Resistance").
-// In: the nodes within the limit, with their fields. Out: the term and its sums, which are added to the caller's arrays.
+// Computes the resistive term of the momentum equation and its sums (paper, eq. "RIIS"; docs/theory/marks.md, "Resistance"). The
+// term at the nodes within the limit, and its sums, are added to the caller's arrays.
 #pragma once
 
 #include <riis/riis.h>
@@ -30,8 +30,8 @@ void add_resistance(const Marks &marks, const Resistance &resistance, const riis
 // fails, and adds nothing.
 void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow,
                   const riis_reaction &to);
-// Adds the flow's force on each vertex of the triangles that the nodes were marked with. The function fails if the triangles lack
-// the closest triangle of a node.
+// Adds the flow's force on each vertex of the triangles with which the nodes were marked. The function fails if the triangles
+// lack the closest triangle of a node.
 void add_vertex_reaction(const Marks &marks, const TriangleSet &triangles, const Resistance &resistance,
                          const riis_flow_arrays &flow, double *vertex_force);
 // Sums the caller's value over the nodes of the band on each side of the surface. Nodes beyond a rim do not count.

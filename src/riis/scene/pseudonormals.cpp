@@ -251,7 +251,7 @@ Pseudonormals::Rates Pseudonormals::rates_of(const TriangleSet &set, const doubl
   Rates made;
   resize(made.rim_edge, 3 * n);
   resize(made.corner, view(corner_).size());
-  // The edges of all triangles with the ends of an edge of the rim, in the order of their ends.
+  // The edges of triangles that have the same two ends as an edge of the rim, in the order of these ends.
   struct Edge {
     Ends ends;
     std::int64_t slot;

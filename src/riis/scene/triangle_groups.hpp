@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts neighbouring triangles into groups of up to 16, which is the form that the filters take (kernels/kernels.hpp).
-// In: a triangle set. Out: groups in the surface's frame, their bounds, and the unchanged corners of all triangles.
+// Puts neighbouring triangles into groups of up to 16, which is the form that the filters take (kernels/kernels.hpp). The groups
+// are in the surface's frame, and have bounds. The corners of all triangles are also kept unchanged.
 #pragma once
 
 #include <algorithm>
@@ -49,8 +49,8 @@ struct TriangleGroups {
   std::vector<TriangleGroup> groups;
   Bounds of_all;  // bounds of all corners, in the set's own coordinates
   std::vector<GroupBounds> bounds;
-  // Packs of groups_per_pack neighbouring groups in order. The last pack may have fewer. Only the groups' boxes along the
-  // coordinate axes, longest edges and corners are set. A pack has the corner of one of its groups.
+  // Packs of groups_per_pack neighbouring groups in order. The last pack may have fewer groups. Only a pack's box along the
+  // coordinate axes, its longest edge and its corner are set. The corner belongs to one of the pack's groups.
   std::vector<GroupBounds> packs;
   float longest_edge = 0;
   // True if each group has the same triangles as before and the groups are not much larger. Structures over the groups
