@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0
-// The band around a surface, with an offset: all rules by which the band steps aside (docs/theory/marks.md, "Offset").
-// In: a node's distance and height. Out: the half thickness that marks the node, and its distance from the middle of the band.
+// SPDX-License-Identifier: Apache-2.0 The band around a surface, with all rules for a band with an offset (docs/theory/marks.md,
+// "Offset"). A node's distance and height determine the half thickness that marks the node, and the node's distance from the
+// middle of the band.
 #pragma once
 
 #include <cmath>
@@ -31,7 +31,7 @@ struct Band {
     if (!steps_aside() || !(distance > 0)) return distance;
     const double cosine = height / distance, along = offset * cosine;
     const double root = std::sqrt(1 - offset * offset * ((1 - cosine) * (1 + cosine)));
-    // No branch subtracts numbers of one sign. Off the rim the root is 1.
+    // Neither formula subtracts numbers of the same sign, so no digits are lost. Off the rim the root is 1.
     const double made =
         root == 1 || along >= 0 ? distance / (along + root) : distance * (root - along) / ((1 - offset) * (1 + offset));
     double least = distance / reach_of(1);
@@ -39,8 +39,8 @@ struct Band {
     return made < least ? least : made;
   }
   bool holds(double distance, double height) const {
-    // The sign of the equation at the half thickness decides, without a root. Only near the edge of the band, rounding could
-    // decide otherwise.
+    // The sign of the equation at the half thickness decides without a root. Only near the edge of the band could rounding change
+    // this decision.
     constexpr double near_edge = 1e-6;
     const double e = half_thickness,
                  over = ((1 - offset) * (1 + offset) * e + 2 * offset * height) * e - distance * distance;

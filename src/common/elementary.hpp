@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sines, cosines and arc tangents whose bits depend on the argument alone. A C library takes other code for these functions on
-// other processors, and the last bits differ. The functions of this file have only sums, products, quotients and roots, which
-// IEEE 754 rounds in one way. Arguments are finite. Errors are in units of 2^-53 = 1.1e-16, and test_elementary checks them.
+// Sines, cosines and arc tangents whose bits depend on the argument alone. A C library may use different code for these functions
+// on different processors, so that the last bits differ. The functions of this file consist only of sums, products, quotients and
+// roots, which IEEE 754 rounds in one way. Arguments are finite. Errors are in units of 2^-53 = 1.1e-16, and test_elementary
+// checks them.
 //
 // The polynomials are in the square of the argument. The polynomials interpolate the functions at Chebyshev points, except the
-// one of sine_of_pi. The polynomial of sine_of_pi is a fit by least squares, whose third coefficient is five units lower in its
-// last place. So no value exceeds 1.
+// polynomial of sine_of_pi. The polynomial of sine_of_pi is a least-squares fit. Its third coefficient is five units lower in its
+// last place, so that no value exceeds 1.
 #pragma once
 
 #include <cmath>
@@ -59,7 +60,7 @@ inline SineCosine turned_by_quarters(SineCosine of, double quarters) {
 }  // namespace elementary
 
 // Returns sin(pi u) for |u| <= 1/2, with an error of 3.5 units. The sine is exact at 0 and at both ends of this range, and never
-// beyond 1.
+// larger than 1 in magnitude.
 inline double sine_of_pi(double u) {
   constexpr double in_squares[] = {3.141592653589793,     -5.167712780049953,      2.5501640398765839,
                                    -0.5992645293034821,   0.08214588638811002,     -0.0073704292175835835,
@@ -73,7 +74,7 @@ inline double cosine_of_pi(double t) { return sine_of_pi(0.5 - t); }
 // Returns sine and cosine of an angle in radians, with errors of 2 units. Beyond 1e6 the error grows with the angle.
 inline SineCosine sine_cosine(double radians) {
   using elementary::half_pi;
-  // Three parts of pi/2. A number of quarters below 2^20 times one of the first two parts is exact.
+  // pi/2 in three parts. If the number of quarters is below 2^20, its product with one of the first two parts is exact.
   constexpr double first = 0x1.921fb544p+0, second = 0x1.0b4611a6p-34, third = 0x1.3198a2e037073p-69;
   const double near = std::abs(radians) <= 1e6 ? radians : std::remainder(radians, 2 * pi);
   const double quarters = std::floor(near / half_pi + 0.5);
@@ -111,7 +112,7 @@ inline double arc_tangent(double y, double x) {
   return std::copysign(angle, y);
 }
 
-// Returns the angle from 0 to pi whose cosine is given, -1 to 1, with a relative error of 4 units.
+// Returns the angle from 0 to pi with the given cosine, with a relative error of 4 units. The cosine is from -1 to 1.
 inline double arc_cosine(double cosine) { return arc_tangent(std::sqrt((1 - cosine) * (1 + cosine)), cosine); }
 
 // Returns exp(x) - 1 for x <= 0, with a relative error of 7 units.

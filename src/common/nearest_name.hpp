@@ -35,8 +35,7 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return rows[a.size() % 3][b.size()];
 }
 
-// Compares candidates, and keeps the nearest. Of several equally near candidates, it keeps the first. It ignores very different
-// names.
+// Compares candidates, and keeps the nearest. Among equally near candidates, it keeps the first. It ignores very different names.
 class NearestName {
  public:
   explicit NearestName(std::string_view name)
@@ -48,7 +47,7 @@ class NearestName {
     least_ = distance;
     nearest_ = candidate;
   }
-  // Returns a view of the nearest candidate, or "" if none is near.
+  // Returns a view of the nearest candidate, or "" if no candidate is near.
   std::string_view nearest() const { return nearest_; }
 
  private:

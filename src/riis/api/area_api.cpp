@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the arguments of riis_find_by_area, and makes the surfaces whose areas measures/area_search.hpp inverts.
+// Checks the arguments of riis_find_by_area, and makes the surfaces for the search (measures/area_search.hpp).
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -41,7 +41,7 @@ Sought sought_by(const std::string &name) {
   return name == "opening" ? Sought::opening : name == "scale" ? Sought::scale : Sought::parameter;
 }
 
-// The range to search, and the value that a found value shall be near.
+// The range to search, and the value to which a found value shall be near.
 struct Values {
   double from, to, near;
 };
@@ -73,7 +73,8 @@ class AreaTrials {
 
   bool seeks_opening() const { return sought_ == Sought::opening; }
 
-  // Samples of the opening have equal distances, as in the tables of openings. Sizes differ by factors.
+  // Samples of the opening have equal distances, as in the tables of openings. Neighbouring samples of a size differ by a
+  // constant factor.
   bool grows(const Values &values) const { return !seeks_opening() && values.from > 0; }
 
   // Returns the area at a value, or nothing for a value that makes no valve or no orifice. After the samples, such a value
@@ -218,7 +219,7 @@ riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t
     points.reserve(static_cast<std::size_t>(n_areas));
     for (std::int64_t i = 0; i < n_areas; ++i) {
       auto point = found.find(areas[i], searched.near, whole.tolerance);
-      // Closed leaflets leave slits, which no measurement sees.
+      // Slits remain between closed leaflets, so the area 0 stands for the least area.
       if (!point && areas[i] == 0 && trials.seeks_opening()) point = found.least();
       if (!point) trials.fail_out_of_reach(i, areas[i], found, searched);
       points.push_back(*point);

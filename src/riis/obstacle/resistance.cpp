@@ -24,7 +24,7 @@ double coefficient_at(const Resistance &resistance, double distance) {
 }
 
 // Returns the derivative of K with respect to the distance from the middle of the band. K is flat in the middle and at the edge
-// of the band. The sine is computed from the nearer of these two places, where it then loses fewer digits.
+// of the band. The sine is computed from the nearer of these two places, because it then loses few digits near both.
 double slope_at(const Resistance &resistance, double distance) {
   const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;

@@ -19,7 +19,7 @@
 
 // Implements concurrent_walk with standard threads for the thread sanitizer, which does not understand TBB. The version with
 // standard threads guarantees no more order than TBB does. A range runs after the call of add that passed it on, and the walk
-// ends after all its ranges. Relaxed atomics do all other counting, because they order nothing. A lock around a common queue
+// ends after all its ranges. Relaxed atomics do all other counting, because they impose no order. A lock around a common queue
 // would put the bodies in order, and thus hide their races.
 namespace riis {
 

@@ -152,11 +152,11 @@ int parallel_for(std::int64_t n_blocks, int n_threads, LoopBody body) {
   if (n_blocks <= 1 || n_threads == 1) return run_alone(n_blocks, body);
   if (omp_in_parallel() || omp_get_proc_bind() != omp_proc_bind_false) return openmp_for(n_blocks, n_threads, body);
 #if defined(RIIS_STD_THREADS)
-  // The thread sanitizer then sees the loops of a time step on a team.
+  // Under the thread sanitizer, the loops of a time step always run on a team, so that the sanitizer sees them there.
   return team_for(n_blocks, n_threads, body, loop_choice);
 #else
   const std::int64_t begin = nanoseconds();
-  // More threads than processors wait for each other in every loop of OpenMP.
+  // If there are more threads than processors, the threads wait for each other in every loop of OpenMP.
   if (n_threads > processors_of_machine() || loop_choice.takes_team(begin))
     return team_for(n_blocks, n_threads, body, loop_choice);
   TimesOfCaller of_caller{begin, begin};

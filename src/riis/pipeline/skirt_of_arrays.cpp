@@ -73,8 +73,8 @@ std::vector<OpenEdge> chosen_edges(const TriangleSet &set) {
   return best;
 }
 
-// Returns the open edges between attached vertices. Each attached vertex must have such an edge, because a vertex elsewhere was
-// named by mistake.
+// Returns the open edges between attached vertices. Each attached vertex must have such an edge, because a vertex without such an
+// edge was named by mistake.
 std::vector<OpenEdge> named_edges(const TriangleSet &set, const UserFaces &faces) {
   std::int64_t n_places = 0;
   const auto place = distinct_positions(set, n_places);
@@ -150,7 +150,7 @@ class SkirtLine {
       const Moving a = vertex(edge.from) - centre_, b = vertex(edge.to) - centre_;
       area = area + MovingNumber{0.5, 0} * cross(a, b);
     }
-    // As for valves from patches, the area is compared with that of a circle of this length.
+    // As for valves from patches, the area is compared with the area of a circle of this length.
     const MovingNumber size = length_of(area);
     if (!(size.now > 1e-3 * whole.now * whole.now)) return;
     direction_ = area / size;

@@ -114,7 +114,7 @@ namespace {
 // A pair counts if its depth is at least this many half thicknesses, the default of riis_find_crossings.
 constexpr double least_depth = 1e-6;
 
-// Logs a warning if leaflets cross deeper than touching leaflets can. Returns whether it did.
+// Logs a warning if leaflets cross deeper than touching leaflets can. Returns whether it has logged a warning.
 bool say(const Valve &valve, const Surface &surface, int n_threads) {
   const TriangleSet &set = surface.triangles();
   const Crossings pairs =
@@ -166,8 +166,7 @@ void CrossingWatch::look(const Valve &valve, const Surface &surface, int n_threa
   try {
     shape.is_said = say(valve, surface, n_threads);
   } catch (...) {
-    // The search ran out of memory. The lack of memory is no failure, because the caller did not request the search and the
-    // surface is good.
+    // The search ran out of memory. This is no failure, because the caller did not request the search and the surface is good.
   }
 }
 

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// A surface that can be updated, with the data that the next update continues from or reuses.
-// In: a valve, the caller's arrays or keyframes. Out: the surface, and the time of its last update in seconds.
+// SPDX-License-Identifier: Apache-2.0 A surface that can be updated, with the data that the next update needs or reuses. The
+// surface comes from a valve, the caller's arrays or keyframes. It records how many seconds its last update took.
 #pragma once
 
 #include <riis/riis.h>
@@ -19,12 +18,11 @@
 namespace riis {
 
 // Logs a warning if leaflets go through each other, once for each shape of the valve.
-// In: the valve and its new surface. Out: a log message or none.
 class CrossingWatch {
  public:
-  // In each range of the opening, it examines the first surface of each shape, until it has warned about the shape. Without a log
-  // function the search does nothing and allocates nothing. The search never fails, because the surface itself is good. Without
-  // memory for the search there is no warning.
+  // In each range of the opening, this function examines the first surface of each shape, until it has warned about the shape.
+  // Without a log function the search does nothing and allocates nothing. The search never fails, because the surface itself is
+  // good. If the search lacks memory, there is no warning.
   void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
 
  private:
@@ -45,7 +43,7 @@ class CrossingWatch {
 
 class UpdatableSurface {
  public:
-  // Returns the surface of the last successful update. There must have been one.
+  // Returns the surface of the last successful update. There must have been an update.
   const Surface &surface() const { return *surface_; }
   const SurfaceSeconds &seconds() const { return seconds_; }
 
@@ -54,7 +52,7 @@ class UpdatableSurface {
   // chooses the fixed triangulation. An update without this option ends the fixed triangulation.
   void update_from_valve(const Valve &valve, const EarlierValve *earlier, const SurfaceRequest &request,
                          const ValveAccuracy &accuracy);
-  // Updates the surface from arrays. If the arrays contain no faces, their vertices are for the faces of the last arrays.
+  // Updates the surface from arrays. If the arrays contain no faces, their vertices belong to the faces of the last arrays.
   void update_from_arrays(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request);
   // Takes the vertices at a time and the mean velocities since dt before that time (Keyframes::at).
   void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,
