@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 The band around a surface, with all rules for a band with an offset (docs/theory/marks.md,
-// "Offset"). A node's distance and height determine the half thickness that marks the node, and the node's distance from the
-// middle of the band.
+// SPDX-License-Identifier: Apache-2.0
+// The band around a surface, with all rules for a band with an offset (docs/theory/marks.md, "Offset"). A node's distance and
+// height determine the half thickness that marks the node, and the node's distance from the middle of the band.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Joins numbers into disjoint sets, and gives points at the same place the same number.
+// SPDX-License-Identifier: Apache-2.0
+// Joins numbers into disjoint sets, and gives points at the same place the same number.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 These checks serve landmarks along an annulus and landmarks along a housing.
+// SPDX-License-Identifier: Apache-2.0
+// These checks serve landmarks along an annulus and landmarks along a housing.
 #pragma once
 
 #include "geometry/vec3.hpp"

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Finds numbers at which an area has given values. The area depends on one number, as a
-// valve's orifice depends on its opening. The area may jump slightly, may grow in one part of its range and fall in another part,
-// and has no derivative.
+// SPDX-License-Identifier: Apache-2.0
+// Finds numbers at which an area has given values. The area depends on one number, as a valve's orifice depends on its opening.
+// The area may jump slightly, may grow in one part of its range and fall in another part, and has no derivative.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The checked cells of the caller, and the edges of each shape of cell.
+// SPDX-License-Identifier: Apache-2.0
+// The checked cells of the caller, and the edges of each shape of cell.
 #pragma once
 
 #include <riis/riis.h>

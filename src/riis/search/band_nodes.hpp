@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Places single nodes relative to a band with an offset.
-// For a point at any distance from a surface, this file finds the half thickness that marks the point, and the point's side.
+// SPDX-License-Identifier: Apache-2.0
+// Places single nodes relative to a band with an offset. For a point at any distance from a surface, this file finds the half
+// thickness that marks the point, and the point's side.
 #pragma once
 
 #include "search/search.hpp"

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Finds the closest points on a surface's triangles for many points that belong to no mesh.
-// The points and the results are in the caller's arrays.
+// SPDX-License-Identifier: Apache-2.0
+// Finds the closest points on a surface's triangles for many points that belong to no mesh. The points and the results are in the
+// caller's arrays.
 #pragma once
 
 #include <riis/riis.h>

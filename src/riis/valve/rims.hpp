@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The rim of a valve: the sides that only one image of one patch has. An image is a turned or
-// mirrored copy.
+// SPDX-License-Identifier: Apache-2.0
+// The rim of a valve: the sides that only one image of one patch has. An image is a turned or mirrored copy.
 // This file finds the sides on the rim, and tells whether an edge of a triangle lies on the rim.
 #pragma once
 
