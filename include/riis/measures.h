@@ -32,7 +32,7 @@ RIIS_API riis_status riis_surface_get_n_leaflets(const riis_surface *surface, in
 RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
                                               int64_t struct_size);
 
-/* The outline of an orifice. A valve and a surface from arrays or keyframes with its triangles have the same outline. */
+/* The outline of an orifice. A surface from arrays or keyframes with a valve's triangles has the same outline as the valve. */
 enum {
   RIIS_OUTLINE_NONE = 0,      /* the boundary of the leaflets does not surround a centre, or encloses no area */
   RIIS_OUTLINE_DISC = 1,      /* bileaflet: the disc of radius about the z axis */
@@ -88,8 +88,9 @@ typedef struct riis_area_search {
   int64_t struct_size;                 /* set by the init function */
   const riis_surface_options *surface; /* options of the valve's surface. NULL, the default, stands for defaults */
   const riis_resistance *resistance;   /* as in riis_surface_get_orifice. NULL, the default, stands for defaults */
-  double from, to;    /* the values to search, from < to. Default NaN: 0 to 1 for the opening, a tenth to ten times the
-                         scale, half to twice a parameter, and all shares if a share is 0. Other zeros need both */
+  double from, to;    /* the range to search, from < to. The default NaN stands for 0 to 1 for the opening, a tenth to ten times
+                         the scale, and half to twice a parameter. For a share that is 0 it stands for all shares. Any other
+                         parameter that is 0 needs both numbers */
   double tolerance;   /* the tolerance of an area, as a share of the area, 1e-12 to 1e-2. Default 1e-8 */
   int32_t n_samples;  /* the number of values that are tried first, 2 to 100,001. Default 33 */
   int32_t area;       /* RIIS_AREA_*, default RIIS_AREA_GEOMETRIC */
@@ -123,10 +124,9 @@ typedef struct riis_area_range {
  * the size nearest to the present size. With RIIS_TRIANGULATION_ADAPTED the area jumps by up to 1e-4 of the largest area where
  * the triangles change. An area inside a jump gives the nearer end of the jump. The search may miss areas that occur only between
  * two neighbouring samples.
- * Errors: RIIS_INVALID_ARGUMENT naming the area. If the area is out of reach, the message has the range.
- * RIIS_INVALID_PARAMETER for an unknown name, for a parameter with three values, for a valve with one state or no orifice, and
- * if the name does not change the area. In errors of riis_surface_create the message also has the opening or size. On an error
- * nothing is written. */
+ * Errors: RIIS_INVALID_ARGUMENT naming the area. If the area is out of reach, the message names the range. RIIS_INVALID_PARAMETER
+ * for an unknown name, for a parameter with three values, for a valve with one state or no orifice, and if the name does not
+ * change the area. In errors of riis_surface_create the message also has the opening or size. On an error nothing is written. */
 RIIS_API riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t n_areas,
                                        const double *areas, const riis_area_search *search, double *values,
                                        double *reached, riis_area_range *range, int64_t struct_size);

@@ -63,9 +63,9 @@ typedef struct riis_grid {
 } riis_grid;
 RIIS_API riis_status riis_grid_init(riis_grid *grid, int64_t struct_size); /* the defaults */
 /* Makes a mesh from the axes of a grid, and stores nothing for each node. A marking gives the same bits as on a mesh that
- * riis_mesh_create makes of the same nodes. The edges are those of riis_adjacency_create_from_grid, unless
- * riis_mesh_set_adjacency gives the mesh other edges. Axes are not periodic. Markings refuse RIIS_SEARCH_NEIGHBOR and
- * RIIS_SEARCH_PAPER, and sampling and minimisation for more than 10^8 nodes.
+ * riis_mesh_create makes from the same nodes. The edges are those of riis_adjacency_create_from_grid, or the edges that
+ * riis_mesh_set_adjacency gives the mesh. Axes are not periodic. Markings refuse RIIS_SEARCH_NEIGHBOR and RIIS_SEARCH_PAPER, and
+ * sampling and minimisation for more than 10^8 nodes.
  *   grid  the axes, which are copied. Its n_nodes is the n_nodes of the mesh in every other call
  * Errors: RIIS_INVALID_MESH naming the axis, the index and the value; RIIS_LIMIT_EXCEEDED for numbers from 2^40 on. */
 RIIS_API riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh);

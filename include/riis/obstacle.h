@@ -115,8 +115,8 @@ typedef struct riis_band {
   const double *weight; /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
 } riis_band;
 RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* the defaults */
-/* Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim, and nodes on neither
- * side, are left out. With an open valve the two sides have no meaning. With the offset o of the surface, the distance is |s - o
+/* Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim, and nodes with side
+ * 0, are left out. With an open valve the two sides have no meaning. With the offset o of the surface, the distance is |s - o
  * eps|, and the sign of s - o eps is the side. Here s is the signed distance, and eps is the half thickness of the marking.
  * Errors: RIIS_INVALID_ARGUMENT also for a field that the marks lack. */
 RIIS_API riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *band,

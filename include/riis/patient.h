@@ -116,8 +116,8 @@ RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, i
  * must satisfy three conditions:
  * - The posterior horn and the trigones are on their own sides of the annulus.
  * - The axis of the fitted valve is at most 20 degrees from the annulus' normal.
- * - The fitted AP_diameter agrees with the depth that the horns or the annulus show. The difference may be a twelfth of
- *   this depth or five times the noise.
+ * - The fitted AP_diameter agrees with the depth that the horns or the annulus show. The difference is at most a twelfth of this
+ *   depth, or five times the noise.
  * RIIS_INVALID_PARAMETER for a valve from patches, an unknown name in held, and sizes that do not fit together. */
 RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
                                 const riis_placement_arrays *arrays, riis_placement *placement,
@@ -144,7 +144,8 @@ RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t 
 
 /* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, the warp is the identity.
  *   sources  3 to 1000 landmarks. Landmarks nearly in a plane do not determine the map across that plane. The map then stretches
- *            the plane's normal as much as the plane, and keeps the normal at right angles (riis_warp_info.is_planar)
+ *            the direction across the plane as much as the plane, and keeps it at right angles to the plane
+ *            (riis_warp_info.is_planar)
  * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
  * landmarks on a line. */
 RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
@@ -189,11 +190,11 @@ RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *poi
  * Between the openings the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches then lie between
  * the mapped curves. Error bounds, fixed triangulations and velocities therefore hold as for any valve. With
  * RIIS_TRIANGULATION_FIXED the warp may move. Landmarks of `closed` cut the curves of the closed valve, and landmarks of `open`
- * cut the curves of the open valve. The warped valve thus passes through the mapped landmarks on its curves. An annulus that
- * moves needs two valves in turn. In each step call riis_warp_set_targets and this function for one of the two valves, and pass
- * both valves to riis_surface_update_moving. Either both valves have a warp, or neither has one. A call that makes or updates a
- * surface refuses a warp that folds at the valve or turns a part of the valve over: RIIS_INVALID_PARAMETER names the place and
- * the value.
+ * cut the curves of the open valve. The warped valve thus passes through the mapped landmarks on its curves. A moving annulus
+ * needs two valves, which take turns. In each step call riis_warp_set_targets and this function for one of the two valves, and
+ * pass both valves to riis_surface_update_moving. Either both valves have a warp, or neither has one. A call that makes or
+ * updates a surface refuses a warp that folds at the valve or turns a part of the valve over: RIIS_INVALID_PARAMETER names the
+ * place and the value.
  * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`; RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
 RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open);
 

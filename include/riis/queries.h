@@ -23,8 +23,8 @@ typedef struct riis_closest {
   double normal[3];       /* unit normal of the triangle, by the right-hand rule */
   int64_t triangle_id;    /* the lowest id of the closest triangles */
   int32_t leaflet_id;     /* of the triangle */
-  int32_t side;           /* +1 on the side to which normals point (downstream), -1 on the other side, 0 on the surface, and level
-                             with the surface beyond its rim. At a shared edge or vertex (equal placed coordinates), the
+  int32_t side;           /* +1 on the side to which normals point (downstream), -1 on the other side, 0 on the surface and in its
+                             continuation beyond the rim. At a shared edge or vertex (equal placed coordinates), the
                              angle-weighted mean of the normals decides (Baerentzen, Aanaes 2005) */
 } riis_closest;
 /* Finds the closest point of the surface at any distance, in double precision, as a loop over all triangles
@@ -98,7 +98,7 @@ RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys th
  * (docs/theory/crossings.md). Triangles that touch or lie in one plane have depth 0. Triangles of one leaflet that share a vertex
  * (equal placed coordinates) are neighbours, not a pair. The call uses the triangles, whatever the surface's measure is. Where
  * smooth leaflets touch, their triangles may cross by up to twice riis_surface_info.error_bound. A log function (riis_set_log)
- * gets warnings of deeper crossings without this call.
+ * gets warnings of deeper crossings even without this call.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
 RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings);

@@ -60,9 +60,9 @@ RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t 
                                              const double **xyz);
 
 /* Gives the axes of a mesh whose nodes are a rectilinear grid, for riis_mesh_create_grid. Such a mesh comes from a .vti or .vtr
- * file, or from a legacy file of these kinds. It has two or more nodes along each axis, and coordinates that strictly ascend. The
- * cells are hexahedra. Coordinates and cells are stored only after a call that needs them, such as riis_vtk_mesh_get_nodes.
- * riis_vtk_mesh_set_marks and the other calls for arrays do not need them.
+ * file, or from a legacy file of these kinds. The mesh has two or more nodes along each axis, and coordinates that strictly
+ * ascend. The cells are hexahedra. Coordinates and cells are stored only after a call that needs them, such as
+ * riis_vtk_mesh_get_nodes. riis_vtk_mesh_set_marks and the other calls for arrays do not need them.
  *   grid  ni, nj and nk are 0 for any other mesh, and after riis_vtk_mesh_use_centers or riis_vtk_mesh_choose_cells. x,
  *         y and z are valid until the mesh is destroyed */
 RIIS_API riis_status riis_vtk_mesh_get_axes(const riis_vtk_mesh *mesh, riis_grid *grid, int64_t struct_size);
@@ -141,7 +141,7 @@ RIIS_API riis_status riis_vtk_mesh_set_unit(riis_vtk_mesh *mesh, const char *nam
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
 /* Gives the median length of edges. The edges of volume cells count, as in riis_vtk_mesh_create_adjacency, and the edges of all
  * faces except polygons. The length is 0 if the mesh has no such cells. An edge counts once for each of its cells. At most 20,000
- * cells, at equal distances in the list, are measured. */
+ * cells, evenly spaced in the list, are measured. */
 RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length);
 
 /* Keeps only the cells with certain values in a cell array, and their nodes. An example is the fluid of a mesh that also has the
@@ -152,9 +152,9 @@ RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, do
  *   n_chosen  the number of cells with such a value; only volume cells count if the mesh has some. NULL refuses none
  * Errors: RIIS_INVALID_ARGUMENT if there is no such array or name; the mesh is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_choose_cells(riis_vtk_mesh *mesh, const char *where, int64_t *n_chosen);
-/* Gives a cell array that probably numbers domains. The volume cells have 2 to 16 different whole numbers in this array.
- * Somewhere two cells of one type with a common node have different numbers. Arrays named for something else, such as "rank", do
- * not count.
+/* Gives a cell array that probably numbers domains. The volume cells have 2 to 16 different whole numbers in this array. At least
+ * one pair of cells of the same type with a common node has different numbers. Arrays named for something else, such as "rank",
+ * do not count.
  *   array     its name, until the next call or the mesh's destruction. "" if there is none
  *   n_values  the number of its values; 0 if there is none
  *   values    (n_values), ascending. NULL if they are not wanted */
@@ -259,9 +259,9 @@ typedef struct riis_vtk_surface riis_vtk_surface;
  *             or .ply
  *   leaflets  the name of the cell array of leaflet ids, one whole number >= 0 for each cell. The array must
  *             exist. NULL stands for riis_leaflet, which may be missing
- * The point array riis_attached, if the file has it, becomes riis_surface_arrays.attached. It has one number for each point.
- * A quad is cut from its first corner to its third. If this line runs outside a concave quad, the cut goes
- * from the second corner to the fourth, with the same winding.
+ * The point array riis_attached, if the file has it, becomes riis_surface_arrays.attached. This array has one number for each
+ * point. A quad is cut from its first corner to its third. If this line runs outside a concave quad, the cut goes from the second
+ * corner to the fourth, with the same winding.
  * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the arrays that exist. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflets, riis_vtk_surface **surface);
 /* Makes a surface of the faces that only one volume cell of the mesh has. This surface is the wall around the blood, and its
@@ -283,10 +283,9 @@ RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
 RIIS_API riis_status riis_vtk_surface_get_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays,
                                                  int64_t struct_size);
 
-/* Writes to a file exactly the triangles that answer queries, after placement. Points are Float64. Cell arrays
- * are riis_leaflet, riis_patch (Int32) and riis_triangle (Int64). Point arrays are riis_uv (2 x Float64) for
- * valves, riis_velocity (3 x Float64) if the surface's last update gave velocities, and riis_attached (UInt8) if the
- * surface has an attachment: 1 at its vertices.
+/* Writes exactly the triangles that answer queries to a file, after placement. Points are Float64. Cell arrays are riis_leaflet,
+ * riis_patch (Int32) and riis_triangle (Int64). Point arrays are riis_uv (2 x Float64) for valves, riis_velocity (3 x Float64) if
+ * the surface's last update gave velocities, and riis_attached (UInt8) if the surface has an attachment: 1 at its vertices.
  *   path  ends in .vtp */
 RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const char *path);
 

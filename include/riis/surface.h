@@ -30,7 +30,7 @@ enum {
   RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
   RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
   RIIS_LEAFLET_HOUSING = 2,     /* bileaflet: the housing's wall, if ring_height is not 0 */
-  RIIS_LEAFLET_SKIRT = 3        /* the skirt of a valve of any kind but bileaflet, if skirt_length is not 0. The skirt has this
+  RIIS_LEAFLET_SKIRT = 3        /* the skirt of a valve of any kind except bileaflet, if skirt_length is not 0. The skirt has this
                                    id, or the leaflets' largest leaflet_id + 1 if that number is larger, as for four cusps. A
                                    skirt of arrays gets its id by the same rule. riis_surface_info tells the id */
 };
@@ -69,7 +69,8 @@ enum {
 /* Options of a surface. The placement of a valve or of arrays is x -> scale * rotation * x + translation. */
 typedef struct riis_surface_options {
   int64_t struct_size;     /* set by the init function */
-  double half_thickness;   /* d_min (paper, 4.2), mesh units, 1e-50 to 1e50. Default RIIS_AUTO: 0.1 * scale */
+  double half_thickness;   /* the half thickness of the band, in mesh units, 1e-50 to 1e50: d_min in the paper (4.2). Default
+                              RIIS_AUTO: 0.1 * scale */
   double tolerance;        /* 1e-6 to 1, default 0.05. Distances to a valve's triangles and to its smooth
                               surface differ by at most tolerance * half_thickness (docs/theory.md) */
   double scale;            /* 1e-12 to 1e12, default 1 */
@@ -126,10 +127,11 @@ typedef struct riis_surface_arrays {
   int32_t id_bits;           /* of vertex_ids */
   int32_t index_base;        /* of vertex_ids */
   int32_t real_bits;         /* of vertices and velocities */
-  double skirt_length;       /* the length of a skirt before placement: a strip from the attachment outwards. The length is 1e-4
-                                to 10 times the mean distance of the attachment from its axis. 0, the default: no skirt */
-  const uint8_t *attached;   /* (n_vertices): not 0 for the vertices of the attachment. The attachment consists of the open edges
-                                whose two vertices are attached. NULL: with a skirt, the call chooses the attachment */
+  double skirt_length;       /* the length of a skirt before placement. A skirt is a strip from the attachment outwards. The
+                                length is 1e-4 to 10 times the mean distance of the attachment from its axis. 0, the default: no
+                                skirt */
+  const uint8_t *attached;   /* (n_vertices): above 0 for the vertices of the attachment. The attachment consists of the open
+                                edges whose two vertices are attached. NULL: with a skirt, the call chooses the attachment */
   const double *skirt_lengths; /* (n_vertices): the skirt's lengths at the attached vertices, at most skirt_length. A length below
                                   the lower limit of skirt_length counts as this limit. NULL: skirt_length everywhere */
 } riis_surface_arrays;
@@ -141,8 +143,8 @@ RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64
  * 1e-60, or if its height over that edge is at most 1e-12 of the edge.
  * A skirt leads away from an axis: the line through the attachment's centroid along the attachment's vector area
  * (docs/theory/skirt.md). The skirt's vertices and triangles come after the caller's vertices and triangles. Without `attached`,
- * the attachment is the closed line of open edges that encloses the largest area. The line must enclose 0.8 of the leaflets'
- * outline (RIIS_OUTLINE_BOUNDARY).
+ * the attachment is the closed line of open edges that encloses the largest area. The line must enclose at least 0.8 of the area
+ * of the leaflets' outline (RIIS_OUTLINE_BOUNDARY).
  * Errors: RIIS_LIMIT_EXCEEDED for too many triangles; RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying
  * why an attachment is not found; RIIS_INVALID_ARGUMENT for a length of the skirt out of range. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
@@ -165,7 +167,7 @@ RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, cons
 /* Destroys the surface. Marks that were made with the surface stay. */
 RIIS_API void riis_surface_destroy(riis_surface **surface);
 
-/* The size of a surface, and the seconds that its last create or update took. */
+/* The size of a surface, and the wall times of the last call that made or updated it. */
 typedef struct riis_surface_info {
   int64_t n_vertices;        /* as riis_triangles.n_vertices */
   int64_t n_triangles;       /* triangles that answer queries */
@@ -173,10 +175,9 @@ typedef struct riis_surface_info {
   double half_thickness;     /* mesh units */
   double area;               /* of all triangles, mesh units squared */
   double lower[3], upper[3]; /* bounds of the triangles, mesh units */
-  double seconds_triangles;  /* wall time of the last create or update: for checks and triangles */
-  double seconds_scene;      /* wall time of the last create or update: for groups of triangles, sampling,
-                                minimisation. Embree's tree is not included, because the first query that needs the tree builds
-                                it */
+  double seconds_triangles;  /* wall time of the last call that made or updated the surface: for checks and triangles */
+  double seconds_scene;      /* wall time of the same call: for groups of triangles, sampling, minimisation. Embree's tree is not
+                                included, because the first query that needs the tree builds it */
   double error_bound;        /* the largest possible difference between a point's distances to the triangles and to the smooth
                                 valve; at most tolerance * half_thickness. 0 for a surface from arrays */
   int64_t largest_leaflet_id; /* of the triangles */
@@ -225,7 +226,7 @@ typedef struct riis_attachment {
 /* Gives the attachment of a valve's surface, until the surface's next update or its destruction.
  * - A cusp is attached at the sinus, u = 1, from the root to the commissures.
  * - A mitral leaflet is attached at the annulus, v = 0.
- * - A valve from patches is attached at the sides v = 0 of only one patch.
+ * - A valve from patches is attached at the sides v = 0 that belong to only one patch.
  * - A bileaflet valve has no attachment, because pivots hold its leaflets.
  * - A surface from arrays or keyframes has an attachment if they have `attached` or a skirt.
  * A skirt continues the leaflets outwards, and does not change the attachment.

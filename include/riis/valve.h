@@ -31,15 +31,16 @@ RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy)
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by its name in the paper. riis_surface_create checks whether all values fit together.
- *   name      such as "root_radius", or "right.leaflet_angle", "commissure_0.fusion" and "bump_0.open" of one part. The
- *             name "leaflet_angle" means this parameter of all parts, unless the valve itself has such a parameter
+ *   name      such as "root_radius". Names such as "right.leaflet_angle", "commissure_0.fusion" and "bump_0.open" mean the
+ *             parameter of one part. The name "leaflet_angle" means this parameter of all parts, or the valve's own parameter if
+ *             the valve itself has it
  *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
  *   values    (n_values), within the parameter's range
  * Two parameters change the whole valve:
- * - "opening", 0 to 1, moves the valve from a closed to an open state. One set of parameters describes both states.
- *   The default is 1 (open) for the mitral valve, and 0 for others. The aortic valve at opening 0 is the paper's
- *   closed state, which leaves a hole. A valve from patches has only opening 0 until riis_valve_set_open_state. To
- *   move a valve, set "opening" and call riis_surface_update.
+ * - "opening", 0 to 1, moves the valve from a closed to an open state. One set of parameters describes both states. The default
+ *   is 1 (open) for the mitral valve, and 0 for other valves. The aortic valve at opening 0 is the paper's closed state, which
+ *   leaves a hole. A valve from patches has only opening 0 until riis_valve_set_open_state. To move a valve, set "opening" and
+ *   call riis_surface_update.
  * - "skirt_length" gives any valve except "bileaflet" a skirt. The skirt is a strip from the attachment outwards, and
  *   closes the gap to the wall (docs/theory/skirt.md). The length is 0 (the default), or 1e-4 to 10 times
  *   the mean distance of the attachment from its axis. The skirt_length of an open state is ignored.
@@ -63,7 +64,7 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
  * Some parameters have a rule: until they are set, they follow from other parameters. The order of calls does not matter.
  * riis_valve_get gives the present values of such parameters. Copies and open states remember which parameters were set. */
 
-/* Returns a parameter to the value by its rule, or to its default if it has no rule.
+/* Returns a parameter to the value that its rule gives, or to its default if it has no rule.
  *   name  as in riis_valve_set
  * Errors: RIIS_INVALID_PARAMETER for another name. */
 RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);
@@ -132,7 +133,7 @@ RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t p
 
 /* The curves and patches of a valve at its opening, after a warp and before placement. If n_pieces equals n_curves, these arrays
  * also fit into riis_patches, and make the same shape there. Trileaflet and aortic valves and valves from patches have as many
- * pieces as curves, unless a warp has landmarks on their curves (riis_valve_set_warp). */
+ * pieces as curves. Only a warp with landmarks on the curves adds pieces (riis_valve_set_warp). */
 typedef struct riis_valve_patches {
   int64_t n_curves;           /* curves; each is a side of a patch */
   int64_t n_pieces;           /* Bezier pieces of all curves. Sides of mitral and bileaflet patches may have several */
@@ -146,8 +147,9 @@ typedef struct riis_valve_patches {
   const int32_t *patch_id;    /* (n_patches): as in riis_triangles */
   const int32_t *attached;    /* (n_patches): the side that is attached, 0 to 3 in the order of curve_id, or -1 */
   const double *bulge;        /* (n_patches): 0 for a Coons patch. Otherwise the line at each u is an arc from v = 0 to
-                                 v = 1. W is the width and T is the unit tangent of the side v = 0. The arc's middle control point
-                                 lies bulge |W| unit(W x T) beside the middle of the straight line */
+                                 v = 1. W is the vector from v = 0 to v = 1 at this u, and T is the unit tangent of the side v =
+                                 0. The arc's middle control point lies bulge |W| unit(W x T) beside the middle of the straight
+                                 line */
 } riis_valve_patches;
 /* Gives the curves and patches of a valve at its opening. The arrays are valid until the next call that may change the
  * valve. Along a side, u or v is the share of the side's length up to the point. All normals S_u x S_v have the directions that

@@ -25,8 +25,8 @@ struct Band {
   // Returns a distance up to which all nodes are in the band.
   double sure_distance() const { return (1 - std::abs(offset)) * half_thickness; }
 
-  // Returns the least half thickness that marks a node. Off the rim, it is h / (1 + offset) for h >= 0, and -h / (1 - offset)
-  // below. At a rim, this distance is the root e of (1 - offset^2) e^2 + 2 offset h e - d^2 = 0, also for h = d and h = -d.
+  // Returns the least half thickness that marks a node. Off the rim, it is h / (1 + offset) for h >= 0, and -h / (1 - offset) for
+  // h < 0. At a rim, this half thickness is the root e of (1 - offset^2) e^2 + 2 offset h e - d^2 = 0, also for h = d and h = -d.
   double marking_thickness(double distance, double height) const {
     if (!steps_aside() || !(distance > 0)) return distance;
     const double cosine = height / distance, along = offset * cosine;
@@ -50,7 +50,7 @@ struct Band {
 
   // Returns the signed distance of a node from the middle of the band, for a node off the rim.
   double height_over_middle(double height) const { return height - offset * half_thickness; }
-  // Returns the distance of a node from the middle of the band. At a rim, it is the distance from p + offset half_thickness n.
+  // Returns the distance of a node from the middle of the band. At a rim, this is the distance from p + offset half_thickness n.
   double distance_from_middle(double distance, double height) const {
     if (!steps_aside()) return distance;
     const double over = height_over_middle(height), beside_sq = (distance - height) * (distance + height);

@@ -128,9 +128,9 @@ inline double exponential_minus_one(double x) {
   return value;
 }
 
-// Returns the base to a power between 0 and 1, with a relative error of 60 units. The base is positive.
+// Returns the base raised to a power between 0 and 1, with a relative error of 60 units. The base is positive.
 inline double power_to_share(double base, double share) {
-  // Each binary digit of the share multiplies by a root.
+  // Each binary digit 1 of the share contributes one of the repeated square roots of the base as a factor.
   if (share >= 1) return base;
   double power = 1, root = base;
   for (int digit = 0; digit < 53 && share > 0; ++digit) {

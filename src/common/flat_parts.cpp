@@ -20,7 +20,8 @@ constexpr double flat_share = 5e-4, pointed_share = 5e-3;
 constexpr double most_lean = 25;
 // The least number of triangles of a flat part.
 constexpr std::int64_t least_triangles = 4;
-// The wall beside a flat part is measured up to this share of the radius of a disc with the part's area, in sectors.
+// The wall beside a flat part is measured in sectors. The sectors reach as far as this share of the radius of a disc with the
+// part's area.
 constexpr double band_share = 0.5;
 constexpr std::size_t n_sectors = 12;
 // Two flat parts that touch are both unclear if their areas differ by less than this factor. Otherwise only the smaller part is

@@ -259,8 +259,8 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // Bounds each quarter of the curve separately. The bound from control points is loose if they vary much. Within a quarter the
-  // control points vary little.
+  // Bounds each quarter of the curve separately. The bound from control points is loose if the control points vary much. Within a
+  // quarter of the curve they vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);

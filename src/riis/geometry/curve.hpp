@@ -157,7 +157,7 @@ class CurvePoints {
 };
 
 // Polylines parametrised by length (paper, 3.2.2 "Polyline").
-// A polyline is made from points or from a curve. It gives C(t) for t in [0,1], where t is the share of the length.
+// A polyline is made from points or from a curve. The polyline gives C(t) for t in [0,1], where t is the share of the length.
 struct Polyline {
   Vector<Vec3> points;    // at least 1
   Vector<double> t;       // t of every point, ascending from 0 to 1; a single 0 if the length is 0

@@ -39,7 +39,7 @@ struct alignas(64) GroupCorners {
   double xyz[9][triangles_per_group];
 };
 
-// The frame of the surface or of the mesh. It takes a coordinate x to (x - centre) * scale.
+// The frame of the surface or of the mesh. The frame takes a coordinate x to (x - centre) * scale.
 struct PlainFrame {
   double centre[3], scale;
 };

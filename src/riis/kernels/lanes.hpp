@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file computes with sixteen floats or eight doubles at once. It uses the registers of the instruction set for which the
-// including file is compiled. Everything has internal linkage. Files for different instruction sets must not share a function,
-// because the linker could take it from the wrong file. This file also includes no header whose inline functions the compiler may
-// emit as separate functions.
+// This file computes with sixteen floats or eight doubles at once. The code uses the registers of the instruction set for which
+// the including file is compiled. Everything has internal linkage. Files for different instruction sets must not share a
+// function, because the linker could take it from the wrong file. This file also includes no header whose inline functions the
+// compiler may emit as separate functions.
 #pragma once
 
 // RIIS_PORTABLE_LANES selects the code for processors without SSE2 or NEON. Tests also run this code on processors with SSE2 or
@@ -168,8 +168,8 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = x - Register{};
     return lanes;
   }
-  // load and store need memory aligned to 64 bytes. They move each register as a whole. GCC would copy longer memory in pieces of
-  // another size, and a register that is read from two such pieces has to wait until both pieces are written.
+  // load and store need memory aligned to 64 bytes. Both functions move each register as a whole. GCC would copy longer memory in
+  // pieces of another size, and a register that is read from two such pieces has to wait until both pieces are written.
   static RIIS_INLINE Lanes load(const Scalar *from) {
     Lanes lanes;
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const InMemory *>(from)[i];
@@ -317,8 +317,8 @@ RIIS_INLINE Mask opposite(Mask a) {
 }
 
 #if defined(RIIS_NEON)
-// Takes 0 or -1 in each of eight lanes, and returns one bit for each. NEON has no instruction for this. Each lane therefore keeps
-// a bit of its own, and the sum of the lanes has all bits.
+// Takes 0 or -1 in each of eight lanes, and returns one bit for each. NEON has no instruction for this conversion. Each lane
+// therefore keeps a bit of its own, and the sum of the lanes has all bits.
 RIIS_INLINE uint32_t bits(uint16x8_t mask) {
   return vaddvq_u16(vandq_u16(mask, uint16x8_t{1, 2, 4, 8, 16, 32, 64, 128}));
 }

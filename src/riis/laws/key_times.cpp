@@ -11,7 +11,8 @@ namespace riis {
 namespace {
 
 constexpr double largest_time = 1e30, infinity = std::numeric_limits<double>::infinity();
-// A relative tolerance. With it, the times 0.1 and 0.8 count as one period of 0.7 apart, although rounding changes the last bit.
+// A relative tolerance. With this tolerance, the times 0.1 and 0.8 count as one period of 0.7 apart, although rounding changes
+// the last bit.
 constexpr double rounding = 1e-9;
 constexpr std::int64_t max_keys = 1'000'000;
 

@@ -58,7 +58,7 @@ struct EdgeBlocks {
 };
 
 // Checks whether a mesh and a surface with a half thickness can have the same unit. The check needs only boxes that are already
-// known. It sends a warning to the caller's log function, once for each pair of a mesh and a surface.
+// known. The check sends a warning to the caller's log function, once for each pair of a mesh and a surface.
 
 // The surfaces that were reported as misfits for a mesh. Several threads may call both functions at once.
 class WarnedSurfaces {

@@ -24,7 +24,7 @@ double coefficient_at(const Resistance &resistance, double distance) {
 }
 
 // Returns the derivative of K with respect to the distance from the middle of the band. K is flat in the middle and at the edge
-// of the band. The sine is computed from the nearer of these two places, because it then loses few digits near both.
+// of the band. The sine is computed from the nearer of these two places, so that few digits are lost near both places.
 double slope_at(const Resistance &resistance, double distance) {
   const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;
@@ -32,7 +32,7 @@ double slope_at(const Resistance &resistance, double distance) {
   return -(resistance.factor / (2 * eps)) * (pi / eps) * sine;
 }
 
-// With a cut rim, nodes whose closest point is on the rim lie beyond it. Without a cut rim, no node lies beyond the rim.
+// With a cut rim, nodes whose closest point is on the rim lie beyond the rim. Without a cut rim, no node lies beyond the rim.
 bool is_beyond_rim(const Resistance &resistance, const ListedNodes &list, std::int64_t i) {
   return resistance.cuts_rim && view(list.fields.rim)[i];
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the distance of a point to the surface without triangles (paper, 4.1), for comparison. Within a limit, a method finds
-// its closest point to a given point, with the patch, u and v.
+// Measures the distance of a point to the surface without triangles (paper, 4.1), for comparison. For a given point, a method
+// finds its closest point within a limit, with the patch, u and v.
 #pragma once
 
 #include <array>

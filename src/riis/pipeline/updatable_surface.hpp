@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A surface that can be updated, with the data that the next update needs or reuses. The surface comes from a valve, the caller's
-// arrays or keyframes. It records how many seconds its last update took.
+// arrays or keyframes. The object records how many seconds its last update took.
 #pragma once
 
 #include <riis/riis.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A surface that answers queries. The surface has triangles, their scene and their band, and optionally another method to measure
-// distances. It finds closest triangles and sides.
+// distances. A surface finds closest triangles and sides.
 #pragma once
 
 #include <atomic>

@@ -167,7 +167,7 @@ template <class Edges>
 riis_passage find_passage_along(const SearchRequest &request, const Edges &edges, const PassageEnds &ends) {
   const auto start = std::chrono::steady_clock::now();
   const double half_thickness = request.surface.half_thickness(), beyond_all = thickest(request.surface.band());
-  // A path includes its ends. The least half thickness that marks one of its nodes is therefore at most the half thickness that
+  // A path includes its ends. The least half thickness that marks a node of a path is therefore at most the half thickness that
   // marks either end.
   const double widest =
       std::min(largest_thickness(request, "from", ends.from), largest_thickness(request, "to", ends.to));
