@@ -162,7 +162,7 @@ std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, cons
   return OnAttachment{place(nearest->image, found.point), place(turn_of(nearest->image), found.tangent)};
 }
 
-// Two landmarks are in one place if their distance is at most this share of the valve's radius.
+// Two landmarks are in one place if their distance is at most one_place_share of the valve's radius.
 constexpr double one_place_share = 0.02;
 
 // Landmarks in separate places, as a warp needs them.

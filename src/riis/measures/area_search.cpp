@@ -10,10 +10,10 @@
 namespace riis {
 namespace {
 
-// An interval of this length is not cut further. The length is a share of the magnitude of the interval's ends.
+// An interval is not cut further if its length is at most shortest_interval times the magnitude of its ends.
 constexpr double shortest_interval = 1e-13;
-// The golden-section search shortens an interval to this share of its length. The area is flat at an extreme, so its error is the
-// square of this share.
+// The golden-section search shortens an interval to extreme_interval times its length. The area is flat at an extreme, so its
+// error is the square of this share.
 constexpr double extreme_interval = 1e-6;
 
 }  // namespace

@@ -331,7 +331,7 @@ Crossings find_crossings(const TriangleSet &set, const TriangleGroups &groups, d
 }
 
 double depth_of_contacts(const Surface &surface) {
-  // A depth of this many half thicknesses cannot come from rounding.
+  // A depth of beyond_rounding half thicknesses cannot come from rounding.
   constexpr double beyond_rounding = 1e-3;
   const bool is_exact = surface.source() && surface.source()->kind->has_exact_contacts;
   return is_exact ? beyond_rounding * surface.half_thickness() : 2 * surface.triangles().error_bound;

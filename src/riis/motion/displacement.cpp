@@ -83,7 +83,7 @@ Vector<double> SideMaterial::shares_before(const Vector<double> &shares) const {
 
 namespace {
 
-// Steps of u and v count as nearly parallel if the square of the sine of their angle is at most this value.
+// Steps of u and v count as nearly parallel if the square of the sine of their angle is at most least_sine_sq.
 constexpr double least_sine_sq = 0.01;
 
 bool has_points_inside(const MovedPatch &moved) {

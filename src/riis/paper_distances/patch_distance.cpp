@@ -108,7 +108,7 @@ ClosestOnPatches Minimizer::closest(Vec3 p, double limit) const {
   return std::sqrt(best.distance_sq) <= limit ? best : ClosestOnPatches{};
 }
 
-// The patches deviate from the smooth surface by at most this share of the allowed error. The share is small, because more grid
+// The patches deviate from the smooth surface by at most patch_share of the allowed error. The share is small, because more grid
 // lines are cheaper than more samples.
 constexpr double patch_share = 0.1;
 

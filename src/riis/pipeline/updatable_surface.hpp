@@ -34,7 +34,7 @@ class CrossingWatch {
   };
   Shape &remembered(std::uint64_t digest);
 
-  // The number of shapes that are remembered. A caller that alternates between at most this number of shapes gets one warning for
+  // The number of shapes that are remembered. A caller that alternates between at most n_remembered shapes gets one warning for
   // each shape.
   static constexpr std::size_t n_remembered = 8;
 

@@ -16,11 +16,11 @@
 namespace riis {
 namespace {
 
-// At lengths as large as this in the surface's frame, single precision does not separate triangles.
+// At lengths above `large` in the surface's frame, single precision does not separate triangles.
 constexpr double large = 0x1p20;
 
-// If more groups than this are near a leaf, querying each node is faster. Only large leaves near small triangles have so many
-// near groups.
+// If more than most_groups groups are near a leaf, querying each node is faster. Only large leaves near small triangles have so
+// many near groups.
 constexpr std::size_t most_groups = 4096;
 
 // Maps the mesh's frame to the surface's frame.

@@ -64,7 +64,8 @@ struct ClusterScratch {
 };
 
 // Returns false if single precision cannot separate near from far. Single precision fails if the mesh or its distance from the
-// surface is about a million times the surface's size. It also fails if the mesh is extremely small compared with the surface.
+// surface is about a million times the surface's size. Single precision also fails if the mesh is extremely small compared with
+// the surface.
 bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes);
 
 // Returns whether clusters pay off for this number of nodes, if the limit leaves out few nodes. With fewer nodes, comparing all

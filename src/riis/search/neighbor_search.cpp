@@ -16,7 +16,7 @@ namespace riis {
 namespace {
 
 constexpr std::int64_t nodes_per_range = NeighborScratch::nodes_per_range, balls_per_block = 16;
-// Below this number of balls, one thread suffices, because each part of the search takes only a millisecond or two.
+// For fewer balls than these numbers, one thread suffices, because each part of the search takes only a millisecond or two.
 constexpr std::int64_t few_balls = 256, few_large_balls = 64;
 
 template <class Distances>

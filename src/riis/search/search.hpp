@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The request and the report that all searches share.
-// A search takes a surface, a mesh and a limit. It finds the nodes within the limit in any order, with their distances and
-// triangles.
+// A search takes a surface, a mesh and a limit. The search finds the nodes within the limit in any order, with their distances
+// and triangles.
 #pragma once
 
 #include <algorithm>

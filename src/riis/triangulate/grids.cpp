@@ -80,9 +80,9 @@ class GridMaker {
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  // A curve may have a million points, and a valve a million patches. Polylines of at most this many patches are therefore made
-  // before the points are counted. The number of patches is fixed, so the count in an error message does not depend on the number
-  // of threads.
+  // A curve may have a million points, and a valve a million patches. The polylines of at most patches_at_once patches are
+  // therefore made before the points are counted. The number of patches is fixed, so the count in an error message does not
+  // depend on the number of threads.
   static constexpr std::size_t patches_at_once = 16;
 
   QuadGrid grid(std::size_t i, std::size_t n_rows) const {

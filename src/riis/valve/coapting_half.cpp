@@ -19,7 +19,8 @@ constexpr int n_crease_steps = 2;
 constexpr std::size_t n_crease_spans = 8;
 constexpr double crease_stiffness = 0.03;
 
-// A fused part of at least this share of the edge is wide enough for a line that arrives at the coaptation line without a crease.
+// A fused part of at least turned_from of the edge is wide enough for a line that arrives at the coaptation line without a
+// crease.
 constexpr double turned_from = 0.3;
 
 // Along the coaptation line K, the derivative of the lower patch by v is T = K - c + (1 - u) Y + u A, with the chord c of K. Y

@@ -16,14 +16,15 @@ namespace {
 
 // In the open free edge, the sag of the inner control point beside the commissure, as a share of the sag of the middle.
 constexpr double open_sag = 1.0 / 3;
-// An edge that would be too short for open_radius_ratio opens until this share of its length is used, without sag.
+// An edge that would be too short for open_radius_ratio opens until used_of_edge of its length is used, without sag.
 constexpr double used_of_edge = 0.97;
-// The open edge leaves the commissure as an arc of a circle does, if it reaches this share of the arc's height.
+// The open edge leaves the commissure as an arc of a circle does, if it reaches round_from of the arc's height.
 constexpr double round_from = 0.7;
 // The edges of three equal cusps are always round. The edge of another cusp is less round, the more the cosine of its half sector
-// differs from the cosine of 60 degrees. From this difference on, the sector does not make the edge round.
+// differs from the cosine of 60 degrees. If the difference is not_of_three or more, the sector does not make the edge round.
 constexpr double not_of_three = 0.22;
-// If a cusp has a sector wider than this, in degrees, its attachment has two pieces, because one cubic would leave the cylinder.
+// If a cusp has a sector of more than most_of_one_piece degrees, its attachment has two pieces, because one cubic would leave the
+// cylinder.
 constexpr double most_of_one_piece = 210;
 
 std::array<double, 4> blend(const std::array<double, 4> &from, const std::array<double, 4> &to, double share) {

@@ -58,7 +58,7 @@ struct CuspSizes {
 };
 
 // The part of half a cusp that is fused to the neighbour and stays as in the closed valve. The fused edge leads from the end of
-// the free edge to the commissure. The coaptation line begins at the point below this end.
+// the free edge to the commissure. The coaptation line begins below the end of the free edge.
 struct FusedPart {
   Bezier edge, line;
   Vec3 commissure;  // of the closed valve

@@ -94,8 +94,8 @@ struct Seam {
   }
 };
 
-// A curve of a warped valve follows the points of the original curve. These points are known at this many evenly spaced shares of
-// the original curve's length, ends included.
+// A curve of a warped valve follows the points of the original curve. These points are known at n_material evenly spaced shares
+// of the original curve's length, ends included.
 inline constexpr std::size_t n_material = 7;
 constexpr double material_share(std::size_t k) { return static_cast<double>(k) / (n_material - 1); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The caller's own valve, given by boundary curves with control points, and by patches with four sides. This file checks the
-// arrays of riis_patches completely, and makes a patch set. It also has the kind for valves from patches.
+// arrays of riis_patches completely, and makes a patch set. This file also has the kind for valves from patches.
 #pragma once
 
 #include <riis/riis.h>

@@ -14,9 +14,9 @@
 namespace riis {
 namespace {
 
-// Sources count as planar if their rms distance from their mean plane is below this share of their largest rms extent.
+// Sources count as planar if their rms distance from their mean plane is below thinnest_share of their largest rms extent.
 constexpr double thinnest_share = 0.05;
-// Sources also count as planar if noise would change the stretch across the plane by more than this value.
+// Sources also count as planar if noise would change the stretch across the plane by more than largest_stretch_error.
 constexpr double largest_stretch_error = 0.1;
 // The share of the noise that the residuals should have. This share is below 1, because the map follows a part of the noise. The
 // attachments of random patients were met best with shares from 0.5 to 0.7 (docs/theory/warp.md, "Equations").
