@@ -244,7 +244,7 @@ module riis_c
     type(c_ptr) :: skirt_lengths          !< real(c_double), (n_vertices), or c_null_ptr
   end type riis_surface_arrays
 
-  !> The size of a surface, and the seconds that its last create or update took.
+  !> The size of a surface, and the wall times of the last call that made or updated it.
   type, bind(c) :: riis_surface_info
     integer(c_int64_t) :: n_vertices         !< as riis_triangles.n_vertices
     integer(c_int64_t) :: n_triangles        !< triangles that answer queries
@@ -252,10 +252,11 @@ module riis_c
     real(c_double) :: half_thickness         !< mesh units
     real(c_double) :: area                   !< of all triangles, mesh units squared
     real(c_double) :: lower(3), upper(3)     !< bounds of the triangles, mesh units
-    real(c_double) :: seconds_triangles      !< wall time of the last create or update: for checks and triangles
-    real(c_double) :: seconds_scene          !< wall time of the last create or update: for groups of triangles,
-                                             !! sampling, minimisation. Embree's tree is not included, because the first
-                                             !! query that needs the tree builds it
+    real(c_double) :: seconds_triangles      !< wall time of the last call that made or updated the surface: for checks
+                                             !! and triangles
+    real(c_double) :: seconds_scene          !< wall time of the same call: for groups of triangles, sampling,
+                                             !! minimisation. Embree's tree is not included, because the first query
+                                             !! that needs the tree builds it
     real(c_double) :: error_bound            !< the largest possible difference between a point's distances to the
                                              !! triangles and to the smooth valve; at most tolerance * half_thickness. 0
                                              !! for a surface from arrays
@@ -309,9 +310,9 @@ module riis_c
     integer(c_int64_t) :: triangle_id !< the lowest id of the closest triangles
     integer(c_int32_t) :: leaflet_id  !< of the triangle
     integer(c_int32_t) :: side        !< +1 on the side to which normals point (downstream), -1 on the other side, 0 on
-                                      !! the surface, and level with the surface beyond its rim. At a shared edge or
-                                      !! vertex (equal placed coordinates), the angle-weighted mean of the normals
-                                      !! decides (Baerentzen, Aanaes 2005)
+                                      !! the surface and in its continuation beyond the rim. At a shared edge or vertex
+                                      !! (equal placed coordinates), the angle-weighted mean of the normals decides
+                                      !! (Baerentzen, Aanaes 2005)
   end type riis_closest
 
   type, bind(c) :: riis_closest_options

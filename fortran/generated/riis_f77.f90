@@ -1375,8 +1375,8 @@ subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_fac
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
-  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement: a strip from the
-                                                          !! attachment outwards. The length is 1e-4 to 10 times the mean
+  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip from
+                                                          !! the attachment outwards. The length is 1e-4 to 10 times the mean
                                                           !! distance of the attachment from its axis. 0: no skirt.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
@@ -1439,8 +1439,8 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
-  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement: a strip from the
-                                                          !! attachment outwards. The length is 1e-4 to 10 times the mean
+  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip from
+                                                          !! the attachment outwards. The length is 1e-4 to 10 times the mean
                                                           !! distance of the attachment from its axis. 0: no skirt.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most

@@ -15,11 +15,11 @@ extern "C" {
 /* ---- Gradients: directions in which the surface of a valve changes ------------------------------------- */
 
 /* Adds a direction in which the surface of a valve changes: by a parameter, a landmark or a number of the placement.
- *   valve_after, valve_before  two copies of the surface's valve, with the parameter a little larger and a little smaller than in
- *                              the surface. If only the placement changes, pass the same valve twice
- *   dp              the parameter's difference from valve_before to valve_after, 1e-30 to 1e30 in magnitude
- *   options_after, options_before  scale, rotation and translation of both states; other fields are ignored. NULL: the
- *                   surface's options
+ *   `valve_after`, `valve_before`: two copies of the surface's valve, with the parameter a little larger and a little smaller
+ *     than in the surface. If only the placement changes, pass the same valve twice.
+ *   `dp`: the parameter's difference from valve_before to valve_after, 1e-30 to 1e30 in magnitude.
+ *   `options_after`, `options_before`: scale, rotation and translation of both states; other fields are ignored. NULL: the
+ *     surface's options.
  * The first call makes direction 0, the next call direction 1. An update removes all directions. A marking with
  * RIIS_FIELD_GRADIENT gives the derivatives of distances and of K in all directions (docs/theory/gradients.md). The rate of a
  * vertex is its displacement between the two states, on the triangles of the surface, divided by dp. The error of the derivative
@@ -40,7 +40,7 @@ typedef struct riis_direction {
   double area_rate;    /* the derivative of riis_surface_info.area. Each call computes it again from all triangles */
 } riis_direction;
 /* Gives the rates of a surface's vertices along a direction, until the surface's next update or its destruction.
- *   direction_id  0 for the first riis_surface_add_direction after the last update, 1 for the second, and so on
+ *   `direction_id`: 0 for the first riis_surface_add_direction after the last update, 1 for the second, and so on.
  * From the rates a caller computes derivatives of other numbers that depend on the triangles (docs/theory/gradients.md). The
  * rates belong to the triangles, whatever the surface's measure is.
  * Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks. */

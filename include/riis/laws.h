@@ -38,7 +38,7 @@ typedef struct riis_opening_table {
 } riis_opening_table;
 RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size); /* the defaults */
 /* Gives the opening of a table at a time. opening and rate may be NULL.
- *   time  magnitude at most 1e30
+ *   `time`: magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value. */
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
@@ -58,7 +58,7 @@ typedef struct riis_opening_times {
 } riis_opening_times;
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
 /* Gives the opening at a time by the times of the ramps. opening and rate may be NULL.
- *   time  magnitude at most 1e30
+ *   `time`: magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT naming the field and its value. */
 RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening,
                                              double *rate);
@@ -98,8 +98,8 @@ typedef struct riis_opening_switch_state {
 RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size);
 /* Advances a switch to a time. The switch's phase changes at the end of the step in which the condition is met. The opening is
  * therefore accurate to first order in the length of steps.
- *   time                       at least before->time, magnitude at most 1e30
- *   pressure_difference, flow  at that time, magnitude at most 1e30
+ *   `time`: at least before->time, magnitude at most 1e30.
+ *   `pressure_difference`, `flow`: at that time, magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now stays unchanged. */
 RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
                                                  const riis_opening_switch_state *before, double time,
@@ -137,8 +137,8 @@ RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *sta
 /* Advances the angle law to a time. The law takes pressure difference and flow as linear over the step, so the angle is accurate
  * to second order in the length of steps. The first step has no earlier pressure difference and flow, so the present values hold
  * for the whole step.
- *   time                       at least before->time, magnitude at most 1e30
- *   pressure_difference, flow  at that time, magnitude at most 1e30
+ *   `time`: at least before->time, magnitude at most 1e30.
+ *   `pressure_difference`, `flow`: at that time, magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step
  * whose integration needs more than a million smaller steps. *now stays unchanged. */
 RIIS_API riis_status riis_opening_angle_advance(const riis_opening_angle *law,

@@ -36,11 +36,11 @@ typedef struct riis_loads {
 } riis_loads;
 RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /* the defaults */
 /* Adds the sums over nodes of tissue that riis_loads_add_forces needs.
- *   loads   radius, edges and n_leaflets; the forces are not read
- *   nodes   the nodes of a surface or a volume of tissue, in the frame of the edges. Nodes beyond the radius count in no
- *           sum, and get no force
- *   weight  (n_points), 0 to 1e60: the area or volume around a node, 0 for nodes of other ranks. NULL: 1 for each node
- *   sums    (11, n_leaflets): sums are added
+ *   `loads`: radius, edges and n_leaflets; the forces are not read.
+ *   `nodes`: the nodes of a surface or a volume of tissue, in the frame of the edges. Nodes beyond the radius count in no sum,
+ *     and get no force.
+ *   `weight` (n_points), 0 to 1e60: the area or volume around a node, 0 for nodes of other ranks. NULL: 1 for each node. `sums`
+ *   (11, n_leaflets): the array to which the sums are added.
  * A bileaflet valve has no attachment. A surface from arrays has an attachment only with `attached` or a skirt. Without an
  * attachment the caller gives edges: the pivots, or the edges at which the leaflets are sewn. With MPI each rank passes its own
  * nodes, and all ranks then add up their sums.
@@ -48,9 +48,9 @@ RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /*
 RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_points *nodes, const double *weight, double *sums);
 /* Adds the forces of the leaflets at nodes of tissue. The forces of a leaflet have the sum leaflet_force and the moment
  * leaflet_moment, up to rounding.
- *   loads, nodes, weight  as in riis_loads_add_sums
- *   sums        (11, n_leaflets): of riis_loads_add_sums, added up over all ranks
- *   node_force  (3, n_points): forces are added
+ *   `loads`, `nodes`, `weight`: as in riis_loads_add_sums.
+ *   `sums` (11, n_leaflets): of riis_loads_add_sums, added up over all ranks.
+ *   `node_force` (3, n_points): the array to which the forces are added.
  * The force of a leaflet at a node is m w(d) (a + b x s). Here m is the weight of the node, d its distance from the leaflet's
  * edges, w(d) = (1 + cos(pi d / radius)) / 2 up to the radius, and s the vector from the middle of the leaflet's nodes to the
  * node. The vectors a and b belong to the leaflet. These forces have the least sum of |force|^2 / (m w) among all forces with

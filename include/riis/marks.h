@@ -104,7 +104,7 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
 /* Finds every node near the surface: the marked nodes, which lie within the half thickness, and the nodes within the distance
  * limit. The reported distance, in double precision, decides which nodes are near. With an offset, the marked nodes are the nodes
  * in the band (riis_surface_create).
- *   marks  its content is replaced
+ *   `marks`: its content is replaced.
  * The log warns if the units of mesh and surface seem to differ. Units seem to differ if the largest sides of the two bounding
  * boxes differ by more than a factor of 50, or if one of these sides is below the half thickness. The log warns once per surface
  * and mesh, at most eight times per mesh, and never for fewer than 1000 nodes.
@@ -157,7 +157,7 @@ typedef struct riis_mark_list {
 } riis_mark_list;
 /* Gives one of the two lists of the last marking. The list is valid until the marks are destroyed, or used in another
  * riis_mark_nodes.
- *   which  RIIS_LIST_* */
+ *   `which`: RIIS_LIST_*. */
 RIIS_API riis_status riis_marks_get_list(const riis_marks *marks, int32_t which, riis_mark_list *list,
                                          int64_t struct_size);
 

@@ -28,7 +28,7 @@ typedef struct riis_leaflet {
 /* Gives the number of the surface's leaflets. */
 RIIS_API riis_status riis_surface_get_n_leaflets(const riis_surface *surface, int64_t *n_leaflets);
 /* Gives the sizes of a leaflet.
- *   leaflet  0 to n_leaflets - 1, ascending by leaflet_id */
+ *   `leaflet`: 0 to n_leaflets - 1, ascending by leaflet_id. */
 RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
                                               int64_t struct_size);
 
@@ -66,14 +66,14 @@ typedef struct riis_orifice {
   int32_t reserved;      /* 0 */
 } riis_orifice;
 /* Measures the orifice of a surface.
- *   resistance  only half_thickness and rim are used, with the surface's offset. RIIS_AUTO stands for the surface's half
- *               thickness. NULL stands for the defaults */
+ *   `resistance`: only half_thickness and rim are used, with the surface's offset. RIIS_AUTO stands for the surface's half
+ *     thickness. NULL stands for the defaults. */
 RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                               riis_orifice *orifice, int64_t struct_size);
 /* Measures the orifice inside a wall, for leaflets that do not reach it, such as the leaflets of a mechanical valve from arrays.
  * The wall is a ring or a tube around the leaflets. The longest connected line of open edges of the wall gives the outline and
  * the axis (docs/theory/measures.md, "Outline"). The other arguments are as in riis_surface_get_orifice.
- *   wall  in the frame of the surface. RIIS_INVALID_ARGUMENT if the wall's line does not surround a centre */
+ *   `wall`: in the frame of the surface. RIIS_INVALID_ARGUMENT if the wall's line does not surround a centre. */
 RIIS_API riis_status riis_surface_get_orifice_in_wall(const riis_surface *surface, const riis_surface *wall,
                                                       const riis_resistance *resistance, riis_orifice *orifice,
                                                       int64_t struct_size);
@@ -111,14 +111,14 @@ typedef struct riis_area_range {
 } riis_area_range;
 /* Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, "From an area to
  * a valve").
- *   valve    its own opening is ignored if openings are found
- *   name     "opening", "scale" of the placement, or a parameter with one value in riis_valve_get
- *   n_areas  0 to 1,000,000. With 0 areas only *range is written, and areas may be NULL
- *   areas    (n_areas), 0 to 1e120, mesh units squared
- *   search   NULL stands for the defaults
- *   values   (n_areas): the openings or sizes. NULL: not wanted
- *   reached  (n_areas): the areas at these values. NULL: not wanted
- *   range    the areas that can be reached. NULL: not wanted
+ *   `valve`: its own opening is ignored if openings are found.
+ *   `name`: "opening", "scale" of the placement, or a parameter with one value in riis_valve_get.
+ *   `n_areas`: 0 to 1,000,000. With 0 areas only *range is written, and areas may be NULL.
+ *   `areas` (n_areas), 0 to 1e120, mesh units squared.
+ *   `search`: NULL stands for the defaults.
+ *   `values` (n_areas): the openings or sizes. NULL: not wanted.
+ *   `reached` (n_areas): the areas at these values. NULL: not wanted.
+ *   `range`: the areas that can be reached. NULL: not wanted.
  * The area 0 stands for the closed valve: it gives the opening with the least area, even if slits remain between the leaflets. If
  * several openings have the wanted area, the call gives the least of them. If several sizes have the wanted area, the call gives
  * the size nearest to the present size. With RIIS_TRIANGULATION_ADAPTED the area jumps by up to 1e-4 of the largest area where
@@ -142,9 +142,9 @@ typedef struct riis_coaptation {
   double reach; /* the distance within which leaflets touch */
 } riis_coaptation;
 /* Measures the coaptation. The bileaflet housing and a skirt are no leaflets, and touch nothing.
- *   reach       1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness
- *   leaflet_id  as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from
- *               both sides
+ *   `reach`: 1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness.
+ *   `leaflet_id`: as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from both
+ *     sides.
  * The error of an area is at most 1e-3 reach times the length of the contact's outline (docs/theory/measures.md). The extent of a
  * surface is the diagonal of its box. A reach below 1/250 of the extent loses details below 1/2000 of the extent.
  * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
@@ -154,9 +154,9 @@ RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, do
 /* Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The
  * bileaflet housing does not count in the area. With an offset o, the surface is first moved by o eps along its normals, and the
  * area of the moved surface counts. The leak in a solver differs from the ideal (docs/solvers.md).
- *   resistance  only R, 1e-60 to 1e60, and half_thickness are used. RIIS_AUTO stands for the surface's half thickness
- *   drop        upstream pressure minus downstream pressure, magnitude at most 1e30
- *   flow        in the unit of drop * area * eps / R, which is m^3/s in SI units
+ *   `resistance`: only R, 1e-60 to 1e60, and half_thickness are used. RIIS_AUTO stands for the surface's half thickness.
+ *   `drop`: upstream pressure minus downstream pressure, magnitude at most 1e30.
+ *   `flow`: in the unit of drop * area * eps / R, which is m^3/s in SI units.
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. */
 RIIS_API riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resistance *resistance,
                                            double drop, double *flow);
@@ -189,9 +189,9 @@ typedef struct riis_first_passage {
   int32_t state;         /* RIIS_FIRST_PASSAGE_* */
 } riis_first_passage;
 /* Finds the opening at which riis_find_passage first finds a passage.
- *   valve  its own opening is ignored
- *   mesh   must have an adjacency, and need not have been marked
- *   ends   as for riis_find_passage; each end must be outside the band at each tried opening
+ *   `valve`: its own opening is ignored.
+ *   `mesh`: must have an adjacency, and need not have been marked.
+ *   `ends`: as for riis_find_passage; each end must be outside the band at each tried opening.
  * The call tries the openings 0, 1/8, 2/8, ... until a passage is open. Then the call halves the last step until opening and
  * closed_opening differ by at most the tolerance. A valve that opens further may close a passage again, so the call may miss a
  * passage that ends before the next multiple of 1/8.
@@ -212,8 +212,8 @@ typedef struct riis_cells_across {
 } riis_cells_across;
 /* Computes the number of mesh edges across the band. An edge counts once, whether one or both of its nodes list it. Edges to
  * ghosts and edges of length 0 do not count.
- *   marks  marks from riis_mark_nodes
- *   mesh   the mesh of the marking, with an adjacency
+ *   `marks`: marks from riis_mark_nodes.
+ *   `mesh`: the mesh of the marking, with an adjacency.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of
  * nodes; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh *mesh,
@@ -222,9 +222,9 @@ RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const 
 /* Gives the volume that the valve sweeps between two openings, in mesh units cubed. The volume is the integral of u_surface . n
  * over surface and time, positive along the normals. In a flow the valve displaces less blood, because blood slips past the
  * leaflets.
- *   opening_from, opening_to  0 to 1. The valve's own opening is ignored
- *   options     only scale, flip_normals and n_threads are used. NULL stands for the defaults
- *   leaflet_id  RIIS_LEAFLET_*, or the id of a patch's leaflet, or RIIS_ALL_LEAFLETS
+ *   `opening_from`, `opening_to`: 0 to 1. The valve's own opening is ignored.
+ *   `options`: only scale, flip_normals and n_threads are used. NULL stands for the defaults.
+ *   `leaflet_id`: RIIS_LEAFLET_*, or the id of a patch's leaflet, or RIIS_ALL_LEAFLETS.
  * The result is within 1e-3 of the largest volume that a leaflet sweeps from 0 to 1 (docs/theory/measures.md).
  * Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks;
  * RIIS_INVALID_PARAMETER for inconsistent parameters, and for a valve with one state if an opening is above 0. */

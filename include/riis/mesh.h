@@ -19,7 +19,7 @@ typedef struct riis_mesh riis_mesh;
 
 /* Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. A
  * process without nodes makes the same calls as the other processes.
- *   n_nodes  0 to 2^40; with 0 the pointers may be NULL
+ *   `n_nodes`: 0 to 2^40; with 0 the pointers may be NULL.
  * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride, riis_mesh **mesh);
@@ -66,7 +66,7 @@ RIIS_API riis_status riis_grid_init(riis_grid *grid, int64_t struct_size); /* th
  * riis_mesh_create makes from the same nodes. The edges are those of riis_adjacency_create_from_grid, or the edges that
  * riis_mesh_set_adjacency gives the mesh. Axes are not periodic. Markings refuse RIIS_SEARCH_NEIGHBOR and RIIS_SEARCH_PAPER, and
  * sampling and minimisation for more than 10^8 nodes.
- *   grid  the axes, which are copied. Its n_nodes is the n_nodes of the mesh in every other call
+ *   `grid`: the axes, which are copied. Its n_nodes is the n_nodes of the mesh in every other call.
  * Errors: RIIS_INVALID_MESH naming the axis, the index and the value; RIIS_LIMIT_EXCEEDED for numbers from 2^40 on. */
 RIIS_API riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh);
 /* Gives a mesh other axes, or turns a mesh of points into a grid. riis_mesh_update turns a grid into points.
@@ -90,8 +90,8 @@ typedef struct riis_csr {
 RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size); /* the defaults */
 
 /* Gives the mesh the adjacency that the neighbour search walks along, and checks it once.
- *   csr the struct's arrays are borrowed: they must stay in place, unchanged, until the handle is destroyed or gets another
- *        adjacency. NULL removes the adjacency, as riis_mesh_update with another n_nodes does
+ *   `csr`: the struct's arrays are borrowed: they must stay in place, unchanged, until the handle is destroyed or gets another
+ *     adjacency. NULL removes the adjacency, as riis_mesh_update with another n_nodes does.
  * Errors: RIIS_INVALID_MESH naming the row and its value. */
 RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);
 
@@ -139,7 +139,7 @@ RIIS_API riis_status riis_mesh_faces_init(riis_mesh_faces *faces, int64_t struct
 RIIS_API riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *faces, riis_adjacency **adjacency);
 
 /* Makes the adjacency of a structured grid. Neighbours differ by 1 in one of i, j, k.
- *   ni, nj, nk  each >= 1; node (i, j, k) has the number i + ni (j + nj k), all from 0
+ *   `ni`, `nj`, `nk`: each >= 1; node (i, j, k) has the number i + ni (j + nj k), all from 0.
  * Errors: RIIS_LIMIT_EXCEEDED for more nodes than memory can hold. */
 RIIS_API riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
                                                      riis_adjacency **adjacency);

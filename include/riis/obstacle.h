@@ -27,7 +27,7 @@ typedef struct riis_resistance_arrays {
 RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size);
 /* Adds K and K u_surface to the caller's arrays, which then hold sums over several valves. The solver's term is
  * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. riis_mark_list also has K and K u_surface.
- *   resistance  RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY
+ *   `resistance`: RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY.
  * Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that the marks lack. */
 RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
                                                const riis_resistance_arrays *arrays);
@@ -67,8 +67,8 @@ typedef struct riis_reaction {
 /* Fills *reaction with the defaults. */
 RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_size);
 /* Adds the force of the flow on the surface, and its moment, for the whole surface, each leaflet and each edge.
- *   flow      u and the volumes; u_surface counts as 0 if the marking lacks RIIS_FIELD_VELOCITY
- *   reaction  moments and sums of edges need RIIS_FIELD_POINT
+ *   `flow`: u and the volumes; u_surface counts as 0 if the marking lacks RIIS_FIELD_VELOCITY.
+ *   `reaction`: moments and sums of edges need RIIS_FIELD_POINT.
  * Each result is a plain sum over nodes. With MPI all ranks pass the same reference point and edges, and add up their sums. The
  * sums of leaflets add up to the sum of the whole surface, up to rounding. The sums of edges are loads for tissue codes. The sums
  * of edges do not model how a membrane carries loads to its edges. The time for a node grows as log n_edges, or as n_edges if all
@@ -83,11 +83,11 @@ RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis
                                              const riis_flow_arrays *flow, const riis_reaction *reaction);
 
 /* Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets.
- *   surface       the surface of the marking, without an update since then
- *   flow          as in riis_marks_add_reaction
- *   n_vertices    riis_triangles.n_vertices
- *   vertex_force  (3, n_vertices): forces are added. A node's force goes to the three vertices of its closest triangle, in the
- *                 shares of the closest point's barycentric coordinates
+ *   `surface`: the surface of the marking, without an update since then.
+ *   `flow`: as in riis_marks_add_reaction.
+ *   `n_vertices`: riis_triangles.n_vertices.
+ *   `vertex_force` (3, n_vertices): the array to which the forces are added. A node's force goes to the three vertices of its
+ *     closest triangle, in the shares of the closest point's barycentric coordinates.
  * The forces on the vertices of a leaflet add up to leaflet_force of riis_marks_add_reaction, and their moment is
  * leaflet_moment, up to rounding. In every motion of the vertices, these forces have the same power as the forces of the nodes.
  * Vertices with equal coordinates are not joined: a valve repeats its vertices along sides of patches, and arrays may share a

@@ -101,10 +101,10 @@ typedef struct riis_placement_arrays {
 } riis_placement_arrays;
 RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
 /* Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement.
- *   valve   the template, a kind with any parameters: lengths without a landmark keep their proportions. Translation,
- *           opening and the open state of riis_valve_set_open_state stay
- *   held    names of parameters that keep the valve's values, between blanks or commas; "": none
- *   arrays  the arrays that the call writes; NULL: not wanted
+ *   `valve`: the template, a kind with any parameters: lengths without a landmark keep their proportions. Translation, opening
+ *     and the open state of riis_valve_set_open_state stay.
+ *   `held`: names of parameters that keep the valve's values, separated by blanks or commas. "" stands for no name. `arrays`: the
+ *   arrays that the call writes; NULL: not wanted.
  * The result minimises the sum of squared distances between the landmarks and their places on the closed valve
  * (docs/theory/landmarks.md). Cusps of a bicuspid, coapting or quadricuspid valve get different sectors, with a sum of 360
  * degrees, if the landmarks show differences above the noise. The commissures get different heights in the same way, and
@@ -143,22 +143,22 @@ typedef struct riis_warp_options {
 RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);
 
 /* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, the warp is the identity.
- *   sources  3 to 1000 landmarks. Landmarks nearly in a plane do not determine the map across that plane. The map then stretches
- *            the direction across the plane as much as the plane, and keeps it at right angles to the plane
- *            (riis_warp_info.is_planar)
+ *   `sources`: 3 to 1000 landmarks. Landmarks nearly in a plane do not determine the map across that plane. The map then
+ *     stretches the direction across the plane as much as the plane, and keeps it at right angles to the plane
+ *     (riis_warp_info.is_planar).
  * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
  * landmarks on a line. */
 RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
 /* Destroys the warp. Valves with this warp keep their copies. */
 RIIS_API void riis_warp_destroy(riis_warp **warp);
 /* Makes the warp take the landmarks to the targets. The same targets give the same bits, whatever the earlier targets were.
- *   targets  as many points as the sources, in their order
+ *   `targets`: as many points as the sources, in their order.
  * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: half way from some landmark to
  * the nearest other landmark, the determinant of the map's derivative is not above 0. A warp with more noise folds less. */
 RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
 /* Makes the warp take the landmarks to their places at a time, from a table of keys in time.
- *   frames  n_vertices is the number of landmarks. The keys are read during the call only
- *   time    magnitude at most 1e30
+ *   `frames`: n_vertices is the number of landmarks. The keys are read during the call only.
+ *   `time`: magnitude at most 1e30.
  * Errors: as riis_warp_set_targets; RIIS_INVALID_ARGUMENT naming the field, key or landmark and its value. */
 RIIS_API riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyframe_arrays *frames, double time);
 
@@ -179,14 +179,14 @@ typedef struct riis_warp_info {
 /* Gives the quality of a warp. */
 RIIS_API riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *info, int64_t struct_size);
 /* Maps points, such as points of the chords of a mitral valve.
- *   points  in the coordinates of the landmarks
- *   mapped  (3, n_points); may be the array of the points
+ *   `points`: in the coordinates of the landmarks.
+ *   `mapped` (3, n_points); may be the array of the points.
  * Errors: RIIS_INVALID_ARGUMENT naming the point. */
 RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *points, double *mapped);
 
 /* Warps a valve: its curves are mapped at every opening, before the placement. The valve copies both maps.
- *   closed  the map at opening 0. If both maps are NULL, the valve loses its warp.
- *   open    the map at opening 1. If this map is NULL, `closed` serves for all openings.
+ *   `closed`: the map at opening 0. If both maps are NULL, the valve loses its warp.
+ *   `open`: the map at opening 1. If this map is NULL, `closed` serves for all openings.
  * Between the openings the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches then lie between
  * the mapped curves. Error bounds, fixed triangulations and velocities therefore hold as for any valve. With
  * RIIS_TRIANGULATION_FIXED the warp may move. Landmarks of `closed` cut the curves of the closed valve, and landmarks of `open`
@@ -209,9 +209,9 @@ typedef struct riis_gap {
   int64_t n_without_wall;   /* the number of ends whose line misses the wall. These ends count in no other field */
 } riis_gap;
 /* Measures the gap between a valve's attachment and a wall, such as a patient's vessel.
- *   wall      a surface in the same frame, usually by riis_surface_create_from_arrays
- *   distance  (2, n_edges): the gap at both ends of each edge of riis_attachment; RIIS_FAR_DISTANCE if the line
- *             misses the wall. NULL if it is not wanted
+ *   `wall`: a surface in the same frame, usually by riis_surface_create_from_arrays.
+ *   `distance` (2, n_edges): the gap at both ends of each edge of riis_attachment; RIIS_FAR_DISTANCE if the line misses the wall.
+ *     NULL if it is not wanted.
  * The gap is the distance along the skirt's direction, which is outwards from the valve's axis and perpendicular to it
  * (docs/theory/skirt.md). If the line meets the wall several times, the nearest place counts. The gap is negative if the wall
  * lies inside the attachment.
@@ -219,9 +219,9 @@ typedef struct riis_gap {
 RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance,
                                           riis_gap *gap, int64_t struct_size);
 /* Gives a valve a skirt that just reaches a wall, and replaces the valve's skirt.
- *   wall     as in riis_surface_get_gap
- *   longest  the longest length to accept, mesh units, 1e-50 to 1e50
- *   options  scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults
+ *   `wall`: as in riis_surface_get_gap.
+ *   `longest`: the longest length to accept, mesh units, 1e-50 to 1e50.
+ *   `options`: scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults.
  * The length at each point of the closed valve's attachment is the gap there. The length is at least 0.01 of the attachment's
  * mean distance from the axis. The lengths of the skirt stay while the valve opens. The parameter "skirt_length" becomes the
  * largest length, before placement. If the caller sets "skirt_length", the lengths at the points are lost.

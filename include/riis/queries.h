@@ -29,7 +29,7 @@ typedef struct riis_closest {
 } riis_closest;
 /* Finds the closest point of the surface at any distance, in double precision, as a loop over all triangles
  * would. Distances below 1e-154 underflow to 0.
- *   point  3 finite coordinates, magnitude at most 1e60
+ *   `point`: 3 finite coordinates, magnitude at most 1e60.
  * Errors: RIIS_INVALID_ARGUMENT naming the coordinate. */
 RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
                                         int64_t struct_size);
@@ -67,7 +67,7 @@ typedef struct riis_closest_arrays {
 RIIS_API riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size);
 
 /* Finds the closest points of many points, in parallel.
- *   arrays  the arrays to write; none may overlap another or the coordinates
+ *   `arrays`: the arrays to write; none may overlap another or the coordinates.
  * Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written. */
 RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
                                          const riis_closest_options *options,
@@ -91,9 +91,9 @@ RIIS_API riis_status riis_crossings_create(riis_crossings **crossings); /* makes
 RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys the crossings and their list */
 
 /* Finds every pair of the surface's triangles that go through each other.
- *   options    a pair crosses if it is deeper than options->depth. A depth within the rounding error always counts as touching.
- *              The rounding error is 2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate
- *   crossings  its content is replaced
+ *   `options`: a pair crosses if it is deeper than options->depth. A depth within the rounding error always counts as touching.
+ *     The rounding error is 2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate.
+ *   `crossings`: its content is replaced.
  * The depth of a pair is the length of the shortest translation of one triangle after which the triangles only touch
  * (docs/theory/crossings.md). Triangles that touch or lie in one plane have depth 0. Triangles of one leaflet that share a vertex
  * (equal placed coordinates) are neighbours, not a pair. The call uses the triangles, whatever the surface's measure is. Where

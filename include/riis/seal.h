@@ -21,10 +21,10 @@ RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and 
 
 /* Finds the leaking edges: edges of the mesh's adjacency between two unmarked nodes that cross or touch a triangle of
  * the surface.
- *   surface, mesh  the surface and the mesh of the marking. The mesh must have an adjacency
- *   marks          marks from riis_mark_nodes
- *   options        the options of the marking. An edge with a node that node_mask leaves out does not leak
- *   leaks          its content is replaced
+ *   `surface`, `mesh`: the surface and the mesh of the marking. The mesh must have an adjacency.
+ *   `marks`: marks from riis_mark_nodes.
+ *   `options`: the options of the marking. An edge with a node that node_mask leaves out does not leak.
+ *   `leaks`: its content is replaced.
  * The decision is exact for coordinates in double precision; coordinates below 1e-90 count as 0. An edge may be given in one
  * row or in both, and appears once in the list. Edges to ghosts are ignored. Edges that are at most two half thicknesses long
  * do not leak (docs/meshes.md). With an offset o, edges of at most 2 (1 - |o|) half thicknesses do not leak. Longer edges may
@@ -59,12 +59,12 @@ RIIS_API riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list
 /* ---- Open regions and passages: whether the unmarked nodes connect two regions (docs/meshes.md) -------- */
 
 /* Labels the open regions: the connected components of the nodes that a marking left unmarked, along mesh edges.
- *   mesh       the mesh of the marking, with an adjacency
- *   marks      marks from riis_mark_nodes
- *   options    the options of the marking; nodes that node_mask leaves out are in no region
- *   n_nodes    the number of nodes of the marking
- *   label      (n_nodes), the lowest node id of the node's region, -1 for nodes in no region
- *   n_regions  the number of regions; may be NULL
+ *   `mesh`: the mesh of the marking, with an adjacency.
+ *   `marks`: marks from riis_mark_nodes.
+ *   `options`: the options of the marking; nodes that node_mask leaves out are in no region.
+ *   `n_nodes`: the number of nodes of the marking.
+ *   `label` (n_nodes), the lowest node id of the node's region, -1 for nodes in no region.
+ *   `n_regions`: the number of regions; may be NULL.
  * An edge may be given in one row or in both. Edges to ghosts are ignored: with MPI, ranks must exchange their labels
  * (examples/mpi_leaks.c).
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that
@@ -102,9 +102,9 @@ typedef struct riis_passage_ends {
 } riis_passage_ends;
 RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t struct_size); /* the defaults */
 /* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
- *   mesh     must have an adjacency, and need not have been marked
- *   ends     paths include their ends, so an end limits the passage to its own distance from the surface
- *   options  only node_mask, n_threads and instructions are used. No path passes through a node that node_mask leaves out
+ *   `mesh`: must have an adjacency, and need not have been marked.
+ *   `ends`: paths include their ends, so an end limits the passage to its own distance from the surface.
+ *   `options`: only node_mask, n_threads and instructions are used. No path passes through a node that node_mask leaves out.
  * A new half thickness moves a valve's triangles by up to tolerance * half_thickness: search again after
  * riis_surface_update.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency; also if a node of from or to is not in the mesh, is left

@@ -95,8 +95,8 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
 
 /* Makes the surface of a valve, by way of curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1;
  * docs/theory.md).
- *   valve    its parameters must fit together
- *   options  accuracy and placement
+ *   `valve`: its parameters must fit together.
+ *   `options`: accuracy and placement.
  * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of
  * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring, normals point outwards. Triangles of zero area
  * are skipped. Such triangles lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges.
@@ -152,14 +152,14 @@ RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *
                                                      riis_surface **surface);
 
 /* Replaces the surface's content by a valve, such as the same valve after a motion. The handle stays.
- *   options  NULL keeps the surface's own options, not the defaults
+ *   `options`: NULL keeps the surface's own options, not the defaults.
  * Errors: as riis_surface_create. */
 RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
                                          const riis_surface_options *options);
 /* Replaces the surface's content from arrays.
- *   arrays   if n_faces is 0, and vertex_ids and leaflet_id are NULL, only the vertices move. The faces and the skirt stay:
- *            skirt_length must be 0, and attached and skirt_lengths NULL
- *   options  as in riis_surface_update
+ *   `arrays`: if n_faces is 0, and vertex_ids and leaflet_id are NULL, only the vertices move. The faces and the skirt stay:
+ *     skirt_length must be 0, and attached and skirt_lengths NULL.
+ *   `options`: as in riis_surface_update.
  * Errors: as riis_surface_create_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices differs from the
  * last arrays, or if the surface was not made from arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
@@ -238,9 +238,9 @@ RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, ri
 
 /* Replaces the surface's content by a valve, and gives every vertex a velocity. riis_surface_update makes the same
  * triangles, to the last bit. For a valve at rest, also pass the valve as valve_before.
- *   valve_before    the earlier state, of the same kind. A valve from patches has the same curves and sides
- *   dt              the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back
- *   options_before  scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now
+ *   `valve_before`: the earlier state, of the same kind. A valve from patches has the same curves and sides.
+ *   `dt`: the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back.
+ *   `options_before`: scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now.
  * Each vertex is compared with the point of the earlier state at the same patch, u and v. Its velocity is the
  * displacement from that point, divided by dt (docs/theory/velocity.md). A warp does not change u and v, so vertices on
  * the wall have the wall's velocity (docs/theory/warp.md). The velocity is a mean over the step. This mean approximates the
@@ -276,16 +276,16 @@ typedef struct riis_keyframe_arrays {
 /* Fills *frames with the defaults. */
 RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int64_t struct_size);
 /* Makes keyframes from copies of arrays and frames.
- *   arrays  as for riis_surface_create_from_arrays; its vertices and velocities are ignored, and may be NULL. The first
- *           frame chooses the attachment of a skirt
+ *   `arrays`: as for riis_surface_create_from_arrays; its vertices and velocities are ignored, and may be NULL. The first frame
+ *     chooses the attachment of a skirt.
  * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face; RIIS_LIMIT_EXCEEDED for too many. */
 RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
                                            const riis_keyframe_arrays *frames, riis_keyframes **keyframes);
 /* Destroys the keyframes. Surfaces made from them stay. */
 RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
 /* Makes a surface from the frames around a time, with velocities.
- *   time  finite, magnitude at most 1e30
- *   dt    the velocity is the mean from time - dt to time; for 0 it is the derivative of the interpolation
+ *   `time`: finite, magnitude at most 1e30.
+ *   `dt`: the velocity is the mean from time - dt to time; for 0 it is the derivative of the interpolation.
  * Errors: as riis_surface_create_from_arrays. */
 RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
                                                         const riis_surface_options *options,

@@ -18,12 +18,12 @@ extern "C" {
 typedef struct riis_valve riis_valve;
 
 /* Makes a valve with the default parameter values. The defaults of "aortic" and "mitral" are the paper's.
- *   kind  one of these (docs/theory.md); any other is RIIS_INVALID_PARAMETER:
- *         "aortic" and "mitral", the paper's three cusps and two leaflets
- *         "coapting", "bicuspid" and "quadricuspid", three, two and four cusps with a zone of coaptation
- *         "tricuspid" and "mitral_coapting", three and two leaflets of an annulus, with a zone of coaptation
- *         "trileaflet", three equal cusps that close in straight lines
- *         "bileaflet", a mechanical prosthesis */
+ *   `kind`: one of these (docs/theory.md); any other is RIIS_INVALID_PARAMETER:
+ *     "aortic" and "mitral", the paper's three cusps and two leaflets
+ *     "coapting", "bicuspid" and "quadricuspid", three, two and four cusps with a zone of coaptation
+ *     "tricuspid" and "mitral_coapting", three and two leaflets of an annulus, with a zone of coaptation
+ *     "trileaflet", three equal cusps that close in straight lines
+ *     "bileaflet", a mechanical prosthesis. */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. The caller destroys both valves. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
@@ -31,11 +31,11 @@ RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy)
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by its name in the paper. riis_surface_create checks whether all values fit together.
- *   name      such as "root_radius". Names such as "right.leaflet_angle", "commissure_0.fusion" and "bump_0.open" mean the
- *             parameter of one part. The name "leaflet_angle" means this parameter of all parts, or the valve's own parameter if
- *             the valve itself has it
- *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
- *   values    (n_values), within the parameter's range
+ *   `name`: such as "root_radius". Names such as "right.leaflet_angle", "commissure_0.fusion" and "bump_0.open" mean the
+ *     parameter of one part. The name "leaflet_angle" means this parameter of all parts, or the valve's own parameter if the
+ *     valve itself has it.
+ *   `n_values`: 3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others.
+ *   `values` (n_values), within the parameter's range.
  * Two parameters change the whole valve:
  * - "opening", 0 to 1, moves the valve from a closed to an open state. One set of parameters describes both states. The default
  *   is 1 (open) for the mitral valve, and 0 for other valves. The aortic valve at opening 0 is the paper's closed state, which
@@ -54,30 +54,30 @@ RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, 
 RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values,
                                     double *values);
 
-/* Sizes by a surgeon's names, and sizes that follow from other sizes (docs/theory/sizes.md). Three names
- * stand for parameters. A kind that lacks such a size refuses the name and says why:
- *   annulus           diameter: 2 root_radius (kinds with cusps), 2 radius (bileaflet)
- *   stj               diameter at the commissures: 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius
- *                     (coapting, bicuspid, quadricuspid)
- *   effective_height  height of the free edges above the annulus: leaflet_height (aortic, trileaflet). The other
- *                     kinds with cusps have it as a parameter, for the middle of the edges
+/* Sizes by a surgeon's names, and sizes that follow from other sizes (docs/theory/sizes.md). Three names stand for parameters. A
+ * kind that lacks such a size refuses the name, and says why. The names are:
+ *   `annulus`: the diameter of the annulus, 2 root_radius (kinds with cusps) or 2 radius (bileaflet). `stj`: the diameter at the
+ *   commissures, 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius (coapting, bicuspid,
+ *     quadricuspid).
+ *   `effective_height`: the height of the free edges above the annulus, leaflet_height (aortic, trileaflet). The other kinds with
+ *     cusps have it as a parameter, for the middle of the edges.
  * Some parameters have a rule: until they are set, they follow from other parameters. The order of calls does not matter.
  * riis_valve_get gives the present values of such parameters. Copies and open states remember which parameters were set. */
 
 /* Returns a parameter to the value that its rule gives, or to its default if it has no rule.
- *   name  as in riis_valve_set
+ *   `name`: as in riis_valve_set.
  * Errors: RIIS_INVALID_PARAMETER for another name. */
 RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);
 /* Says whether a parameter was set.
- *   name    as in riis_valve_get
- *   is_set  1, or 0 if the parameter has its default or follows its rule
+ *   `name`: as in riis_valve_get.
+ *   `is_set`: 1, or 0 if the parameter has its default or follows its rule.
  * Errors: RIIS_INVALID_PARAMETER, also for a name that means all cusps. */
 RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t *is_set);
 
 /* Gives the valve a second state. At opening 0 the valve then has its own state, and at opening 1 the state of the valve `open`.
- *   open  a valve of the same kind, which is copied. The opening, leaflet ids and open state of the second valve are ignored. Two
- *         valves from patches must have the same curves, sides and degrees (degree 1 may stand for degree 2). Two bileaflet
- *         valves must both have a ring, or both lack it
+ *   `open`: a valve of the same kind, which is copied. The opening, leaflet ids and open state of the second valve are ignored.
+ *     Two valves from patches must have the same curves, sides and degrees (degree 1 may stand for degree 2). Two bileaflet
+ *     valves must both have a ring, or both lack it.
  * A second call replaces the open state. No call removes an open state. Control points are blended linearly between the states
  * (docs/theory/openings.md). A bileaflet valve blends lengths and angles instead. The middle of a coapting cusp's free edge hangs
  * as deep as the edge's length requires. All kinds except aortic and bileaflet take the closed shape from their own parameters,
@@ -127,7 +127,7 @@ typedef struct riis_parameter {
 /* Gives the number of the valve's parameters. */
 RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters);
 /* Gives the description of a parameter.
- *   parameter_id  0 to n_parameters - 1 */
+ *   `parameter_id`: 0 to n_parameters - 1. */
 RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id,
                                               riis_parameter *parameter, int64_t struct_size);
 
