@@ -25,8 +25,8 @@ extern "C" {
  * vertex is its displacement between the two states, on the triangles of the surface, divided by dp. The error of the derivative
  * is of second order in dp if the surface is midway between the states, otherwise of first order. A dp of 1e-5 of the parameter's
  * size suits most parameters. The limits of a fixed triangulation hold for the surface only, not for the two states.
- * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for a dp out of range; RIIS_INVALID_PARAMETER for a state of
- * another kind or with other patches, and for parameters that do not fit together; RIIS_LIMIT_EXCEEDED for more than 1000
+ * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for a dp out of range. RIIS_INVALID_PARAMETER for a state of
+ * another kind or with other patches, and for parameters that do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000
  * directions. */
 RIIS_API riis_status riis_surface_add_direction(riis_surface *surface, const riis_valve *valve_after,
                                                 const riis_valve *valve_before, double dp,

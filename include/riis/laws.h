@@ -139,7 +139,7 @@ RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *sta
  * for the whole step.
  *   `time`: at least before->time, magnitude at most 1e30.
  *   `pressure_difference`, `flow`: at that time, magnitude at most 1e30.
- * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step
+ * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. RIIS_LIMIT_EXCEEDED for a step
  * whose integration needs more than a million smaller steps. *now stays unchanged. */
 RIIS_API riis_status riis_opening_angle_advance(const riis_opening_angle *law,
                                                 const riis_opening_angle_state *before, double time,

@@ -86,9 +86,9 @@ RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t s
 /* Options of a marking. */
 typedef struct riis_mark_options {
   int64_t struct_size;       /* set by the init function */
-  double distance_limit;     /* the search finds nodes up to this distance. With the offset o, the distance is at least (1 + |o|)
-                                half thicknesses and at most 1e60. Default RIIS_AUTO: the list within the limit has the marked
-                                nodes only. The limit does not change the marked nodes */
+  double distance_limit;     /* the search finds the nodes whose distance is at most this limit. With the offset o, the limit is
+                                at least (1 + |o|) half thicknesses and at most 1e60. Default RIIS_AUTO: the list within the limit
+                                has the marked nodes only. The limit does not change the marked nodes */
   const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out, but must be finite. NULL: all nodes */
   const riis_resistance *resistance; /* requests riis_mark_list.K and, if the last update of the surface gave
                                         velocities, riis_mark_list.K_u_surface. Default NULL: neither */

@@ -126,7 +126,8 @@ typedef struct riis_area_range {
  * two neighbouring samples.
  * Errors: RIIS_INVALID_ARGUMENT naming the area. If the area is out of reach, the message names the range. RIIS_INVALID_PARAMETER
  * for an unknown name, for a parameter with three values, for a valve with one state or no orifice, and if the name does not
- * change the area. In errors of riis_surface_create the message also has the opening or size. On an error nothing is written. */
+ * change the area. If riis_surface_create fails inside the call, the message also names the opening or size. On an error nothing
+ * is written. */
 RIIS_API riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t n_areas,
                                        const double *areas, const riis_area_search *search, double *values,
                                        double *reached, riis_area_range *range, int64_t struct_size);
@@ -215,7 +216,7 @@ typedef struct riis_cells_across {
  *   `marks`: marks from riis_mark_nodes.
  *   `mesh`: the mesh of the marking, with an adjacency.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of
- * nodes; RIIS_INVALID_MESH as riis_mark_nodes. */
+ * nodes. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh *mesh,
                                                  riis_cells_across *cells, int64_t struct_size);
 
@@ -226,7 +227,7 @@ RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const 
  *   `options`: only scale, flip_normals and n_threads are used. NULL stands for the defaults.
  *   `leaflet_id`: RIIS_LEAFLET_*, or the id of a patch's leaflet, or RIIS_ALL_LEAFLETS.
  * The result is within 1e-3 of the largest volume that a leaflet sweeps from 0 to 1 (docs/theory/measures.md).
- * Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks;
+ * Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks.
  * RIIS_INVALID_PARAMETER for inconsistent parameters, and for a valve with one state if an opening is above 0. */
 RIIS_API riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_from, double opening_to,
                                                  const riis_surface_options *options, int32_t leaflet_id,

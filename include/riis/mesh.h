@@ -20,7 +20,7 @@ typedef struct riis_mesh riis_mesh;
 /* Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. A
  * process without nodes makes the same calls as the other processes.
  *   `n_nodes`: 0 to 2^40; with 0 the pointers may be NULL.
- * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. */
+ * Errors: RIIS_INVALID_MESH naming the node and the value. RIIS_LIMIT_EXCEEDED for too many nodes. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride, riis_mesh **mesh);
 /* Tells the mesh that its coordinates have changed, in the old arrays or in other arrays, and checks them again. Call this
@@ -38,7 +38,7 @@ RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *n
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
 /* Makes the clusters of RIIS_SEARCH_CLUSTERS in advance, so that no marking has to make them. Clusters copy the coordinates: they
  * take 41 bytes per node while the handle lives, and 32 more while they are made. A grid needs no such copy.
- * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more; RIIS_INVALID_MESH as riis_mark_nodes. */
+ * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
 /* A rectilinear grid: three axes, and the place of each node in the caller's arrays. Node (i, j, k) is at (x[i], y[j], z[k])
@@ -66,8 +66,8 @@ RIIS_API riis_status riis_grid_init(riis_grid *grid, int64_t struct_size); /* th
  * riis_mesh_create makes from the same nodes. The edges are those of riis_adjacency_create_from_grid, or the edges that
  * riis_mesh_set_adjacency gives the mesh. Axes are not periodic. Markings refuse RIIS_SEARCH_NEIGHBOR and RIIS_SEARCH_PAPER, and
  * sampling and minimisation for more than 10^8 nodes.
- *   `grid`: the axes, which are copied. Its n_nodes is the n_nodes of the mesh in every other call.
- * Errors: RIIS_INVALID_MESH naming the axis, the index and the value; RIIS_LIMIT_EXCEEDED for numbers from 2^40 on. */
+ *   `grid`: the axes, which are copied. The grid's n_nodes is the n_nodes of the mesh in every other call.
+ * Errors: RIIS_INVALID_MESH naming the axis, the index and the value. RIIS_LIMIT_EXCEEDED for numbers from 2^40 on. */
 RIIS_API riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh);
 /* Gives a mesh other axes, or turns a mesh of points into a grid. riis_mesh_update turns a grid into points.
  * Errors: as riis_mesh_create_grid; the mesh then keeps its nodes. */

@@ -77,7 +77,7 @@ RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_
  * is wrong by newtons (docs/solvers.md, "The source in the band"). The source acts in cells whose faces are walls or have K dt >
  * rho: the faces with K dt > rho get the outflow of u_surface. Finite elements have the same fault for K dt > rho, and no source
  * is known for them.
- * Errors: as riis_marks_add_resistance; RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small (the message names the
+ * Errors: as riis_marks_add_resistance. RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small (the message names the
  * leaflet id), a leaflet without an edge, a bad edge, and a reaction without any sum. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
                                              const riis_flow_arrays *flow, const riis_reaction *reaction);

@@ -34,7 +34,7 @@ enum {
   RIIS_LANDMARK_POSTEROMEDIAL = 7,  /* mitral: the annulus at the posteromedial commissure; at most 1 */
   RIIS_LANDMARK_ANTEROLATERAL = 8,  /* mitral: the annulus at the anterolateral commissure; at most 1 */
   RIIS_LANDMARK_HINGE = 9,          /* bileaflet: an end of a leaflet's hinge line; 2 of one leaflet, or 4 */
-  RIIS_LANDMARK_ATTACHMENT = 10     /* cusps: a further point of the attachment; at most 900. The sizes and the placement do not
+  RIIS_LANDMARK_ATTACHMENT = 10     /* cusps: any further point of the attachment; at most 900. The sizes and the placement do not
                                        depend on such a point, which serves a warp by riis_placement_arrays.place */
 };
 /* Landmarks of a patient, in the caller's arrays. */
@@ -153,13 +153,13 @@ RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_war
 RIIS_API void riis_warp_destroy(riis_warp **warp);
 /* Makes the warp take the landmarks to the targets. The same targets give the same bits, whatever the earlier targets were.
  *   `targets`: as many points as the sources, in their order.
- * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: half way from some landmark to
+ * Errors: RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds: half way from some landmark to
  * the nearest other landmark, the determinant of the map's derivative is not above 0. A warp with more noise folds less. */
 RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
 /* Makes the warp take the landmarks to their places at a time, from a table of keys in time.
  *   `frames`: n_vertices is the number of landmarks. The keys are read during the call only.
  *   `time`: magnitude at most 1e30.
- * Errors: as riis_warp_set_targets; RIIS_INVALID_ARGUMENT naming the field, key or landmark and its value. */
+ * Errors: as riis_warp_set_targets. RIIS_INVALID_ARGUMENT naming the field, key or landmark and its value. */
 RIIS_API riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyframe_arrays *frames, double time);
 
 /* A warp's quality, in the units of its landmarks. */
@@ -195,7 +195,7 @@ RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *poi
  * pass both valves to riis_surface_update_moving. Either both valves have a warp, or neither has one. A call that makes or
  * updates a surface refuses a warp that folds at the valve or turns a part of the valve over: RIIS_INVALID_PARAMETER names the
  * place and the value.
- * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`; RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
+ * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`. RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
 RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open);
 
 /* ---- Skirt: the gap between the attachment and a wall -------------------------------------------------- */
@@ -210,7 +210,7 @@ typedef struct riis_gap {
 } riis_gap;
 /* Measures the gap between a valve's attachment and a wall, such as a patient's vessel.
  *   `wall`: a surface in the same frame, usually by riis_surface_create_from_arrays.
- *   `distance` (2, n_edges): the gap at both ends of each edge of riis_attachment; RIIS_FAR_DISTANCE if the line misses the wall.
+ *   `distance` (2, n_edges): the gap at both ends of each edge of riis_attachment. RIIS_FAR_DISTANCE if the line misses the wall.
  *     NULL if it is not wanted.
  * The gap is the distance along the skirt's direction, which is outwards from the valve's axis and perpendicular to it
  * (docs/theory/skirt.md). If the line meets the wall several times, the nearest place counts. The gap is negative if the wall
@@ -225,7 +225,7 @@ RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const rii
  * The length at each point of the closed valve's attachment is the gap there. The length is at least 0.01 of the attachment's
  * mean distance from the axis. The lengths of the skirt stay while the valve opens. The parameter "skirt_length" becomes the
  * largest length, before placement. If the caller sets "skirt_length", the lengths at the points are lost.
- * Errors: RIIS_INVALID_ARGUMENT if the wall is missed or farther than longest, naming the first such point;
+ * Errors: RIIS_INVALID_ARGUMENT if the wall is missed or farther than longest, naming the first such point.
  * RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
 RIIS_API riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,
                                                   const riis_surface_options *options);

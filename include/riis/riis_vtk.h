@@ -216,7 +216,7 @@ RIIS_API riis_status riis_vtk_pieces_get_files(const riis_vtk_pieces *pieces, in
                                                const char *const **paths);
 /* Reads a piece, which may have no points.
  *   `piece`: 0 to n_files - 1.
- * Errors: as in riis_vtk_mesh_read; RIIS_FILE_ERROR also for a piece with other point or cell arrays than the .pvtu
+ * Errors: as in riis_vtk_mesh_read. RIIS_FILE_ERROR also for a piece with other point or cell arrays than the .pvtu
  * declares. The array vtkGhostType need not be declared. */
 RIIS_API riis_status riis_vtk_pieces_read_mesh(const riis_vtk_pieces *pieces, int64_t piece, riis_vtk_mesh **mesh);
 /* Writes the list to a file. Names of pieces become relative to the file's folder, unless they are absolute.
@@ -434,7 +434,7 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  *
  *   `mesh`: must have marks set. NULL draws the surface alone, in one panel.
  *   `path`: ends in .png.
- * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for
+ * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second. RIIS_INVALID_ARGUMENT for
  * leaking_edges without a mesh, or with nodes that the mesh lacks, and for RIIS_VTK_PANELS_MARKS without a mesh. */
 RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_mesh *mesh,
                                    const riis_vtk_picture_options *options, const char *path);
@@ -455,7 +455,7 @@ typedef struct riis_vtk_film riis_vtk_film;
  *     mesh's data, so the caller may destroy the mesh first.
  *   `lower`, `upper` (3), bounds of the surface at all times along the mesh's axes, for the camera.
  *   `options`: the view, the size and the leaflets' names; title and leaking edges are ignored.
- * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for
+ * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second. RIIS_INVALID_ARGUMENT for
  * bounds that are not finite or do not ascend. */
 RIIS_API riis_status riis_vtk_film_create(const riis_vtk_mesh *mesh, const double *lower, const double *upper,
                                           const riis_vtk_picture_options *options, riis_vtk_film **film);

@@ -34,7 +34,7 @@ RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and 
  * riis_surface_update with that half thickness moves a valve's triangles by up to tolerance * half_thickness. Search for leaks
  * again after such an update.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that
- * have another number of nodes or half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
+ * have another number of nodes or half thickness. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_marks *marks, const riis_mark_options *options,
                                      riis_leaks *leaks);
@@ -108,7 +108,7 @@ RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t str
  * A new half thickness moves a valve's triangles by up to tolerance * half_thickness: search again after
  * riis_surface_update.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency; also if a node of from or to is not in the mesh, is left
- * out by node_mask, or is within the half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
+ * out by node_mask, or is within the half thickness. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh,
                                        const riis_passage_ends *ends, const riis_mark_options *options,
                                        riis_passage *passage, int64_t struct_size);

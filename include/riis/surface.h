@@ -104,8 +104,8 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
  * eps beside the triangles, on the side to which normals point. Let s be the signed distance of a node, with the sign of its
  * side. The band holds the nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, the band holds the
  * nodes x with |x - p - o eps n| <= eps (docs/theory/marks.md, "Offset"). An offset changes no distance, side or closest point.
- * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range;
- * RIIS_INVALID_SURFACE with an offset, for two triangles that run along a shared edge in the same direction;
+ * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range.
+ * RIIS_INVALID_SURFACE with an offset, for two triangles that run along a shared edge in the same direction.
  * RIIS_LIMIT_EXCEEDED if a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than the rounding
  * of coordinates. */
 RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options,
@@ -130,8 +130,8 @@ typedef struct riis_surface_arrays {
   double skirt_length;       /* the length of a skirt before placement. A skirt is a strip from the attachment outwards. The
                                 length is 1e-4 to 10 times the mean distance of the attachment from its axis. 0, the default: no
                                 skirt */
-  const uint8_t *attached;   /* (n_vertices): above 0 for the vertices of the attachment. The attachment consists of the open
-                                edges whose two vertices are attached. NULL: with a skirt, the call chooses the attachment */
+  const uint8_t *attached;   /* (n_vertices): a number above 0 marks a vertex of the attachment. The attachment consists of the
+                                open edges whose two vertices are attached. NULL: with a skirt, the call chooses the attachment */
   const double *skirt_lengths; /* (n_vertices): the skirt's lengths at the attached vertices, at most skirt_length. A length below
                                   the lower limit of skirt_length counts as this limit. NULL: skirt_length everywhere */
 } riis_surface_arrays;
@@ -145,8 +145,8 @@ RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64
  * (docs/theory/skirt.md). The skirt's vertices and triangles come after the caller's vertices and triangles. Without `attached`,
  * the attachment is the closed line of open edges that encloses the largest area. The line must enclose at least 0.8 of the area
  * of the leaflets' outline (RIIS_OUTLINE_BOUNDARY).
- * Errors: RIIS_LIMIT_EXCEEDED for too many triangles; RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying
- * why an attachment is not found; RIIS_INVALID_ARGUMENT for a length of the skirt out of range. */
+ * Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying
+ * why an attachment is not found. RIIS_INVALID_ARGUMENT for a length of the skirt out of range. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options,
                                                      riis_surface **surface);
@@ -245,7 +245,7 @@ RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, ri
  * displacement from that point, divided by dt (docs/theory/velocity.md). A warp does not change u and v, so vertices on
  * the wall have the wall's velocity (docs/theory/warp.md). The velocity is a mean over the step. This mean approximates the
  * velocity in the middle of the step to second order, and the velocity at either end to first order.
- * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
+ * Errors: as riis_surface_update. RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
  * with parameters that do not fit together. */
 RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
                                                 const riis_valve *valve_before, double dt,
@@ -278,7 +278,7 @@ RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int
 /* Makes keyframes from copies of arrays and frames.
  *   `arrays`: as for riis_surface_create_from_arrays; its vertices and velocities are ignored, and may be NULL. The first frame
  *     chooses the attachment of a skirt.
- * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face; RIIS_LIMIT_EXCEEDED for too many. */
+ * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face. RIIS_LIMIT_EXCEEDED for too many. */
 RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
                                            const riis_keyframe_arrays *frames, riis_keyframes **keyframes);
 /* Destroys the keyframes. Surfaces made from them stay. */

@@ -116,15 +116,16 @@ double first_guess(const Speed &speed, double share) {
   return t;
 }
 
-// Integrates the speed over a range of t shorter than 1/1000. In such a short range the rule with 2 points is exact to rounding.
+// Integrates the speed over a range of t shorter than 1/1000. In such a short range, the rule with 2 points is exact up to
+// rounding.
 double short_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double node = 0.57735026918962576451;
   const double middle = 0.5 * (t0 + t1), half = 0.5 * (t1 - t0);
   return half * (speed(middle - half * node) + speed(middle + half * node));
 }
 
-// Integrates the speed in steps of t of at most 1/12. In such steps the rule with 8 points is exact to rounding if the speed is
-// nowhere nearly 0.
+// Integrates the speed in steps of t of at most 1/12. In such steps the rule with 8 points is exact up to rounding if the speed
+// is nowhere nearly 0.
 double stepwise_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double longest = 1.0 / 12;
   if (t1 - t0 <= longest) return quadrature(speed, t0, t1);

@@ -229,8 +229,8 @@ Bulge::Place Bulge::place(double u) const {
 OffsetBounds bound_offset(const ArcRange &range, double factor) {
   const Vec3 start = range.edge.front().first() - range.base.front().first();
   const Vec3 end = range.edge.back().last() - range.base.back().last();
-  // No point of a curve moves farther than the length of its part of the curve. The distance of W from its nearer end value is
-  // therefore at most half the sum of the two parts' lengths.
+  // On the range, a point of a curve moves by at most the length of the curve's part. The distance of W from its nearer end value
+  // is therefore at most half the sum of the two parts' lengths.
   const double w_ends = std::max(length(start), length(end));
   const double w_far = w_ends + 0.5 * range.du * (range.base_length + range.edge_length);
   const OffsetBounds unknown{infinity, 2 * std::abs(factor) * w_far};

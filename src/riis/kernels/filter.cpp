@@ -385,7 +385,7 @@ void begin_cluster(const FilterTask &task, ClusterTask &cluster) {
 }
 
 // Leaves a node out if all its possible closest triangles leave the node out of the band. All groups near the node must be in the
-// list, so only the first n_leaves leaves count.
+// list, so only the first n_leaves leaves are judged.
 RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   uint32_t stays[leaves_per_cluster] = {};
   for (int32_t i = 0; i < cluster.n_listed; ++i) {

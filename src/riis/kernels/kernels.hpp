@@ -3,10 +3,10 @@
 // chosen at run time. This header has only plain data and declarations, because the compiler would compile a function body here
 // for several instruction sets under one name.
 //
-// filter_*: single precision, only to dismiss pairs that cannot matter. Results are accurate to filter_error
+// FilterKernels compute in single precision, only to dismiss pairs that cannot matter. Results are accurate to filter_error
 // (docs/theory/clusters.md). Coordinates are in the surface's frame: relative to the surface's middle, and scaled by a power of
 // two that makes the surface's half extent 1/2 to 1.
-// decide, locate: double precision, with exactly the bits of the decision kernel (geometry/point_triangle.hpp).
+// DecisionKernels compute in double precision, with exactly the bits of the decision kernel (geometry/point_triangle.hpp).
 #pragma once
 
 #include <stdint.h>

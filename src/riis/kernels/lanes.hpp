@@ -62,8 +62,8 @@ struct ComparisonOf<DoubleRegister> {
   typedef LongRegister type;
 };
 
-// Returns a < b ? a : b. If a is NaN, b is therefore returned. NEON differs for a NaN in b alone, and for two zeros of different
-// signs. No result depends on this difference: where b is NaN, a is NaN too, and nothing reads the sign of a zero.
+// Returns a < b ? a : b. If `a` is NaN, the result is therefore b. NEON differs for a NaN in b alone, and for two zeros of
+// different signs. No result depends on this difference: where b is NaN, a is NaN too, and nothing reads the sign of a zero.
 RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_min_ps((__m512)a, (__m512)b);
@@ -382,7 +382,7 @@ RIIS_INLINE uint32_t bits_at_most(Floats a, Floats b) {
 #endif
 }
 
-// Returns one bit for each lane, set if a and b differ.
+// Returns one bit for each lane. The bit is set if a and b differ there.
 RIIS_INLINE uint32_t bits_different(Floats a, Floats b) {
 #if defined(__AVX512F__)
   return _mm512_cmp_ps_mask((__m512)a.part[0], (__m512)b.part[0], _CMP_NEQ_UQ);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the leaflet to which a nadir belongs, and the leaflets between which a commissure lies, from the order around a valve's
-// axis. Some landmarks may name their leaflets. The result is the landmarks in the order of the leaflets.
+// From the order of landmarks around a valve's axis, finds the leaflet of each nadir and the two leaflets beside each commissure.
+// Some landmarks may name their leaflets. The result is the landmarks in the order of the leaflets.
 #pragma once
 
 #include <cstddef>

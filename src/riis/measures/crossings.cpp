@@ -93,7 +93,7 @@ CommonSegment common_segment(const Triangle &a, const Triangle &b) {
   const Triangle from_b = moved(a, b[0]);
   std::array<double, 3> height{};
   for (std::size_t k = 0; k < 3; ++k) height[k] = dot(normal, from_b[k]);
-  // One corner of a is alone on its side of b's plane.
+  // One corner of the triangle a is alone on its side of b's plane.
   const auto is_below = [&](std::size_t k) { return height[k % 3] < 0; };
   std::size_t lone = 0;
   while (lone < 2 && (is_below(lone) == is_below(lone + 1) || is_below(lone) == is_below(lone + 2))) ++lone;

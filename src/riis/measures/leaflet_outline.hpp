@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The outline of the leaflets, which bounds the orifice. The outline consists of the farthest edges round a centre, seen along an
-// axis that follows from these edges (docs/theory/measures.md, "Outline"). From the triangles of a valve or of arrays, this file
-// finds a polygon in a plane, and the axis along which the polygon is seen.
+// The outline of the leaflets, which bounds the orifice. The outline consists of the farthest edges around a centre, seen along
+// an axis that follows from these edges (docs/theory/measures.md, "Outline"). From the triangles of a valve or of arrays, this
+// file finds a polygon in a plane, and the axis along which the polygon is seen.
 #pragma once
 
 #include <cstdint>

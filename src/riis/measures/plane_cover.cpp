@@ -70,8 +70,8 @@ double length_along(double dx, double dy, bool counts_equal) {
   return std::sqrt(1 + slope * slope);
 }
 
-// Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. The order of a and b does
-// not change x, so two triangles with a common edge leave no gap.
+// Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. The order of the edge's ends
+// does not change x, so two triangles with a common edge leave no gap.
 template <class Visit>
 void for_each_cut(const ScanLines &lines, PlanePoint a, PlanePoint b, const Visit &visit) {
   if (b[1] < a[1]) std::swap(a, b);

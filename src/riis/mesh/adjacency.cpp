@@ -45,15 +45,14 @@ class PlainMemory {
   std::unique_ptr<void, Free> memory_;
 };
 
-// Makes the rows. An entry says that a node is in an item. The entries of a block of
-// nodes are stored together, node by node. Later the rows overwrite the entries. Lists is a type
-// with
-//   n_nodes, n_items
-//   most_neighbors                         the most different nodes that for_each_neighbor visits
-//   for_each_entry(range, visit)           calls visit(node, entry) for every node of every item in a range
-//   for_each_neighbor(entry, node, visit)  calls visit(other) for the neighbours that an entry gives its node, in any order
-//   prefetch(entry)                        requests the memory that for_each_neighbor reads
-// The type Entry can hold the number of all entries, and Column the number of nodes.
+// Makes the rows. An entry says that a node is in an item. The entries of a block of nodes are stored together, node by node.
+// Later the rows overwrite the entries. Lists is a type with these members:
+//   `n_nodes`, `n_items`: the numbers of nodes and items.
+//   `most_neighbors`: the most different nodes that for_each_neighbor visits.
+//   `for_each_entry(range, visit)`: calls visit(node, entry) for every node of every item in a range.
+//   `for_each_neighbor(entry, node, visit)`: calls visit(other) for the neighbours that an entry gives its node, in any order.
+//   `prefetch(entry)`: requests the memory that for_each_neighbor reads.
+// The type Entry can hold the number of all entries, and the type Column can hold the number of nodes.
 template <class Entry, class Column, class Lists>
 class RowMaker {
  public:

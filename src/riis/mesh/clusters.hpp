@@ -49,7 +49,7 @@ struct Clusters {
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
 // The next two functions fail with RIIS_INVALID_MESH for an unusable coordinate. n_nodes is 0 in clusters that were never made.
-//   bounds  the box of the nodes at the time when the caller gave them
+//   `bounds`: the box of the nodes at the time when the caller gave them.
 void sort_into_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters);
 // Keeps the order, and updates coordinates and boxes to the nodes' new positions.
 void place_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters);

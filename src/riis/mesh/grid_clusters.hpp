@@ -41,7 +41,7 @@ class GridClusters {
     return boxes_at(begin_of(cluster), leaves_, leaf_extent_, room->cluster);
   }
 
-  // Opens a cluster, and fills the leaves that have a bit.
+  // Opens a cluster, and fills the leaves whose bit is set.
   void open(std::int64_t cluster, std::uint32_t leaves, Room &room) const;
   // Returns a bit for each lane of a leaf that has a node.
   std::uint32_t lanes(int leaf, const Room &room) const;

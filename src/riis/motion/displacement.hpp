@@ -114,7 +114,7 @@ class RestInside {
 // The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. The two states
 // are evaluated on the smooth patches: on the sides directly, and inside as the same combination of the sides. Only (u,v)
 // identifies a point in both states, so the two states may have different triangles. SideMaterial matches the points of a warped
-// side. The result is exactly 0 if neither the sides nor the bulge changed.
+// side. If the sides and the bulge did not change, the result is exactly 0.
 class PatchDisplacement {
  public:
   // Computes the displacements at the grid's vertices. The grid must have kept its lines.

@@ -146,7 +146,7 @@ void add_load_sums(const Loads &loads, const Tissue &tissue, int n_threads, doub
   for (std::int64_t leaflet = 0; leaflet < loads.n_leaflets; ++leaflet) {
     const Hold hold = holds.of(static_cast<std::int32_t>(leaflet));
     const Vector<double> weights = weights_of(holds, hold, tissue, n_threads);
-    // A single thread adds in the order of the nodes, so that the bits do not depend on the number of threads.
+    // A single thread adds the numbers in the order of the nodes, so that the bits do not depend on the number of threads.
     std::array<Sum, n_load_sums> added;
     for (std::int64_t i = 0; i < tissue.nodes.size(); ++i) {
       const double w = view(weights)[i];

@@ -20,7 +20,7 @@ struct Resistance {
 Resistance checked_resistance(const riis_resistance &resistance, const char *name, const Band &band,
                               double distance_limit);
 // Computes K and K u_surface at the nodes of the list, and stores both in the list. The fields of the nodes are already in the
-// list. `resistance` is null if `data` requests neither array.
+// list. `resistance` is null if `data` requests none of the two arrays.
 void list_resistance(const Resistance *resistance, const WantedData &data, const Threads &n_threads, ListedNodes &list);
 
 // Each of the next five functions fails with RIIS_INVALID_ARGUMENT if the marks lack data that it needs.

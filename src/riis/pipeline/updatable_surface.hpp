@@ -22,8 +22,8 @@ namespace riis {
 class CrossingWatch {
  public:
   // In each range of the opening, this function examines the first surface of each shape, until it has warned about the shape.
-  // Without a log function the search does nothing and allocates nothing. The search never fails, because the surface itself is
-  // good. If the search lacks memory, there is no warning.
+  // Without a log function the search does nothing and allocates nothing. The search reports no failure, because the surface
+  // itself is good. If the search lacks memory, there is no warning.
   void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
 
  private:

@@ -13,7 +13,7 @@
 
 namespace riis {
 
-// An open edge, with the direction that it has round its triangle.
+// An open edge, with the direction that it has around its triangle.
 struct OpenEdge {
   std::int64_t from, to;  // two vertices; each stands for all vertices with the same coordinates
   std::int64_t triangle;  // the position of its triangle in the set

@@ -158,8 +158,8 @@ Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double en
   return made;
 }
 
-// Ascending positions, and a need for each step between neighbouring positions. The need times the square of a segment's width
-// bounds the error of a segment within the step, as a share of the allowed error.
+// Ascending positions, and a number `need` for each step between neighbouring positions. The need times the square of a segment's
+// width bounds the error of a segment within the step, as a share of the allowed error.
 struct Needs {
   Vector<double> at, need;
 };
@@ -379,7 +379,7 @@ class Planner {
     return made;
   }
 
-  // Returns the needs on the wider steps between `lines`.
+  // Returns the needs for the wider steps between `lines`.
   static Needs between_lines(const Needs &needs, const Vector<double> &lines) {
     Needs made{lines, Vector<double>(lines.size() - 1, 0)};
     std::size_t step = 0;

@@ -29,7 +29,7 @@ struct VerticesOfPatch {
   AxisLine axis;  // placed
 };
 
-// An edge of the attachment of triangles from arrays. The edge has its direction round its triangle.
+// An edge of the attachment of triangles from arrays. The edge has the direction around its triangle.
 struct AttachedEdge {
   std::int64_t from, to;
   std::int32_t leaflet_id;
@@ -121,7 +121,7 @@ inline bool has_zero_area(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double longest_sq = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
   if (!(longest_sq >= min_edge * min_edge)) return true;
-  // For edges from 1e-60 to 1e60, these products neither underflow nor overflow.
+  // For edges from 1e-60 to 1e60, these products stay within the range of doubles.
   const Vec3 twice_area = cross(ab, ac);
   return !(dot(twice_area, twice_area) > 1e-24 * longest_sq * longest_sq);
 }

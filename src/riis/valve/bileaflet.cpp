@@ -199,7 +199,7 @@ void add_ring(const Shape &shape, PatchSet &set) {
   const Side bottom = arc_at(lower), top = arc_at(upper);
   const Side first = set.add(Bezier::line({R, 0, lower}, {R, 0, upper}));
   const Side last = set.add(Bezier::line({0, R, lower}, {0, R, upper}));
-  // u runs round the axis, and v runs downstream. S_u x S_v therefore points outwards.
+  // u runs around the axis, and v runs downstream. S_u x S_v therefore points outwards.
   Patch patch{bottom, top, first, last, {}};
   std::int32_t patch_id = 4;
   for (const bool is_turned : {false, true})

@@ -71,7 +71,7 @@ struct MovingHalf {
 void add_cusps(PatchSet &set, const MovingHalf &half, const Vector<CuspPlace> &places);
 inline std::size_t top_patch(const PatchSet &set) { return set.patches.size() - 1; }
 
-// Returns the places of equal cusps. Equal cusps follow each other round the axis, from the x axis on, and are then shifted.
+// Returns the places of equal cusps. Equal cusps follow each other around the axis, from the x axis on, and are then shifted.
 Vector<CuspPlace> equal_places(std::size_t n_cusps, Vec3 shift);
 // Sews the images of a patch of equal cusps together. The half y < 0 of each cusp meets the half y >= 0 of the cusp before it.
 void sew_equal_cusps(PatchSet &set, std::size_t patch, SeamPlace place);
@@ -81,7 +81,7 @@ struct UnequalCusp {
   double turn_degrees;
   std::array<MovingHalf, 2> halves;
 };
-// Adds the patches of cusps that follow each other round the axis, with the ids that equal cusps have. To the last bit, the
+// Adds the patches of cusps that follow each other around the axis, with the ids that equal cusps have. To the last bit, the
 // halves of a cusp share their middle, and neighbours share their commissure.
 void add_unequal_cusps(PatchSet &set, const Vector<UnequalCusp> &cusps, Vec3 shift);
 

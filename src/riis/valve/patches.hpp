@@ -134,8 +134,8 @@ struct AttachedEnd {
   std::size_t patch;
   bool is_last;
 };
-// Two ends of attached sides that are neighbours but are not joined, because they belong to different leaflets. Round the axis of
-// the attachment, one side ends where the next side begins. In some valves a skirt is turned at such ends only after a warp.
+// Two ends of attached sides that are neighbours but are not joined, because they belong to different leaflets. Around the axis
+// of the attachment, one side ends where the next side begins. In some valves a skirt is turned at such ends only after a warp.
 // These valves store the angles, in radians, by which the skirt would be turned at both ends before the warp.
 struct NeighbourEnds {
   AttachedEnd before, after;
