@@ -97,7 +97,8 @@ RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *cs
 
 /* ---- Adjacency from cells, faces, or a structured grid ------------------------------------------------- */
 
-/* Compressed sparse rows that the library owns: ascending columns without repetition, symmetric, base 0. */
+/* Compressed sparse rows that the library owns. The columns ascend without repetition, the adjacency is symmetric, and the base
+ * is 0. */
 typedef struct riis_adjacency riis_adjacency;
 
 /* Cells that are given by their nodes. The order of the nodes is that of VTK, Abaqus, CGNS and Gmsh: first the base, then the

@@ -108,8 +108,9 @@ RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, i
  * The result minimises the sum of squared distances between the landmarks and their places on the closed valve
  * (docs/theory/landmarks.md). Cusps of a bicuspid, coapting or quadricuspid valve get different sectors, with a sum of 360
  * degrees, if the landmarks show differences above the noise. The commissures get different heights in the same way, and
- * commissure_height is then the mean height. Otherwise sectors and proportions of heights stay. Rotations and leaflet angles of
- * an aortic valve follow from the landmarks. A leaflet_power at which cusps would overlap is lowered.
+ * commissure_height is then the mean height. If the landmarks show no such differences, sectors and proportions of heights stay.
+ * Rotations and leaflet angles of an aortic valve follow from the landmarks. A leaflet_power at which cusps would overlap is
+ * lowered.
  * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear or mirrored, or that are too
  * large or too small for a heart valve at this scale. Landmarks that do not show the flow are also refused. The message names the
  * landmarks. The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus' normal. A mitral valve
@@ -135,9 +136,9 @@ typedef struct riis_warp_options {
   int64_t struct_size; /* set by the init function */
   double noise;        /* standard deviation of each coordinate of the targets, 0 to 1e50. The map is smoothed until it misses the
                           targets by about this noise. Default 0: the map meets the targets exactly */
-  const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates. Otherwise
-                                            landmarks and noise are in the mesh's frame, where scale, rotation and translation of
-                                            these options place the valve. Use the same options for the surface */
+  const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates. With these
+                                            options, landmarks and noise are in the mesh's frame, where the options' scale,
+                                            rotation and translation place the valve. Use the same options for the surface */
 } riis_warp_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);

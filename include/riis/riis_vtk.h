@@ -31,8 +31,8 @@ extern "C" {
 /* A mesh as read from the file: an unstructured grid with its points as doubles, or the axes of a rectilinear grid. */
 typedef struct riis_vtk_mesh riis_vtk_mesh;
 
-/* Reads a mesh, which may have no cells. Its nodes and cells keep the file's order, and cells of second order
- * get VTK's order of nodes. docs/formats.md has the limits of each format.
+/* Reads a mesh, which may have no cells. The mesh's nodes and cells keep the file's order, and cells of second order get VTK's
+ * order of nodes. docs/formats.md has the limits of each format.
  *   `path`: a file, whose ending tells its format, or a folder of OpenFOAM: .vtu (VTK XML), .vtk (legacy VTK), .vti, .vtr or .vts
  *     (structured grids of VTK), .vtm (blocks, whose shared nodes are joined), .msh (gmsh), .xdmf or .xmf, .e, .exo, .ex2 or
  *     .exii (Exodus), .foam, a case, its time folder, or a polyMesh.
@@ -143,7 +143,7 @@ RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, do
 
 /* Keeps only the cells with certain values in a cell array, and their nodes. An example is the fluid of a mesh that also has the
  * wall. Nodes and cells keep their order and their data. As in riis_vtk_mesh_extract, the arrays riis_node_id and riis_cell_id
- * have the ids in the whole mesh. Later parts of this mesh also keep these ids.
+ * have the ids in the whole mesh. Parts that are later made of this mesh also have the ids in the whole mesh.
  *   `where`: NAME=VALUES, such as "region=1,2". NAME is a cell array of single numbers. For gmsh's physical groups NAME is
  *     gmsh:physical, and VALUES may be names of groups; all groups of a cell count.
  *   `n_chosen`: the number of cells with such a value; only volume cells count if the mesh has some. With NULL the call fails if
@@ -183,11 +183,11 @@ RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int6
 
 /* Writes the mesh with all its arrays to a file. The points are Float64.
  *   `path`: ends in .vtu, or in .xdmf. A mesh that was read as the axes of a grid can also go to a .vtr file, or with evenly
- *     spaced axes to a .vti file. These two formats store no cells. The numbers of NAME.xdmf are in NAME.h5 beside it, or in
+ *     spaced axes to a .vti file. Files .vtr and .vti store no cells. The numbers of NAME.xdmf are in NAME.h5 beside it, or in
  *     NAME.xdmf itself if riis was built without HDF5. An .xdmf file cannot hold polyhedra or text. If the mesh was read from a
  *     case of OpenFOAM, with nodes at centres, the path may also be a time folder of the case, such as CASE/0. The arrays of
- *     cells become the fields of this folder, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface becomes Ku.
- *     Such a folder may be written in part if an error occurs. */
+ *     cells become the fields of this folder, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface becomes Ku. A
+ *     time folder may be written in part if an error occurs. */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
 
 /* ---- Meshes in pieces ---------------------------------------------------------------------------------- */
@@ -307,8 +307,7 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
 typedef struct riis_vtk_motion riis_vtk_motion;
 
 /* Reads a motion from a ParaView collection. Each DataSet has a timestep and a file, whose path is absolute or
- * relative to the folder of the .pvd file. Other attributes are ignored, so a time with several parts is
- * refused.
+ * relative to the folder of the .pvd file. Other attributes of a DataSet are ignored, so a time with several parts is refused.
  * Errors: RIIS_FILE_ERROR naming the .pvd file and the DataSet, also if there is no DataSet. */
 RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaflets,
                                               riis_vtk_motion **motion);
@@ -388,7 +387,7 @@ enum {
   RIIS_VTK_PANELS_MARKS = 2  /* only the marked cells. The picture must have a mesh */
 };
 
-/* The contents and the view of a picture. Texts are in ASCII. Characters outside ASCII are drawn as "?". */
+/* The contents and the view of a picture. Texts are in ASCII. A character outside ASCII is drawn as "?". */
 typedef struct riis_vtk_picture_options {
   int64_t struct_size;    /* set by the init function */
   const char *title;      /* the caption of the surface, which may have one line break. Default NULL: "Surface" */

@@ -99,11 +99,12 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
  *   `options`: accuracy and placement.
  * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of
  * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring, normals point outwards. Triangles of zero area
- * are skipped. Such triangles lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges.
- * The band around a surface has the thickness 2 eps, with the half thickness eps. With an offset o the middle of the band lies o
- * eps beside the triangles, on the side to which normals point. Let s be the signed distance of a node, with the sign of its
- * side. The band holds the nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, the band holds the
- * nodes x with |x - p - o eps n| <= eps (docs/theory/marks.md, "Offset"). An offset changes no distance, side or closest point.
+ * are skipped. Triangles of zero area lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle
+ * edges. The band around a surface has the thickness 2 eps, with the half thickness eps. With an offset o the middle of the band
+ * lies o eps beside the triangles, on the side to which normals point. Let s be the signed distance of a node, with the sign of
+ * its side. The band holds the nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, the band holds
+ * the nodes x with |x - p - o eps n| <= eps (docs/theory/marks.md, "Offset"). An offset changes no distance, side or closest
+ * point.
  * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range.
  * RIIS_INVALID_SURFACE with an offset, for two triangles that run along a shared edge in the same direction.
  * RIIS_LIMIT_EXCEEDED if a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than the rounding
@@ -241,10 +242,10 @@ RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, ri
  *   `valve_before`: the earlier state, of the same kind. A valve from patches has the same curves and sides.
  *   `dt`: the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back.
  *   `options_before`: scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now.
- * Each vertex is compared with the point of the earlier state at the same patch, u and v. Its velocity is the
- * displacement from that point, divided by dt (docs/theory/velocity.md). A warp does not change u and v, so vertices on
- * the wall have the wall's velocity (docs/theory/warp.md). The velocity is a mean over the step. This mean approximates the
- * velocity in the middle of the step to second order, and the velocity at either end to first order.
+ * Each vertex is compared with the point of the earlier state at the same patch, u and v. The velocity of the vertex is the
+ * displacement from that point, divided by dt (docs/theory/velocity.md). A warp does not change u and v, so vertices on the wall
+ * have the wall's velocity (docs/theory/warp.md). The velocity is a mean over the step. This mean approximates the velocity in
+ * the middle of the step to second order, and the velocity at either end to first order.
  * Errors: as riis_surface_update. RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
  * with parameters that do not fit together. */
 RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,

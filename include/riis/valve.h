@@ -146,7 +146,7 @@ typedef struct riis_valve_patches {
   const int32_t *leaflet_id;  /* (n_patches): as in riis_triangles */
   const int32_t *patch_id;    /* (n_patches): as in riis_triangles */
   const int32_t *attached;    /* (n_patches): the side that is attached, 0 to 3 in the order of curve_id, or -1 */
-  const double *bulge;        /* (n_patches): 0 for a Coons patch. Otherwise the line at each u is an arc from v = 0 to
+  const double *bulge;        /* (n_patches): 0 for a Coons patch. With another number, the line at each u is an arc from v = 0 to
                                  v = 1. W is the vector from v = 0 to v = 1 at this u, and T is the unit tangent of the side v =
                                  0. The arc's middle control point lies bulge |W| unit(W x T) beside the middle of the straight
                                  line */

@@ -5,8 +5,8 @@
 // checks them.
 //
 // The polynomials are in the square of the argument. The polynomials interpolate the functions at Chebyshev points, except the
-// polynomial of sine_of_pi. The polynomial of sine_of_pi is a least-squares fit. Its third coefficient is five units lower in its
-// last place, so that no value exceeds 1.
+// polynomial of sine_of_pi. The polynomial of sine_of_pi is a least-squares fit. The third coefficient of this fit is five units
+// lower in its last place, so that no value exceeds 1.
 #pragma once
 
 #include <cmath>

@@ -20,15 +20,15 @@ constexpr double flat_share = 5e-4, pointed_share = 5e-3;
 constexpr double most_lean = 25;
 // The least number of triangles of a flat part.
 constexpr std::int64_t least_triangles = 4;
-// The wall beside a flat part is measured in sectors. The sectors reach as far as band_share times the radius of a disc with the
-// part's area.
+// The wall beside a flat part is measured in sectors. The sectors reach as far as `band_share` times the radius of a disc with
+// the part's area.
 constexpr double band_share = 0.5;
 constexpr std::size_t n_sectors = 12;
-// Two flat parts that touch are both unclear if their areas differ by a factor of less than most_apart. Otherwise only the
-// smaller part is unclear.
+// Two flat parts that touch are both unclear if their areas differ by a factor of less than `most_apart`. If the factor is
+// larger, only the smaller part is unclear.
 constexpr double most_apart = 10;
-// A small part is an end if its rim has at least least_sides sides, and if the wall stays as steep up to wide_band_share of the
-// radius.
+// A small part is an end if its rim has at least `least_sides` sides, and if the wall stays as steep up to `wide_band_share` of
+// the radius.
 constexpr std::int64_t least_sides = 12;
 constexpr double wide_band_share = 1.5;
 

@@ -46,7 +46,7 @@ struct Values {
   double from, to, near;
 };
 
-// Makes surfaces of a valve at one value after the other. This class calls the public functions, whose messages refuse bad input.
+// Makes surfaces of a valve at one value after the other. AreaTrials calls the public functions, whose messages refuse bad input.
 class AreaTrials {
  public:
   AreaTrials(const riis::Valve &valve, const char *name, const riis_area_search &search)

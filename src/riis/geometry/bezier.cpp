@@ -36,7 +36,8 @@ Two root(Two a) {
 #endif
 }
 
-// Computes |B'(t)| from the coefficients of B' in powers of t. This speed is computed in the innermost loop of all arc lengths.
+// Computes |B'(t)| from the coefficients of B' in powers of t. The speed |B'(t)| is computed in the innermost loop of all arc
+// lengths.
 struct Speed {
   explicit Speed(const Bezier &curve) {
     const auto &q = curve.control;
@@ -116,7 +117,7 @@ double first_guess(const Speed &speed, double share) {
   return t;
 }
 
-// Integrates the speed over a range of t shorter than 1/1000. In such a short range, the rule with 2 points is exact up to
+// Integrates the speed over a range of t shorter than 1/1000. In a range this short, the rule with 2 points is exact up to
 // rounding.
 double short_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double node = 0.57735026918962576451;
@@ -124,8 +125,8 @@ double short_quadrature(const Speed &speed, double t0, double t1) {
   return half * (speed(middle - half * node) + speed(middle + half * node));
 }
 
-// Integrates the speed in steps of t of at most 1/12. In such steps the rule with 8 points is exact up to rounding if the speed
-// is nowhere nearly 0.
+// Integrates the speed in steps of t of at most 1/12. In steps this short, the rule with 8 points is exact up to rounding if the
+// speed is nowhere nearly 0.
 double stepwise_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double longest = 1.0 / 12;
   if (t1 - t0 <= longest) return quadrature(speed, t0, t1);
@@ -160,7 +161,7 @@ bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t
                                              : stepwise_quadrature(speed, next, closer);
       next = closer;
     }
-    // Near a cusp, Newton's method may not have converged yet. In this case the fast method gives up.
+    // Near a cusp, Newton's method may not have converged yet. The fast method then gives up.
     if (!(std::abs(made - wanted) <= 1e-13 * part.whole_length)) return false;
     at = t[k] = next;
     at_length += made;

@@ -14,8 +14,8 @@ namespace {
 
 // A curve has at most 2^20 parts, because more parts would make more triangles than the library can hold.
 constexpr int max_depth = 20;
-// The velocity halves only parts that are wider than narrowest_for_velocity. If a curve's derivative is nearly 0 somewhere, such
-// halving would not end.
+// The velocity halves only parts that are wider than `narrowest_for_velocity`. If a curve's derivative is nearly 0 somewhere,
+// such halving would not end.
 constexpr double narrowest_for_velocity = 1.0 / 32;
 
 // Collects the chords of parts. Each part is within max_error of its chord.

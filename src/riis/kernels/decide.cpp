@@ -72,8 +72,8 @@ RIIS_INLINE Doubles root(Doubles a) {
 // on the instruction set, so no result for a caller may depend on these bits.
 RIIS_INLINE Doubles inverse_root(Doubles a) {
 #if defined(__AVX512F__)
-  // The estimate has 14 correct bits, and two steps of Newton's method double this number twice. These steps take less time than
-  // a root and a division.
+  // The estimate has 14 correct bits, and two steps of Newton's method double this number twice. Two steps of Newton's method
+  // take less time than a root and a division.
   count(&Counts::operations, Doubles::n);
   Doubles r{{(DoubleRegister)_mm512_rsqrt14_pd((__m512d)a.part[0])}};
   const Doubles half = Doubles::all(0.5) * a;
@@ -468,7 +468,7 @@ RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles::Mask has_edge = normalize(along);
   const Doubles::Mask steep = magnitude(across.x) < Doubles::all(0.6);
   along = choose(has_edge, along, {choose(steep, one, zero), choose(steep, zero, one), zero});
-  // Removes the part along `across` that rounding has left. This part is large if the edge runs nearly along `across`.
+  // Removes the part along `across` that rounding has left. The removed part is large if the edge runs nearly along `across`.
   for (int i = 0; i < 2; ++i) {
     along = take_across_away(along);
     normalize(along);

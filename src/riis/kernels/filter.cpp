@@ -405,8 +405,8 @@ RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   }
 }
 
-// Compares the nodes with their first groups if no earlier call has done so. Then lists other groups for as many nodes as there
-// is room for, and compares the nodes with these groups.
+// Compares the nodes with their first groups if no earlier call has done so. Then the function lists other groups for as many
+// nodes as there is room for, and compares the nodes with these groups.
 template <bool is_one_sided>
 RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
   const bool is_first = cluster.next_leaf < 0;

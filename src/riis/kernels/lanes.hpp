@@ -205,7 +205,7 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) reinterpret_cast<InMemory *>(to)[i] = part[i];
   }
 
-// The body of a function that computes each register of its result from the registers i of its arguments.
+// The body of a function that works register by register: register i of the result comes from the registers i of the arguments.
 #define RIIS_LANEWISE(Result, expression)                       \
   Result r;                                                     \
   for (int i = 0; i < n_registers; ++i) r.part[i] = expression; \

@@ -16,7 +16,7 @@
 namespace riis {
 namespace {
 
-// This limit leaves room for the other landmarks, because a warp has at most 1000 landmarks.
+// The limit of 900 leaves room for other landmarks, because a warp has at most 1000 landmarks.
 constexpr std::size_t most_along_attachment = 900;
 // Three cusps are in the order of leaflet ids, which is counter-clockwise about the valve's axis z.
 constexpr std::size_t n_of_three = 3;

@@ -12,16 +12,16 @@
 namespace riis {
 namespace {
 
-// Landmarks determine a size if its standard error, at the stated noise, moves the valve by at most determined_share of the
+// Landmarks determine a size if its standard error, at the stated noise, moves the valve by at most `determined_share` of the
 // valve's radius. Residuals do not count here. A patient who differs from the model has large residuals, but the best sizes are
 // still well defined.
 constexpr double determined_share = 1.0 / 15;
 
 // Additional sizes also lower residuals that are only noise. The sum of squares then decreases by a number with a chi-squared
 // distribution, which has one degree of freedom for each additional unknown. The decrease counts if it exceeds the mean by
-// surely_more standard deviations.
+// `surely_more` standard deviations.
 constexpr double surely_more = 3;
-// Residuals below exact_share of the stated noise show that the landmarks have no noise.
+// Residuals below `exact_share` of the stated noise show that the landmarks have no noise.
 constexpr double exact_share = 0.01;
 // Rounding of exact landmarks, as a share of the valve's radius.
 constexpr double rounding_share = 1e-9;

@@ -31,7 +31,7 @@ std::string unit_in_brackets(double scale) {
   return "";
 }
 
-// Two landmarks are in one place if their distance is at most same_place, in centimetres.
+// Two landmarks are in one place if their distance is at most `same_place`, in centimetres.
 constexpr double same_place = 1e-4;
 
 // Landmarks a and b are in the same place. Returns whether every valve that meets a also meets b.

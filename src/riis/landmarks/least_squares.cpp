@@ -10,14 +10,14 @@
 namespace riis {
 namespace {
 
-// The step of central differences, as a share of `size`. This step balances two errors: the error of the differences, step^2, and
+// The step of central differences, as a share of `size`. The step balances two errors: the error of the differences, step^2, and
 // rounding, 1e-16 / step.
 constexpr double difference_step = 1e-5;
-// The iteration ends if a step is shorter than negligible_step times `size`.
+// The iteration ends if a step is shorter than `negligible_step` times `size`.
 constexpr double negligible_step = 1e-13;
-// The iteration also ends if the sum of squares falls by less than negligible_decrease times itself. The unknowns are then within
-// a thousandth of their standard errors from their final values. If residuals can vanish, the sum falls much faster, until only
-// rounding is left.
+// The iteration also ends if the sum of squares falls by less than `negligible_decrease` times itself. The unknowns are then
+// within a thousandth of their standard errors from their final values. If residuals can vanish, the sum falls much faster, until
+// only rounding is left.
 constexpr double negligible_decrease = 1e-9;
 constexpr int most_iterations = 400;
 

@@ -162,7 +162,7 @@ std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, cons
   return OnAttachment{place(nearest->image, found.point), place(turn_of(nearest->image), found.tangent)};
 }
 
-// Two landmarks are in one place if their distance is at most one_place_share of the valve's radius.
+// Two landmarks are in one place if their distance is at most `one_place_share` of the valve's radius.
 constexpr double one_place_share = 0.02;
 
 // Landmarks in separate places, as a warp needs them.
@@ -240,7 +240,7 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
   }
 }
 
-// Separates equal places of different landmarks. Such places occur beside a commissure that differs from the valve's commissure.
+// Separates equal places of different landmarks. Equal places occur beside a commissure that differs from the valve's commissure.
 void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                      const std::vector<std::size_t> &along, const std::vector<Vec3> &local, double radius,
                      std::vector<Vec3> &places) {

@@ -146,7 +146,8 @@ struct AngleState {
 AngleState operator+(AngleState a, AngleState b) { return {a.angle + b.angle, a.rate + b.rate}; }
 AngleState operator*(double s, AngleState a) { return {s * a.angle, s * a.rate}; }
 
-// The law of Korakianitis and Shi. A pressure difference and a flow drive the valve. Both are linear in time during a step.
+// The law of Korakianitis and Shi. A pressure difference and a flow drive the valve. Pressure difference and flow are linear in
+// time during a step.
 class AngleLaw {
  public:
   struct Drive {

@@ -35,8 +35,8 @@ void for_each_array(const FieldSet &fields, const Visit &visit) {
 }
 
 // The mean of the velocities of the leaflets that are equally near to a node. A leaflet's velocity is the mean over its tied
-// points. The constructor takes the velocity at the closest triangle. Afterwards the caller adds the tied points of the other
-// leaflets, leaflet by leaflet.
+// points. The constructor takes the velocity at the closest triangle. After the constructor, the caller adds the tied points of
+// the other leaflets, leaflet by leaflet.
 class MeanOfLeaflets {
  public:
   MeanOfLeaflets(std::int32_t closest_leaflet, Vec3 velocity) : closest_leaflet_(closest_leaflet) {
@@ -101,7 +101,8 @@ class TriangleFields {
   }
 
   void write(const Range &range) const {
-    // The nodes of a list lie far apart in memory. Their coordinates are therefore fetched while earlier nodes are computed.
+    // The nodes of a list lie far apart in memory. The coordinates of later nodes are therefore fetched while earlier nodes are
+    // computed.
     constexpr std::int64_t ahead = 4 * pairs_at_once;
     for (std::int64_t first = range.begin; first < range.end; first += pairs_at_once) {
       for (std::int64_t i = first + ahead; i < std::min(first + ahead + pairs_at_once, range.end); ++i)
@@ -230,7 +231,8 @@ class TriangleFields {
     }
   }
 
-  // Returns the first position from `tie` on that begins the ties of a node, or the number of all ties at the end.
+  // Returns the first position from `tie` on at which the ties of a node begin. After the last node, returns the number of all
+  // ties.
   std::int64_t next_node(std::int64_t tie) const {
     while (tie > 0 && tie < ties_.size() && ties_[tie].point == ties_[tie - 1].point) ++tie;
     return tie;

@@ -21,8 +21,8 @@ namespace riis {
 
 // The arrays that a caller gets from a marking. The arrays have one entry for each node, in ascending order.
 
-// Makes room for n elements. If new memory is needed, reserves 1.5 times as much. Otherwise a moving valve would need new memory
-// at each new maximum of its number of nodes.
+// Makes room for n elements. If new memory is needed, reserves 1.5 times as much. Without this reserve, a moving valve would need
+// new memory at each new maximum of its number of nodes.
 template <class Array>
 void reserve_amply(Array &array, std::int64_t n) {
   const auto needed = static_cast<std::size_t>(n);
@@ -67,8 +67,8 @@ struct NodeList {
   }
 };
 
-// Fields. A field is a number or vector at a node's closest point. An example is the velocity, which a solver needs for its
-// force.
+// Fields. A field is a number or vector at a node's closest point. An example of a field is the velocity, which a solver needs
+// for its force.
 // Each requested field becomes an array over the nodes within the limit, for the closest triangles that the search found.
 
 // A field of every marking with an offset, which no caller can request: NodeFields::height.

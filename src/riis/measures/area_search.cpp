@@ -10,9 +10,9 @@
 namespace riis {
 namespace {
 
-// An interval is not cut further if its length is at most shortest_interval times the magnitude of its ends.
+// An interval is not cut further if its length is at most `shortest_interval` times the magnitude of its ends.
 constexpr double shortest_interval = 1e-13;
-// The golden-section search shortens an interval to extreme_interval times its length. The area is flat at an extreme, so its
+// The golden-section search shortens an interval to `extreme_interval` times its length. The area is flat at an extreme, so its
 // error is the square of this share.
 constexpr double extreme_interval = 1e-6;
 
@@ -147,8 +147,8 @@ std::optional<AreaSearch::Point> AreaSearch::in_part(const Part &part, double ar
   const auto take = [&](const Point &point) {
     if (!best || std::abs(point.value - near) < std::abs(best->value - near)) best = point;
   };
-  // Because of jumps, several intervals may contain the area. Their values differ by little, so only the nearest interval is
-  // searched.
+  // Because of jumps, several intervals may contain the area. The values of these intervals differ by little, so only the nearest
+  // interval is searched.
   std::size_t interval = part.last;
   for (std::size_t i = part.first; i <= part.last; ++i) {
     if (is_it(points_[i])) take(points_[i]);

@@ -16,7 +16,7 @@ class AreaSearch {
   // Returns the area at a value, or nothing if the value has no area. find() needs an area at each value.
   using Area = std::function<std::optional<double>(double value)>;
 
-  // A change by at most largest_jump times the largest area may be a jump.
+  // A change by at most `largest_jump` times the largest area may be a jump.
   static constexpr double largest_jump = 1e-4;
 
   struct Point {

@@ -27,8 +27,8 @@ struct CommonSegment {
 
 // Finds the least overlap of two triangles over the directions that are passed to along(). A face of the Minkowski difference of
 // two triangles either has the normal of one triangle or is spanned by one edge of each triangle. The least overlap over the
-// normals of these faces is the distance from the origin to the boundary of the difference. This distance is the penetration
-// depth.
+// normals of these faces is the distance from the origin to the boundary of the difference. The distance from the origin to this
+// boundary is the penetration depth.
 class Overlap {
  public:
   Overlap(const Triangle &a, const Triangle &b, double limit) : a_(a), b_(b), limit_(limit) {}
@@ -331,7 +331,7 @@ Crossings find_crossings(const TriangleSet &set, const TriangleGroups &groups, d
 }
 
 double depth_of_contacts(const Surface &surface) {
-  // A depth of beyond_rounding half thicknesses cannot come from rounding.
+  // A depth of `beyond_rounding` half thicknesses cannot come from rounding.
   constexpr double beyond_rounding = 1e-3;
   const bool is_exact = surface.source() && surface.source()->kind->has_exact_contacts;
   return is_exact ? beyond_rounding * surface.half_thickness() : 2 * surface.triangles().error_bound;

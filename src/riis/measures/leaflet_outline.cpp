@@ -308,8 +308,8 @@ struct FoundView {
   double roundness;
 };
 
-// From a good first axis few turns suffice. More turns would do harm at a free edge that reaches as far out as the attachment,
-// because each turn may then change the farthest edge. Other first axes need many turns.
+// With a good first axis few turns suffice. More turns would do harm at a free edge that reaches as far out as the attachment,
+// because each turn may then change the farthest edge. A bad first axis needs many turns.
 constexpr int few_turns = 4, many_turns = 40;
 
 // Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline, at most n_turns

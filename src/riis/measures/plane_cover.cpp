@@ -223,7 +223,7 @@ void join(Spans &spans) {
   spans.resize(n);
 }
 
-// Measures the part of disjoint spans that no cover contains. The covers must have been joined.
+// Measures the part of the spans that no cover contains. The spans are disjoint. The covers must have been joined.
 double length_without(const Spans &spans, const Spans &covers) {
   double length = 0;
   for (const Interval<Place> &span : spans) {
@@ -240,8 +240,8 @@ double length_without(const Spans &spans, const Spans &covers) {
 
 // In disjoint spans, measures the edges of the covers at the ends of the uncovered part.
 double edge_without(const Spans &spans, std::vector<Interval<End>> covers) {
-  // Covers of folded leaflets may begin or end in the same point. Their order then decides which edge counts, so the order must
-  // be total.
+  // Covers of folded leaflets may begin or end in the same point. The order of such covers decides which edge counts, so the
+  // order must be total.
   std::sort(covers.begin(), covers.end(), [](const Interval<End> &a, const Interval<End> &b) {
     return std::tie(a.begin.x, a.end.x, a.begin.along, a.end.along) <
            std::tie(b.begin.x, b.end.x, b.begin.along, b.end.along);

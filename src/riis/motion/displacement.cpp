@@ -83,15 +83,15 @@ Vector<double> SideMaterial::shares_before(const Vector<double> &shares) const {
 
 namespace {
 
-// Steps of u and v count as nearly parallel if the square of the sine of their angle is at most least_sine_sq.
+// Steps of u and v count as nearly parallel if the square of the sine of their angle is at most `least_sine_sq`.
 constexpr double least_sine_sq = 0.01;
 
 bool has_points_inside(const MovedPatch &moved) {
   return moved.patch < moved.now.mapped_inside.size() && moved.patch < moved.before.mapped_inside.size();
 }
 
-// The position of a point relative to another point, in steps of u and v, by least squares. This position is 0 if the steps are
-// nearly parallel.
+// The position of a point relative to another point, in steps of u and v, by least squares. The position is 0 if the steps of u
+// and v are nearly parallel.
 struct StepsBeside {
   double u = 0, v = 0;
 

@@ -87,10 +87,10 @@ struct PatchMaterial {
 // polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// The map adds this part to the displacement inside a warped Coons patch. This part is 0 at the sides. At the four inner points
-// with u and v of 1/3 or 2/3, the displacement belongs to the material point that the map moves there. The displacement follows
-// from the mapped points beside these points (MappedInside). The excess over the Coons combination of the sides is a polynomial
-// of degree 3 in u and in v.
+// The map adds this part to the displacement inside a warped Coons patch. The added part is 0 at the sides. At the four inner
+// points with u and v of 1/3 or 2/3, the displacement belongs to the material point that the map moves there. The displacement
+// follows from the mapped points beside these points (MappedInside). The excess over the Coons combination of the sides is a
+// polynomial of degree 3 in u and in v.
 class RestInside {
  public:
   RestInside() = default;

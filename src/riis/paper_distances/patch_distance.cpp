@@ -108,8 +108,8 @@ ClosestOnPatches Minimizer::closest(Vec3 p, double limit) const {
   return std::sqrt(best.distance_sq) <= limit ? best : ClosestOnPatches{};
 }
 
-// The patches deviate from the smooth surface by at most patch_share of the allowed error. The share is small, because more grid
-// lines are cheaper than more samples.
+// The patches deviate from the smooth surface by at most `patch_share` of the allowed error. The share is small, because more
+// grid lines are cheaper than more samples.
 constexpr double patch_share = 0.1;
 
 PlacedPatches make_patches(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals) {

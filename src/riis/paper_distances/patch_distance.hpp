@@ -115,7 +115,7 @@ std::unique_ptr<const PatchDistance> make_distance(const PatchSet &set, const Di
 
 // Distances by sampling (paper, 4.1 "Sampling"): the method finds the nearest of evenly spaced points S(u,v). The number of
 // samples of a patch depends on its width and height (docs/theory/paper-distances.md).
-// This part makes the samples for an allowed error, and finds the nearest sample.
+// A SampleSet makes the samples for an allowed error, and finds the nearest sample.
 
 // The most samples that the library accepts. Each sample takes 24 bytes, and the boxes of the tree take a little more.
 inline constexpr std::int64_t max_samples = 16'777'216;

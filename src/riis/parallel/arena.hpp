@@ -28,7 +28,8 @@ struct PooledArena {
 };
 
 // Returns an arena of n_threads threads, which the caller must give back. The arena comes from the pool, or is new if no idle
-// arena has this number of threads. There are therefore never more arenas of one size than were borrowed at once.
+// arena has this number of threads. The number of arenas of one size is therefore never larger than the number that was borrowed
+// at once.
 PooledArena *borrow_arena(int n_threads);
 void give_back(PooledArena *arena) noexcept;
 

@@ -12,8 +12,8 @@ namespace riis {
 
 // Calls work(context, 0) on the calling thread. Calls work(context, thread), 0 < thread < n_threads, on each further thread that
 // comes before the calling thread's call has returned. Returns after all these calls have returned. Returns the number of
-// threads that took part. This number is less than n_threads only if the system refuses a thread, a semaphore or memory. No call
-// may throw.
+// threads that took part. The number of threads is less than n_threads only if the system refuses a thread, a semaphore or
+// memory. No call may throw.
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
 // Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they also run the
@@ -21,8 +21,8 @@ int run_by_team(int n_threads, void (*work)(void *context, int thread), void *co
 // long wait, teams run the loops for some time. If OpenMP then runs only a few loops until the next long wait, the machine is
 // busy, and the teams' time doubles. A team also waits if another process interrupts its thread inside a block. The calling
 // thread therefore begins a team's loop alone. The calling thread works alone for the time that recent loops lost by calling
-// their teams. Even if the team then loses the same time again, the loop takes at most twice as long as with the better choice.
-// All times are in nanoseconds.
+// their teams. If the team loses the same time again, the loop takes at most twice as long as with the better choice. All times
+// are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;

@@ -127,16 +127,16 @@ void add_direction(const ValveDirection &direction, int n_threads, Surface &surf
 
 namespace {
 
-// The lines are chosen for n_openings openings, evenly spaced from 0 to 1.
+// The lines are chosen for `n_openings` openings, evenly spaced from 0 to 1.
 constexpr int n_openings = 33;
-// After that, the chosen lines are tested at n_between openings between every two neighbouring openings. If the lines are too
+// After that, the chosen lines are tested at `n_between` openings between every two neighbouring openings. If the lines are too
 // coarse at some of these openings, all lines are chosen again, with these openings included. The test is repeated at most
-// n_trials times.
+// `n_trials` times.
 constexpr int n_between = 7, n_trials = 4;
 // A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
 constexpr std::size_t max_patches = 10'000;
 // A warp may change after the triangles were planned, and the error then changes too. The plan of a warped valve therefore uses
-// only warped_share of the allowed error.
+// only `warped_share` of the allowed error.
 constexpr double warped_share = 0.6;
 
 PatchSet patches_at(Valve &valve, double opening) {

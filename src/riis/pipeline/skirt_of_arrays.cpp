@@ -18,9 +18,9 @@
 namespace riis {
 namespace {
 
-// A line of open edges is the attachment if it encloses at least least_share of the area of the leaflets' outline.
+// A line of open edges is the attachment if it encloses at least `least_share` of the area of the leaflets' outline.
 constexpr double least_share = 0.8;
-// If a second line encloses at least ambiguous_share of the largest area, either line may be the attachment.
+// If a second line encloses at least `ambiguous_share` of the largest area, either line may be the attachment.
 constexpr double ambiguous_share = 0.99;
 constexpr const char *cure = ": name the attached vertices by arrays.attached";
 

@@ -34,7 +34,7 @@ class CrossingWatch {
   };
   Shape &remembered(std::uint64_t digest);
 
-  // The number of shapes that are remembered. A caller that alternates between at most n_remembered shapes gets one warning for
+  // The number of shapes that are remembered. A caller that alternates between at most `n_remembered` shapes gets one warning for
   // each shape.
   static constexpr std::size_t n_remembered = 8;
 
@@ -44,7 +44,7 @@ class CrossingWatch {
 
 class UpdatableSurface {
  public:
-  // Returns the surface of the last successful update. There must have been an update.
+  // Returns the surface of the last successful update. At least one update must have succeeded.
   const Surface &surface() const { return *surface_; }
   const SurfaceSeconds &seconds() const { return seconds_; }
 

@@ -52,8 +52,8 @@ std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   return device;
 }
 
-// For points more than far_away half extents from the centre, single precision cannot separate triangles. All triangles are then
-// queried.
+// For points more than `far_away` half extents from the centre, single precision cannot separate triangles. All triangles are
+// then queried.
 constexpr double far_away = 1e6;
 
 // Returns the radius, in the frame's units, that makes Embree visit every triangle whose computed distance from q is at most

@@ -19,7 +19,7 @@ namespace {
 // At lengths above `large` in the surface's frame, single precision does not separate triangles.
 constexpr double large = 0x1p20;
 
-// If more than most_groups groups are near a leaf, querying each node is faster. Only large leaves near small triangles have so
+// If more than `most_groups` groups are near a leaf, querying each node is faster. Only large leaves near small triangles have so
 // many near groups.
 constexpr std::size_t most_groups = 4096;
 
@@ -558,7 +558,7 @@ class ClusterSearch {
     }
     decide(own, pairs);
     while (pairs.ahead.near) pairs.ahead.request_one();
-    // Every node with pairs is written, but the position advances only after a node within the limit.
+    // Every node with pairs is written to the list, but the position in the list advances only after a node within the limit.
     UnfilledVector<FoundNode> &found = view(found_.by_thread)[thread];
     const std::size_t n_before = found.size();
     std::size_t n_paired = 0;

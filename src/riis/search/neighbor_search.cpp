@@ -122,8 +122,8 @@ class NeighborSearch {
     }
   }
 
-  // Deals with the nodes of near balls that the walk did not reach. Such a node is queried if the ball's centre does not prove
-  // that the node is far.
+  // Deals with the nodes of near balls that the walk did not reach. A node that the walk did not reach is queried if the ball's
+  // centre does not prove that it is far.
   void prove(const NodeBalls &balls) {
     const auto n = view(walked_.near_balls).size();
     const int n_ran = parallel_for_ranges(n, balls_per_block, threads_near(), [&](const Range &block, int thread) {

@@ -17,7 +17,7 @@
 namespace riis {
 namespace {
 
-// A curve may be halved max_rounds times. With more parts, there would be more triangles than the library can hold.
+// A curve may be halved `max_rounds` times. With more parts, there would be more triangles than the library can hold.
 constexpr int max_rounds = 24;
 
 // The largest number of parts between two lines for the bound on the offset O (geometry/bulge.hpp).
@@ -196,10 +196,10 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
 }
 
 // Needs are computed on narrow steps, but the error of a wide segment is bounded a little less closely. The lines therefore use
-// up only most_of_allowed of the allowed error.
+// up only `most_of_allowed` of the allowed error.
 constexpr double most_of_allowed = 0.9;
-// The number of steps on which needs are computed is steps_per_segment times the largest number of segments of a curve. The
-// number of steps stays between least_steps and most_steps.
+// The number of steps on which needs are computed is `steps_per_segment` times the largest number of segments of a curve. The
+// number of steps stays between `least_steps` and `most_steps`.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
 // To save time, needs are computed only at every n-th state. Later the lines are checked at every state.

@@ -80,7 +80,7 @@ class GridMaker {
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  // A curve may have a million points, and a valve a million patches. The polylines of at most patches_at_once patches are
+  // A curve may have a million points, and a valve a million patches. The polylines of at most `patches_at_once` patches are
   // therefore made before the points are counted. The number of patches is fixed, so the count in an error message does not
   // depend on the number of threads.
   static constexpr std::size_t patches_at_once = 16;

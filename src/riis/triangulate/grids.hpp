@@ -14,14 +14,14 @@ namespace riis {
 // of a u curve, of a v curve, and of merged grid lines. The shares below bound these errors. At least 1 - 2 * (curve_share +
 // merge_share) remains for the split of a quad into triangles.
 inline constexpr double curve_share = 0.45, merge_share = 0.01;
-// The errors of a plan's lines reach the share planned_curve_share nearly everywhere. With a larger share, too little would
+// The errors of a plan's lines reach the share `planned_curve_share` nearly everywhere. With a larger share, too little would
 // remain for the quads, so many quads would be subdivided.
 inline constexpr double planned_curve_share = 0.39;
 // A point of a patch of arcs has three errors: the mean error of two curves, at most half the error of O, and the error of the
 // arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) remains.
 inline constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 
-// Between two vertices of a curve, the velocity is nearly linear. The estimated deviation is at most bend_share of the largest
+// Between two vertices of a curve, the velocity is nearly linear. The estimated deviation is at most `bend_share` of the largest
 // speed.
 inline constexpr double bend_share = 0.008;
 

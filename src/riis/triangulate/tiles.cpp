@@ -57,7 +57,7 @@ PatchVertices vertices_of(const LevelledGrid &levelled) {
     const int level = *level_of_next++;
     if (level == 0) return;
     // At one level, all parts of a bilinear quad have the same flatness. Recursive halving would therefore end in equal
-    // parts. This loop makes these parts directly.
+    // parts. This loop makes the equal parts directly.
     const int n_parts = 1 << level;
     const double step = 1.0 / n_parts;  // a power of two
     const Quad quad = quad_of(grid, i, j);

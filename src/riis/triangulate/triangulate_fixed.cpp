@@ -155,7 +155,7 @@ void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan
 }
 
 // Halves the columns of each patch of arcs that then has fewer triangles, because its quads need fewer halvings. Returns whether
-// there is such a patch. Afterwards the levels of the plan must be found again.
+// there is such a patch. After the halving, the levels of the plan must be found again.
 bool halve_columns(const PatchSet &set, TriangulationPlan &plan) {
   bool are_any = false;
   for (std::size_t i = 0; i < set.patches.size(); ++i) {

@@ -22,7 +22,7 @@
 namespace riis {
 namespace {
 
-// A leaflet has n_places evenly spaced places along the annulus, from one commissure to the next. From each place hangs a
+// A leaflet has `n_places` evenly spaced places along the annulus, from one commissure to the next. From each place hangs a
 // meridian. A free edge and a coaptation line consist of two cubics each, and thus have one control point for each place.
 constexpr std::size_t n_places = 7, middle = 3, n_cells = n_places - 1;
 template <class Value>
@@ -34,27 +34,27 @@ struct AtPlaces {
 };
 constexpr double u_of(std::size_t place) { return static_cast<double>(place) / n_cells; }
 
-// The coaptation zone takes at least least_coaptation of a leaflet's length. A leaflet that is too short for this zone does not
+// The coaptation zone takes at least `least_coaptation` of a leaflet's length. A leaflet that is too short for this zone does not
 // reach its neighbours.
 constexpr double least_coaptation = 0.05;
-// A closed meridian's first inner control point lies below the annulus by first_drop of the drop to the coaptation line.
+// A closed meridian's first inner control point lies below the annulus by `first_drop` of the drop to the coaptation line.
 constexpr double first_drop = 0.2;
 // The heights of a closed free edge's control points from the middle to a commissure, as shares of the rise from the middle to
 // the commissure.
 constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
-// A bump lifts a meridian's first inner control point by only lift_of_start of its lift.
+// A bump lifts a meridian's first inner control point by only `lift_of_start` of its lift.
 constexpr double lift_of_start = 0.3;
 // A leaflet that is too short moves back in steps until it lacks less than this share of its length.
 constexpr int most_steps = 60;
 constexpr double rounding = 1e-12, rounding_of_zone = 1e-6;
-// A leaflet has at least least_ratio of the annulus. The way of a leaflet to the meeting point has at least least_way of the
+// A leaflet has at least `least_ratio` of the annulus. The way of a leaflet to the meeting point has at least `least_way` of the
 // annulus' depth.
 constexpr double least_ratio = 0.05, least_way = 0.12;
-// A commissure takes at most most_of_way of the way to the meeting point. The zone takes at most most_coaptation of a leaflet's
-// length.
+// A commissure takes at most `most_of_way` of the way to the meeting point. The zone takes at most `most_coaptation` of a
+// leaflet's length.
 constexpr double most_of_way = 0.8, most_coaptation = 0.7;
-// The rates of the control points are differences over the step rate_step of the opening. The rates only determine where vertices
-// are dense.
+// The rates of the control points are differences over the step `rate_step` of the opening. The rates only determine where
+// vertices are dense.
 constexpr double rate_step = 1e-4;
 
 // Positions in the list of specs behind the leaflets' own sizes.

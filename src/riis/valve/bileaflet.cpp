@@ -120,7 +120,7 @@ class Turn {
   SineCosine closed_, now_;
 };
 
-// Every arc has n_spans spans. A quarter of a circle is then accurate to 1e-9 of its radius.
+// Every arc has `n_spans` spans. A quarter of a circle is then accurate to 1e-9 of its radius.
 constexpr int n_spans = 8;
 
 // Bounds the distance of an arc's spans from the circle, in radii. For a span of the angle a, the distance is 2/27 sin^6(a/4) /

@@ -31,18 +31,18 @@ enum OfCommissure { height, fusion, n_of_commissure };
 enum OfCusp { sector, own_effective_height, own_coaptation_height, own_open_radius_ratio, n_of_cusp };
 // clang-format on
 
-// An open free edge that does not hang must be shorter than most_of_edge times the closed free edge.
+// An open free edge that does not hang must be shorter than `most_of_edge` times the closed free edge.
 constexpr double most_of_edge = 0.998;
-// While the valve opens, the height of the free edge above the root must stay at least least_height times root_radius.
+// While the valve opens, the height of the free edge above the root must stay at least `least_height` times root_radius.
 constexpr double least_height = 0.05;
-// Every set of values is checked for folds of the cusps at these openings, because folds arise in the second half of the motion.
+// Every set of values is checked for folds of the cusps at four openings, because folds arise in the second half of the motion.
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
-// At the root, the leaflet must rise by at least least_rise times the rise of a leaflet without sag.
+// At the root, the leaflet must rise by at least `least_rise` times the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;
-// Fused commissures must leave an open orifice of at least least_orifice of the area inside the commissures.
+// Fused commissures must leave an open orifice of at least `least_orifice` of the area inside the commissures.
 constexpr double least_orifice = 0.06;
-// The rates of the control points are differences over the step rate_step of the opening. The rates only determine where vertices
-// are dense.
+// The rates of the control points are differences over the step `rate_step` of the opening. The rates only determine where
+// vertices are dense.
 constexpr double rate_step = 1e-4;
 
 // The rules for sizes that the caller did not set.

@@ -12,14 +12,14 @@
 namespace riis {
 namespace {
 
-// The coaptation line is turned in n_crease_steps steps until no crease is left. Each step computes the crease at the ends of
-// n_crease_spans spans. The stiffness is the weight of the line's displacement against the crease. With these values the largest
-// crease of random valves is below one degree.
+// The coaptation line is turned in `n_crease_steps` steps until no crease is left. Each step computes the crease at the ends of
+// `n_crease_spans` spans. The stiffness is the weight of the line's displacement against the crease. With these values the
+// largest crease of random valves is below one degree.
 constexpr int n_crease_steps = 2;
 constexpr std::size_t n_crease_spans = 8;
 constexpr double crease_stiffness = 0.03;
 
-// A fused part of at least turned_from of the edge is wide enough for a line that arrives at the coaptation line without a
+// A fused part of at least `turned_from` of the edge is wide enough for a line that arrives at the coaptation line without a
 // crease.
 constexpr double turned_from = 0.3;
 
@@ -142,9 +142,9 @@ Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double shar
   return Bezier::cubic(first, mixed(1), mix(mixed(2), without_crease, std::min(1.0, (1 - share) / turned_from)), last);
 }
 
-// Gives the part its attachment. In a wide cusp, one cubic would leave the cylinder. There an arc leads from the symmetry plane
-// to a second piece. The second piece starts at the height of the single cubic's middle. The two pieces have the same direction
-// where they meet.
+// Gives the part its attachment. One cubic would leave the cylinder in a wide cusp. In a wide cusp, an arc therefore leads from
+// the symmetry plane to a second piece. The second piece starts at the height of the single cubic's middle. The two pieces have
+// the same direction where they meet.
 void put_attachment(const HalfNumbers &numbers, const Bezier &one_piece, HalfCusp &part) {
   const Vec3 top = one_piece.last();
   part.sinus_below = one_piece;

@@ -14,17 +14,18 @@
 namespace riis {
 namespace {
 
-// In the open free edge, the sag of the inner control point beside the commissure, as a share of the sag of the middle.
+// In the open free edge, the inner control point beside the commissure hangs `open_sag` times as deep as the middle.
 constexpr double open_sag = 1.0 / 3;
-// An edge that would be too short for open_radius_ratio opens until used_of_edge of its length is used, without sag.
+// An edge that would be too short for open_radius_ratio opens until `used_of_edge` of its length is used, without sag.
 constexpr double used_of_edge = 0.97;
-// The open edge leaves the commissure as an arc of a circle does, if it reaches round_from of the arc's height.
+// The open edge leaves the commissure as an arc of a circle does, if it reaches `round_from` of the arc's height.
 constexpr double round_from = 0.7;
 // The edges of three equal cusps are always round. The edge of another cusp is less round, the more the cosine of its half sector
-// differs from the cosine of 60 degrees. If the difference is not_of_three or more, the sector does not make the edge round.
+// differs from the cosine of 60 degrees. If the cosines differ by `not_of_three` or more, the sector does not make the edge
+// round.
 constexpr double not_of_three = 0.22;
-// If a cusp has a sector of more than most_of_one_piece degrees, its attachment has two pieces, because one cubic would leave the
-// cylinder.
+// If a cusp has a sector of more than `most_of_one_piece` degrees, its attachment has two pieces, because one cubic would leave
+// the cylinder.
 constexpr double most_of_one_piece = 210;
 
 std::array<double, 4> blend(const std::array<double, 4> &from, const std::array<double, 4> &to, double share) {
@@ -268,9 +269,9 @@ EdgeLength::Value EdgeLength::at(double depth) const {
   return value;
 }
 
-// The length is a growing and convex function of the depth. Newton's method starts at a depth that is too large. It therefore
-// descends to the solution and never passes it. A half is at least as long as the line between its ends. The start is therefore
-// deep enough if one half alone has the whole length there.
+// The length is a growing and convex function of the depth. Newton's method starts at a depth that is too large. Newton's method
+// therefore descends to the solution and never passes it. A half is at least as long as the line between its ends. The start is
+// therefore deep enough if one half alone has the whole length there.
 double edge_depth(const CuspNumbers &cusp) {
   Vector<EdgeLength> halves(cusp.begin(), cusp.end());
   const double wanted = total_length(cusp), first_top = cusp.front().edge_top;

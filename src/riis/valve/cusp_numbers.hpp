@@ -120,8 +120,8 @@ double least_edge_length(const CuspNumbers &cusp);
 // Returns the area between the free edges of all halves and the axis, seen along the axis.
 double area_inside(const CuspNumbers &cusp);
 
-// Returns the lower part of the symmetry curve. The curve ends at `end`. Its direction there is `up`, the vector from `end` to
-// the free edge.
+// Returns the lower part of the symmetry curve. The curve ends at `end`. At `end`, the curve has the direction `up`, the vector
+// from `end` to the free edge.
 Bezier symmetry_curve(const HalfNumbers &half, Vec3 end, Vec3 up);
 
 // The states between which a cusp moves: its closed and its open state. At a bump, the end states lie between these two states.

@@ -12,12 +12,12 @@
 namespace riis {
 namespace {
 
-// A landmark lies on a curve if its distance is at most share_on_curve of the curve's length.
+// A landmark lies on a curve if its distance is at most `share_on_curve` of the curve's length.
 constexpr double share_on_curve = 0.01;
-// In the span's parameter, a cut has at least the distance least_part from the ends of the span and from other cuts. The warped
+// In the span's parameter, a cut has at least the distance `least_part` from the ends of the span and from other cuts. The warped
 // curve has the right point and direction at a landmark, so the curve beside the landmark is also right.
 constexpr double least_part = 1.0 / 256;
-// The nearest point of a span is searched beside the best of n_search_steps even steps.
+// The nearest point of a span is searched beside the best of `n_search_steps` even steps.
 constexpr int n_search_steps = 16;
 
 double polygon_length(const Bezier &span) {

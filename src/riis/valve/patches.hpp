@@ -94,7 +94,7 @@ struct Seam {
   }
 };
 
-// A curve of a warped valve follows the points of the original curve. These points are known at n_material evenly spaced shares
+// A curve of a warped valve follows the points of the original curve. These points are known at `n_material` evenly spaced shares
 // of the original curve's length, ends included.
 inline constexpr std::size_t n_material = 7;
 constexpr double material_share(std::size_t k) { return static_cast<double>(k) / (n_material - 1); }
@@ -136,7 +136,7 @@ struct AttachedEnd {
 };
 // Two ends of attached sides that are neighbours but are not joined, because they belong to different leaflets. Around the axis
 // of the attachment, one side ends where the next side begins. In some valves a skirt is turned at such ends only after a warp.
-// These valves store the angles, in radians, by which the skirt would be turned at both ends before the warp.
+// Such valves store the angles, in radians, by which the skirt would be turned at both ends before the warp.
 struct NeighbourEnds {
   AttachedEnd before, after;
   std::optional<std::array<double, 2>> turns_at_rest = {};
@@ -151,7 +151,7 @@ struct PatchSet {
   Vector<Curve> curves;
   Vector<Patch> patches;
   Vector<Seam> seams = {};  // at most one for each image
-  // Bounds the Hausdorff distance of the patches from the valve's shape. This bound is not 0 if curves approximate arcs of
+  // Bounds the Hausdorff distance of the patches from the valve's shape. The bound is not 0 if curves approximate arcs of
   // circles.
   double deviation = 0;
   // The derivatives of the spans' control points with respect to the opening, or nothing if the valve does not blend control

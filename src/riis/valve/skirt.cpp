@@ -15,26 +15,26 @@
 namespace riis {
 namespace {
 
-// A skirt of one length has n_even_parts parts on each side of a patch. The outer edge is then accurate to a thousandth of the
+// A skirt of one length has `n_even_parts` parts on each side of a patch. The outer edge is then accurate to a thousandth of the
 // length (tests/surface/test_skirt.c).
 constexpr std::size_t n_even_parts = 8;
-// Two ends of cusps that are not joined are neighbours if their distance is at most most_between_ends times the longest side.
+// Two ends of cusps that are not joined are neighbours if their distance is at most `most_between_ends` times the longest side.
 constexpr double most_between_ends = 0.5;
 // The line through two neighbouring ends has an angle to the outward direction. If the angle's sine is in this range, the skirts
 // lead along the line. The sine is positive if the ends have passed each other. Outside of the range, the sine that is used falls
 // back to 0.
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
-// The sine that is used also falls to 0 if the sine of the line's angle to the axis is below least_sine_to_axis.
+// The sine that is used also falls to 0 if the sine of the line's angle to the axis is below `least_sine_to_axis`.
 constexpr double least_sine_to_axis = 0.2;
-// If the sine of a side's angle to the plane across the axis is at least least_rise, the skirt leans as the side's tangent does.
-// Beside a flatter side the skirt leans less, and beside a side in that plane it does not lean.
+// If the sine of a side's angle to the plane across the axis is at least `least_rise`, the skirt leans as the side's tangent
+// does. Beside a flatter side the skirt leans less, and beside a side in that plane it does not lean.
 constexpr double least_rise = 0.5;
 // If a skirt is turned at rest, small turns by the warp are added to its place at rest. If the warp turns the skirt by
-// most_turn_as_at_rest or more, the whole turn counts. In between, the skirt changes gradually from one rule to the other.
+// `most_turn_as_at_rest` or more, the whole turn counts. In between, the skirt changes gradually from one rule to the other.
 constexpr double most_turn_as_at_rest = pi / 4;
-// A disc about the axis has n_corners corners when it is warped.
+// A disc about the axis has `n_corners` corners when it is warped.
 constexpr int n_corners = 24;
-// The derivative of a turned direction is a difference over two steps of direction_step times the length.
+// The derivative of a turned direction is a difference over two steps of `direction_step` times the length.
 constexpr double direction_step = 1e-4;
 
 Vec3 without_placement(const PatchImage &image, Vec3 p) {
@@ -67,8 +67,8 @@ Vector<Step> steps_of_attachment(const PatchSet &set, const Vector<HeldSide> &si
     const Vector<Step> of_side = steps_of(along(set, held.side));
     for (const PatchImage &image : set.patches[held.patch].images) {
       const PatchImage turn = turn_of(image);
-      // Triangles are turned over in a mirror image, and in a patch that a warp has made of a mirror image. In such a patch the
-      // sides run the other way.
+      // Triangles are turned over in a mirror image, and in a patch that a warp has made of a mirror image. In a patch made of a
+      // mirror image, the sides run the other way.
       const double sign = points_upstream(image) ? -1 : 1;
       for (const Step &step : of_side) steps.push_back({place(image, step.at), sign * place(turn, step.by)});
     }

@@ -57,8 +57,8 @@ struct SideEnd {
 // continuously on the points and the tangents.
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after);
 
-// The direction in which a skirt leads away from its attachment. This direction is outwards from the axis, except near
-// neighbouring ends.
+// The direction in which a skirt leads away from its attachment. A skirt leads outwards from the axis, except near neighbouring
+// ends.
 class SkirtDirections {
  public:
   SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides);
@@ -91,10 +91,10 @@ inline constexpr double least_skirt_to_wall = 0.01;
 // axis.
 Vec3 outwards(const AxisLine &axis, Vec3 point);
 
-// Adds the patches of a skirt. If `lengths` is empty, the length is `length`. The patches continue the leaflets outwards. Their
-// leaflet_id is skirt_leaflet, and their patch_id is the patch_id of the leaflet's patch plus the number of the leaflets' patch
-// ids. Fails with RIIS_INVALID_PARAMETER for an attachment without an outward direction, and for a length that does not fit the
-// attachment.
+// Adds the patches of a skirt. If `lengths` is empty, the length is `length`. The patches continue the leaflets outwards. The
+// patches of a skirt have the leaflet_id skirt_leaflet. Their patch_id is the patch_id of the leaflet's patch plus the number of
+// the leaflets' patch ids. Fails with RIIS_INVALID_PARAMETER for an attachment without an outward direction, and for a length
+// that does not fit the attachment.
 void add_skirt(PatchSet &set, double length, const SkirtLengths &lengths);
 
 // Returns the leaflet_id that a skirt of these patches has.

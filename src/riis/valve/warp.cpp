@@ -14,11 +14,11 @@
 namespace riis {
 namespace {
 
-// Sources count as planar if their rms distance from their mean plane is below thinnest_share of their largest rms extent.
+// Sources count as planar if their rms distance from their mean plane is below `thinnest_share` of their largest rms extent.
 constexpr double thinnest_share = 0.05;
-// Sources also count as planar if noise would change the stretch across the plane by more than largest_stretch_error.
+// Sources also count as planar if noise would change the stretch across the plane by more than `largest_stretch_error`.
 constexpr double largest_stretch_error = 0.1;
-// The share of the noise that the residuals should have. This share is below 1, because the map follows a part of the noise. The
+// The share of the noise that the residuals should have. The share is below 1, because the map follows a part of the noise. The
 // attachments of random patients were met best with shares from 0.5 to 0.7 (docs/theory/warp.md, "Equations").
 constexpr double residual_share = 0.6;
 constexpr double line_share = 1e-6, same_place_share = 1e-6;
@@ -271,7 +271,7 @@ void WarpLandmarks::tridiagonalise(Vector<double> &matrix) {
   basis_.assign(columns.begin() + static_cast<std::ptrdiff_t>(m * n), columns.end());
 }
 
-// Solves (T + lambda 1) solution = reduced. Returns the sum of squares of lambda * solution, which are the residuals.
+// Solves (T + lambda 1) solution = reduced. The residuals are lambda * solution. Returns the sum of their squares.
 double WarpLandmarks::solve(double lambda) {
   solution_ = reduced_;
   double square = 0;

@@ -86,8 +86,8 @@ class WarpLandmarks {
   // across the plane as the landmarks stretch the plane.
   bool is_planar() const { return is_planar_; }
 
-  // Returns an (n, n) matrix. Its product with the displacements gives the weights of a map that meets its targets. Displacements
-  // are measured in the map's `size`. The product of displacements and weights is the map's bending.
+  // Returns an (n, n) matrix. The product of this matrix and the displacements gives the weights of a map that meets its targets.
+  // Displacements are measured in the map's `size`. The product of displacements and weights is the map's bending.
   Vector<double> bending_matrix();
 
   // Writes the map to the targets, and the map's quality. The same targets give the same bits. Accepts a map of any quality.

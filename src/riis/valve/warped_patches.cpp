@@ -17,13 +17,14 @@
 namespace riis {
 namespace {
 
-// The warped points of a curve are taken at n_curve_steps even steps of its parameter.
+// The warped points of a curve are taken at `n_curve_steps` even steps of its parameter.
 constexpr int n_curve_steps = 6;
-// In addition to the warp's stretch at the tangent, a tangent's length may change by a factor from least_factor to most_factor.
+// In addition to the warp's stretch at the tangent, a tangent's length may change by a factor from `least_factor` to
+// `most_factor`.
 constexpr double least_factor = 0.2, most_factor = 5, most_of_missing = 0.5;
-// A patch is searched for folds on a grid of n_fold_cells by n_fold_cells cells.
+// A patch is searched for folds on a grid of `n_fold_cells` by `n_fold_cells` cells.
 constexpr std::size_t n_fold_cells = 3;
-// A cell is a sliver if the sine of the angle between its diagonals is below sliver_sine. A sliver is hardly wider than a line,
+// A cell is a sliver if the sine of the angle between its diagonals is below `sliver_sine`. A sliver is hardly wider than a line,
 // so it faces no clear direction. Half-open coapting leaflets have slivers beside the attachment. The chords of a curve in a
 // sliver do not show the direction of the surface. In 20,000 states of valves with rough warps, cells with a sine up to 0.067
 // turned over although no triangle did. Where triangles but no wider cells turned over, the triangles had at most 0.6 mm^2. One
