@@ -89,9 +89,9 @@ RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis
  *   `vertex_force` (3, n_vertices): the array to which the forces are added. A node's force goes to the three vertices of its
  *     closest triangle, in the shares of the closest point's barycentric coordinates.
  * The forces on the vertices of a leaflet add up to leaflet_force of riis_marks_add_reaction, and their moment is
- * leaflet_moment, up to rounding. In every motion of the vertices, these forces have the same power as the forces of the nodes.
- * Vertices with equal coordinates are not joined: a valve repeats its vertices along sides of patches, and arrays may share a
- * vertex between leaflets. With MPI add up the forces of all ranks.
+ * leaflet_moment, up to rounding. In every motion of the vertices, the forces on the vertices have the same power as the forces
+ * of the nodes. Vertices with equal coordinates are not joined: a valve repeats its vertices along sides of patches, and arrays
+ * may share a vertex between leaflets. With MPI add up the forces of all ranks.
  * Errors: as riis_marks_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, another number of
  * vertices, or a closest triangle that the surface lacks. */
 RIIS_API riis_status riis_marks_add_vertex_reaction(const riis_marks *marks, const riis_surface *surface,

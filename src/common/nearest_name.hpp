@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the existing name that is nearest to a wrong name. The user probably meant this name. All the code is in this header,
-// because the library and the program both include it.
+// Finds the existing name that is nearest to a wrong name, which is probably the name that the user meant. All the code is in
+// this header, because the library and the program both include it.
 #pragma once
 
 #include <algorithm>

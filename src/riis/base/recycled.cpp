@@ -114,8 +114,8 @@ void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
   if (n_bytes <= largest_block) {
     Pool &to = pools[own_pool()];
     const std::lock_guard<ShortLock> lock(to.in_use);
-    // n_keepers counts the objects that keep memory. The last keeper lowers this count first and then empties the pools under
-    // this lock. If the count is above 0 here, the pool will be emptied later, and the block may be kept.
+    // n_keepers counts the objects that keep memory. The last keeper first lowers n_keepers to 0, and then empties the pools
+    // under their locks. If n_keepers is above 0 here, the pool will be emptied later, and the block may be kept.
     if (n_keepers.load(std::memory_order_acquire) > 0) {
       Block *&first = to.kept[static_cast<std::size_t>(size_class(n_bytes) - smallest_class)];
       first = new (memory) Block{first};

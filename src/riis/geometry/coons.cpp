@@ -22,7 +22,7 @@ double smallest_step(const Vector<double> &t) {
 }
 
 // Bounds the distance between a side and its curve, for each pair of neighbouring grid lines. The bound is the error of the
-// side's segment there, plus the shift of shared lines along the side.
+// side's segment between the two lines, plus the shift of shared lines along the side.
 Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &side, double GridLine::*t) {
   Vector<double> errors(lines.size() - 1, 0.0);
   if (!(side.length > 0)) return errors;

@@ -21,9 +21,9 @@ struct PointOnSpan {
   double t;
 };
 
-// Every span except the first begins at the end of the previous span, and in the same direction. At a joint, the curvature may
-// therefore jump, but the direction does not. (A curve with corners is stored as several curves, and its patch as several
-// patches.)
+// Each span begins at the end of the previous span, and in the direction in which the previous span ends. At a joint, the
+// curvature may therefore jump, but the direction does not. (A curve with corners is stored as several curves, and its patch as
+// several patches.)
 class Curve {
  public:
   Curve(const Bezier &span);  // NOLINT(google-explicit-constructor): a single span is a curve

@@ -34,8 +34,8 @@ double split_error_at(const Quad &quad, int level, double enough) {
   return std::min(largest, at_equal_uv);
 }
 
-// A level of subdivision, which is the number of halvings of a quad's sides, and a bound on the distance from the triangles to
-// the smooth patch.
+// A level of subdivision and its error. The level says how often the sides of a quad are halved, and the error bounds the
+// distance from the triangles to the smooth patch.
 struct Level {
   int level;
   double error;

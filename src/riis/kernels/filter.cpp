@@ -180,8 +180,8 @@ void nearest_groups(const FilterTask &task, const Boxes &boxes, const int32_t *c
 }
 
 // Let f be the square of a place's distance from a box, minus the square of the place's distance from a point. f is a concave
-// function of the place, and a sum over the axes. The least f in another box is therefore a sum over the axes. Each axis
-// contributes the lesser of its values at the two ends of that box.
+// function of the place, and a sum over the axes. The least f in another box is therefore a sum over the axes. Along each axis,
+// the least value is at one of the two ends of the box.
 void competing_groups(const FilterTask &task, const Boxes &boxes, const PointsOfBoxes &points,
                       const int32_t *candidates, int32_t n_candidates, uint16_t *competes) {
   const Floats zero = Floats::all(0), tolerance = Floats::load(points.tolerance);
@@ -319,7 +319,7 @@ RIIS_INLINE uint32_t bits_in_band(const OneSide &one_side, int32_t group, const 
   return bits_at_most(excess, Floats::all(0));
 }
 
-// Computes the distances of the listed nodes, beginning with the node `from`. Meanwhile, prefetches the last n_lines lines of
+// Computes the distances of the listed nodes, beginning with the node `from`. Also prefetches the last n_lines lines of
 // LinesAhead.
 template <bool is_one_sided>
 RIIS_INLINE void compare(const FilterTask &task, ClusterTask &cluster, int32_t from, int32_t n_lines) {
@@ -405,8 +405,8 @@ RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   }
 }
 
-// Compares the nodes with their first groups if no earlier call has done so. Then the function lists other groups for as many
-// nodes as there is room for, and compares the nodes with these groups.
+// Compares the nodes with their first groups if no earlier call has done so. After that, lists other groups for as many nodes as
+// there is room for, and compares the nodes with these groups.
 template <bool is_one_sided>
 RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
   const bool is_first = cluster.next_leaf < 0;

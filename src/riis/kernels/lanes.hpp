@@ -427,7 +427,7 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #endif
 }
 
-// Takes 16 integers, and returns one bit for each. The bit is set if the integer has the given bit.
+// Takes 16 integers, and returns one bit for each: the integer's bit number `bit`.
 RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
 #if defined(RIIS_SSE2)
   // The bit becomes the sign, which survives the packing to bytes.

@@ -206,7 +206,7 @@ FittedSize length_size(const std::string &name, double start, double grown, doub
 
 // `at` has the directions of the cusps' middles.
 Pose start_of(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift, const std::vector<double> &at) {
-  // The mean of the nadirs' directions, each turned back to the direction of cusp 0.
+  // The mean of the nadirs' directions, after each direction was turned back to cusp 0.
   const Rotation to = rotation_to(landmarks.at(axes.order.nadir[0]) - axes.middle, axes.axis), back = transposed(to);
   double x = 0, y = 0;
   for (std::size_t cusp = 0; cusp < at.size(); ++cusp) {

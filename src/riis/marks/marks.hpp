@@ -127,7 +127,8 @@ void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields
                    NodeFields &made);
 
 // Merges the lists of several threads into lists in ascending order of nodes.
-// One list has the nodes within the limit. If the limit is wider than the half thickness, another list has the marked nodes.
+// One list has the nodes within the limit. If the limit is wider than the half thickness, the marked nodes have a list of their
+// own.
 
 // A bin is a range of node numbers. The set holds nodes of one bin, with a bit for each number of the bin. The set gives each
 // node a rank: the number of nodes with lower numbers in the set. A stretch is 64 words of bits. Only stretches with nodes are

@@ -67,8 +67,8 @@ bool cuts_plane(const Triangle &t, Vec3 w, double limit) {
 // Returns whether e and f are nearly parallel: their parallelogram is narrower than 1e-8 of an edge. w is their cross product.
 bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e) * dot(f, f); }
 
-// Returns the length of the shortest translation of one triangle after which the two only touch. Returns 0 if this length is at
-// most `limit`. Triangles that only touch, or that lie in one plane, have depth 0. The error is at most 2^-24 of the longest
+// Returns the length of the shortest translation of one triangle after which the two triangles only touch, or 0 if the length is
+// at most `limit`. Triangles that only touch, or that lie in one plane, have depth 0. The error is at most 2^-24 of the longest
 // edge plus 2^-48 of the largest coordinate.
 double penetration_depth(const Triangle &a, const Triangle &b, double limit) {
   // Most pairs of triangles are dismissed here, because one triangle does not cut the plane of the other. Points are relative to

@@ -31,7 +31,8 @@ namespace {
 
 // ---- Boundary ----
 
-// Returns, for each triangle, the lowest triangle of its piece. A piece is a part of a leaflet that common vertices connect.
+// Returns, for each triangle, the lowest triangle of its piece. A piece is a part of a leaflet whose triangles are connected by
+// common vertices.
 std::vector<std::int64_t> pieces_of(const TriangleSet &set) {
   std::int64_t n_positions = 0;
   const auto position = distinct_positions(set, n_positions);

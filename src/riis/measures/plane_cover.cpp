@@ -16,8 +16,8 @@
 namespace riis {
 namespace {
 
-// One end of an interval on a line. An edge passes through this end. `along` is the length of the edge between two lines
-// with spacing 1. The length is 0 if lines in the other direction measure the edge.
+// The end of an interval on a line, where an edge crosses the line. `along` is the length of the edge between two lines with
+// spacing 1. The length is 0 if lines in the other direction measure the edge.
 struct End {
   double x, along;
 };
@@ -240,8 +240,8 @@ double length_without(const Spans &spans, const Spans &covers) {
 
 // In disjoint spans, measures the edges of the covers at the ends of the uncovered part.
 double edge_without(const Spans &spans, std::vector<Interval<End>> covers) {
-  // Covers of folded leaflets may begin or end in the same point. The order of such covers decides which edge counts, so the
-  // order must be total.
+  // Covers of folded leaflets may begin or end in the same point. The order of these covers decides which edge counts, so covers
+  // are compared by all their members.
   std::sort(covers.begin(), covers.end(), [](const Interval<End> &a, const Interval<End> &b) {
     return std::tie(a.begin.x, a.end.x, a.begin.along, a.end.along) <
            std::tie(b.begin.x, b.end.x, b.begin.along, b.end.along);

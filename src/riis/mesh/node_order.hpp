@@ -131,9 +131,8 @@ class NodeSorter {
   static constexpr std::int64_t small_size = 1024;
   static constexpr int n_small_bins = 64, n_small_bins_per_part = 16;
   typedef std::array<Node, n_bins> Counts;
-  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items often have the same bin
-  // and stream, and each update of a count waits for the previous update of that count. Each quarter therefore has its own
-  // counts.
+  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items often belong to the same
+  // count, and each update of a count waits for the previous update. Each quarter therefore has its own counts.
   static constexpr int n_quarters = 4;
   typedef std::array<Node, n_quarters> OfQuarters;
   typedef std::array<OfQuarters, n_bins> QuarterCounts;

@@ -72,7 +72,7 @@ class MovedCuts {
   Vector<GridLine> &to_;
 };
 
-// Returns the lines u of a grid in another state. Only the lines of arcs that were cut at joints move.
+// Returns the lines u of a grid in another state. Lines move only if the grid's move_with_joints is true.
 Vector<GridLine> lines_in(const PatchSet &at, const PatchSet &state, std::size_t patch, const GridLines &lines) {
   Vector<GridLine> made = lines.u;
   if (lines.move_with_joints) {

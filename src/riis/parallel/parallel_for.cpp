@@ -162,8 +162,8 @@ int parallel_for(std::int64_t n_blocks, int n_threads, LoopBody body) {
   TimesOfCaller of_caller{begin, begin};
   const int n_ran = openmp_for(n_blocks, n_threads, body, &of_caller);
   const std::int64_t end = nanoseconds();
-  // At the beginning, GCC's run-time also waits until all threads have left the previous loop. The first loop starts these
-  // threads.
+  // At the beginning of a loop, GCC's run-time also waits until all threads have left the previous loop. In a process's first
+  // loop the run-time starts the threads, which does not count as waiting.
   const std::int64_t waited = loop_choice.has_recorded() ? of_caller.begins - begin : 0;
   loop_choice.record(waited + (end - of_caller.has_worked), end);
   return n_ran;

@@ -30,8 +30,8 @@ inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::in
                        : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
 }
 
-// Refers to a body(block, thread) of any type, which must live as long as the loop. Loops are therefore compiled once, not once
-// for each body, and a block costs one call through a pointer.
+// Refers to a function object body(block, thread) of any type. The object must live as long as the loop. Loops are therefore
+// compiled once, not once for each body, and a block costs one call through a pointer.
 class LoopBody {
  public:
   template <class Body>

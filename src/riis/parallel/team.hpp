@@ -49,8 +49,8 @@ class LoopChoice {
     until_.store(now + pause, std::memory_order_relaxed);
   }
 
-  // Returns how long the calling thread works alone in a loop that begins now. Without new losses this time becomes shorter, so
-  // teams are tried again.
+  // Returns how long the calling thread works alone in a loop that begins now. The time becomes shorter while no losses are
+  // recorded, so that teams are tried again.
   std::int64_t time_alone(std::int64_t now) const noexcept {
     const double mean = mean_loss(now);
     return mean < least_loss ? 0 : static_cast<std::int64_t>(mean);
@@ -78,7 +78,7 @@ class LoopChoice {
   std::atomic<double> mean_loss_{0};
 };
 
-// The process's choice between OpenMP and a team. Several threads may record loops at once. Any of the values that they write is
+// The process's choice between OpenMP and a team. If several threads record loops at once, the record of any of the threads is
 // good enough.
 extern LoopChoice loop_choice;
 

@@ -40,7 +40,7 @@ std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   return asked_for;
 }
 
-// A search that ran, and its report.
+// The search that ran, and its report.
 struct SearchRun {
   std::int32_t search;
   SearchReport report;

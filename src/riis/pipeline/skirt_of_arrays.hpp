@@ -11,7 +11,8 @@
 namespace riis {
 
 // Finds the edges of the attachment, with the vertices of the arrays. Does nothing without a skirt and without attached vertices.
-// Later vertices of the same faces keep these edges. Fails with RIIS_INVALID_SURFACE if the faces do not determine the edges.
+// If the same faces get other vertices later, the attachment keeps these edges. Fails with RIIS_INVALID_SURFACE if the faces do
+// not determine the edges.
 void find_attachment(UserFaces &faces, const riis_surface_arrays &arrays);
 
 // Gives the placed triangles of these faces their attachment and their skirt. The outer vertices follow the caller's vertices.

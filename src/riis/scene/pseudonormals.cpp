@@ -251,7 +251,7 @@ Pseudonormals::Rates Pseudonormals::rates_of(const TriangleSet &set, const doubl
   Rates made;
   resize(made.rim_edge, 3 * n);
   resize(made.corner, view(corner_).size());
-  // Edges of triangles. Each has the same two ends as some edge of the rim, and the ends give the order.
+  // Edges of triangles that have the same two ends as some edge of the rim, ordered by their ends.
   struct Edge {
     Ends ends;
     std::int64_t slot;

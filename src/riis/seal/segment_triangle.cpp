@@ -176,8 +176,8 @@ bool segments_meet(Point2 a, Point2 b, Point2 c, Point2 d) {
          (c_side == 0 && is_between(a, b, c)) || (d_side == 0 && is_between(a, b, d));
 }
 
-// Decides for a segment in the plane of the triangle. Projects the segment and the triangle along a coordinate axis, so that the
-// projected triangle has an area.
+// Decides whether a segment in the plane of a triangle meets the triangle. Projects the segment and the triangle along a
+// coordinate axis, so that the projected triangle has an area.
 bool meets_in_plane(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) {
   const auto along = [](int axis, Vec3 p) {
     return axis == 0 ? Point2{p.y, p.z} : axis == 1 ? Point2{p.z, p.x} : Point2{p.x, p.y};

@@ -185,9 +185,9 @@ class ClosestPoints {
     Bounds bounds;
   };
 
-  // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except for far points. For the
-  // first point of the range, k is 0. In each block, the visited points have consecutive places, beginning at the block's first
-  // k.
+  // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except for far points. The places
+  // k are counted from the first point of the range, which has k = 0. In each block, the visited points have consecutive places,
+  // beginning at the block's first k.
   template <class Visit>
   std::array<Block, points_per_batch / points_per_block> visit_blocks(const Range &all, int n_threads,
                                                                       const Visit &visit) const {

@@ -150,7 +150,8 @@ struct TriangleDistances {
     return std::sqrt(scene.closest(p, limit, instructions).distance_sq);
   }
 
-  // Returns the constant part of the error of a distance from p. The other part is proportional to the distance and to |p|.
+  // Returns the constant part of the error of a distance from p. Another part of the error is proportional to the distance and to
+  // |p|.
   double rounding() const { return scene.rounding(); }
 };
 
@@ -167,8 +168,8 @@ struct OtherDistances {
   }
 
   // Sampling measures the distance to fixed points, so the distance itself is the bound. A minimisation may end anywhere on S, so
-  // its result at p bounds no result at other points. Each result, however, is the distance to some point of S, and so at least
-  // the distance to the triangles minus triangle_error.
+  // its result at p bounds no result at other points. But each result is the distance to some point of S, so it is at least the
+  // distance to the triangles minus triangle_error.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);
     constexpr double far = std::numeric_limits<double>::infinity();

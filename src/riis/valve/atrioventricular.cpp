@@ -327,9 +327,9 @@ double middle_length(const Leaflet &leaflet) {
          arc_length(meridian({0, 0, 0}, leaflet.start[middle], leaflet.turn[middle], on_line, on_edge));
 }
 
-// Returns the leaflet after every place has moved by a share of its way. Each control point swings about its hinge. Then the
-// leaflet is stretched until its middle has the right length. The stretch decreases towards the commissures. Finally, bumps lift
-// the leaflet along z. Seen along z, lifted leaflets are thus as far apart as healthy leaflets.
+// Returns the leaflet after every place has moved by a share of its way. Each control point swings about its hinge. After the
+// swing, the leaflet is stretched until its middle has the right length. The stretch decreases towards the commissures. Finally,
+// bumps lift the leaflet along z. Seen along z, lifted leaflets are thus as far apart as healthy leaflets.
 Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double> &shares) {
   Leaflet made = closed;
   for (std::size_t i = 0; i < n_places; ++i) {
@@ -591,8 +591,8 @@ ParameterSpec ratio_spec(const char *name, const char *description, double value
 
 }  // namespace
 
-// Seen along z, the outline is an ellipse with a flat side. The larger `flatness` is, the flatter this side is, and the nearer to
-// the middle.
+// Seen along z, the outline is an ellipse with a flat side. A larger `flatness` makes the flat side flatter, and moves it nearer
+// to the middle.
 std::array<Bezier, 4> saddle_annulus(const SaddleAnnulus &annulus) {
   constexpr double circle = 0.5523;  // the reach of a cubic for a quarter of a circle, in radii
   const double sign = annulus.flat_side == FlatSide::at_positive_y ? 1 : -1, high = 0.5 * annulus.saddle_height;

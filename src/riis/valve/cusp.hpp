@@ -76,7 +76,7 @@ Vector<CuspPlace> equal_places(std::size_t n_cusps, Vec3 shift);
 // Sews the images of a patch of equal cusps together. The half y < 0 of each cusp meets the half y >= 0 of the cusp before it.
 void sew_equal_cusps(PatchSet &set, std::size_t patch, SeamPlace place);
 
-// A cusp that is not equal to its neighbours, or whose halves y >= 0 and y < 0 differ. Each half is given as for y >= 0.
+// A cusp that differs from its neighbours, or whose halves y >= 0 and y < 0 differ. Each half is given as for y >= 0.
 struct UnequalCusp {
   double turn_degrees;
   std::array<MovingHalf, 2> halves;

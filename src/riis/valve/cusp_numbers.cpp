@@ -229,7 +229,8 @@ HalfSector half_sector(double sector_degrees) {
   HalfSector made{sine, cosine, arc_reach(sector_degrees / 2), tangent_on_cylinder(sine, cosine) / on_cylinder_60,
                   std::nullopt};
   if (sector_degrees > most_of_one_piece) {
-    // The arc ends at the middle of the single cubic. The second piece is built like the single cubic of a narrower cusp.
+    // The arc ends at the middle of the single cubic. After the arc, the attachment continues with a cubic, which is built like
+    // the single cubic of a narrower cusp.
     const double arc_cosine = (1 + cosine) / 2, arc_sine = std::sqrt(1 - arc_cosine * arc_cosine);
     const double on_cylinder =
         tangent_on_cylinder(sine * arc_cosine - cosine * arc_sine, cosine * arc_cosine + sine * arc_sine);

@@ -157,8 +157,8 @@ struct PatchSet {
   // The derivatives of the spans' control points with respect to the opening, or nothing if the valve does not blend control
   // points. The list has entries for the first curves. The curves of a skirt come later and have no entry.
   Vector<Vector<Bezier>> rates = {};
-  // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. On these lines
-  // equal shares stand for the same points without an entry.
+  // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. These lines need
+  // no entry, because equal shares of their lengths stand for the same points.
   Vector<std::optional<MaterialPoints>> material = {};
   // Only warped patches have this list. For each patch, the list says to which places the map takes points inside the patch.
   Vector<MappedInside> mapped_inside = {};

@@ -306,7 +306,7 @@ Vector<PlacedEnd> placed_ends(const PatchSet &set, const Vector<HeldSide> &sides
       for (const bool is_last : {false, true}) {
         const PatchImage &image = patch.images[i];
         const bool is_last_of_curve = is_last != held.side.reversed;
-        // As seen along the axis, the side of a patch that points upstream runs the other way round.
+        // If a patch points upstream, its side runs in the opposite sense around the axis.
         places.push_back({{first_number[held.patch] + i, is_last},
                           place(image, is_last_of_curve ? curve.last() : curve.first()),
                           image.leaflet_id,
