@@ -669,7 +669,7 @@ module riis_c
   !> The opening at which a valve first lets the mesh pass.
   type, bind(c) :: riis_first_passage
     real(c_double) :: opening        !< the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE
-    real(c_double) :: closed_opening !< FOUND: the largest tried opening below `opening`, which has no passage. Else:
+    real(c_double) :: closed_opening !< FOUND: the largest opening below `opening` at which no passage was found. Else:
                                      !! `opening`
     integer(c_int64_t) :: node_id    !< the passage at `opening`, as in riis_passage
     real(c_double) :: distance       !< as in riis_passage

@@ -64,8 +64,8 @@ enum {
  * If another thread is just sending a message, the previous function may still receive the message. With a log function, the
  * library also searches surfaces for crossings (riis_find_crossings). The library searches a shape only if the caller has chosen
  * its parameters, patches or open state. The search takes longer than an update. Openings have five ranges: 0, up to 0.05, up to
- * 1/3, up to 2/3, and up to 1. A shape is searched once in each range, at its first opening in that range. After its first
- * warning a shape is not searched again. */
+ * 1/3, up to 2/3, and up to 1. A shape is searched once in each range, at its first opening in that range. A shape is not
+ * searched again after its first warning. */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
 /* RIIS_AUTO in a field stands for the value of another quantity. The comment of the field names that quantity. */

@@ -132,7 +132,7 @@ typedef struct riis_opening_angle_state {
   double pressure_difference; /* at that time; NaN: none yet */
   double flow;                /* at that time; NaN: none yet */
 } riis_opening_angle_state;
-/* Fills *state with a closed valve at rest, at time 0. Until the first step its angle 0 stands for angle_min. */
+/* Fills *state with a closed valve at rest, at time 0. Until the first step, the angle 0 of this state stands for angle_min. */
 RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
 /* Advances the angle law to a time. The law takes pressure difference and flow as linear over the step, so the angle is accurate
  * to second order in the length of steps. The first step has no earlier pressure difference and flow, so the present values hold

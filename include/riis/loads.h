@@ -53,14 +53,14 @@ RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_poi
  *   `node_force` (3, n_points): the array to which the forces are added.
  * The force of a leaflet at a node is m w(d) (a + b x s). Here m is the weight of the node, and d is its distance from the
  * leaflet's edges. Up to the radius, w(d) is (1 + cos(pi d / radius)) / 2. The vector s leads from the middle of the leaflet's
- * nodes to the node. The vectors a and b belong to the leaflet. The forces of a leaflet have the least sum of |force|^2 / (m w)
- * among all forces with this sum and moment. In a rigid motion the power of the forces is force times velocity plus moment times
- * angular velocity. The forces are linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to get the
- * forces of one leaflet. The mechanics of a membrane plays no part in these forces.
+ * nodes to the node. The vectors a and b belong to the leaflet. Among all forces with the same sum and moment, the forces of a
+ * leaflet have the least sum of |force|^2 / (m w). In a rigid motion the power of the forces is force times velocity plus moment
+ * times angular velocity. The forces are linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to get the
+ * forces of one leaflet. The forces do not model the mechanics of a membrane.
  * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also for a leaflet with a force or a moment, if fewer than three nodes
  * lie within the radius, or if these nodes lie nearly on a line. Nodes lie nearly on a line if their root-mean-square distance
- * from it is less than a hundredth of their root-mean-square distance from their middle. Nodes also lie nearly on a line if their
- * root-mean-square distance from it is less than a thousandth of the size of the edges (docs/theory/loads.md). */
+ * from the line is less than a hundredth of their root-mean-square distance from their middle. Nodes also lie nearly on a line if
+ * their root-mean-square distance from the line is less than a thousandth of the size of the edges (docs/theory/loads.md). */
 RIIS_API riis_status riis_loads_add_forces(const riis_loads *loads, const riis_points *nodes, const double *weight,
                                            const double *sums, double *node_force);
 

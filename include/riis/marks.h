@@ -25,8 +25,8 @@ RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and 
 enum {
   RIIS_SEARCH_AUTO = 0,       /* clusters. Sampling and minimisation take the exhaustive search. The first marking of a mesh
                                  without riis_mesh_prepare also takes the exhaustive search if the distance limit is at most a
-                                 fifth of the surface's extent. With few nodes, so does a marking with a larger limit. A grid
-                                 (riis_mesh_create_grid) has clusters from its first marking on */
+                                 fifth of the surface's extent. With few nodes, a marking with a larger limit also takes the
+                                 exhaustive search. A grid (riis_mesh_create_grid) has clusters from its first marking on */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
                                  neighbor search") and queries every other node that it cannot prove to be far. The

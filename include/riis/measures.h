@@ -89,7 +89,7 @@ typedef struct riis_area_search {
   const riis_surface_options *surface; /* options of the valve's surface. NULL, the default, stands for defaults */
   const riis_resistance *resistance;   /* as in riis_surface_get_orifice. NULL, the default, stands for defaults */
   double from, to;    /* the range to search, from < to. The default NaN stands for 0 to 1 for the opening, a tenth to ten times
-                         the scale, and half to twice a parameter. For a share that is 0 it stands for all shares. Any other
+                         the scale, and half to twice a parameter. For a share that is 0, NaN stands for all shares. Any other
                          parameter that is 0 needs both numbers */
   double tolerance;   /* the tolerance of an area, as a share of the area, 1e-12 to 1e-2. Default 1e-8 */
   int32_t n_samples;  /* the number of values that are tried first, 2 to 100,001. Default 33 */
@@ -181,7 +181,7 @@ enum {
 /* The opening at which a valve first lets the mesh pass. */
 typedef struct riis_first_passage {
   double opening;        /* the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE */
-  double closed_opening; /* FOUND: the largest tried opening below `opening`, which has no passage. Else: `opening` */
+  double closed_opening; /* FOUND: the largest opening below `opening` at which no passage was found. Else: `opening` */
   int64_t node_id;       /* the passage at `opening`, as in riis_passage */
   double distance;       /* as in riis_passage */
   double point[3];       /* as in riis_passage */

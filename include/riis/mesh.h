@@ -51,8 +51,8 @@ typedef struct riis_grid {
                             origin[0] + i spacing[0] */
   const void *y;         /* (nj), likewise */
   const void *z;         /* (nk), likewise */
-  double origin[3];      /* of axes with NULL. Default 0 */
-  double spacing[3];     /* of axes with NULL, above 0. Default 1 */
+  double origin[3];      /* the first coordinate of axes that are NULL. Default 0 */
+  double spacing[3];     /* the spacing of axes that are NULL, above 0. Default 1 */
   int64_t first;         /* the number of node (0, 0, 0), >= 0. Default 0 */
   int64_t stride[3];     /* the difference of numbers from a node to the next along each axis, >= 1. Two nodes must not have the
                             same number. Default 0, for all three axes, stands for 1, ni and ni nj */

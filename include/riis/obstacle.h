@@ -72,11 +72,11 @@ RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_
  * Each result is a plain sum over nodes. With MPI all ranks pass the same reference point and edges, and add up their sums. The
  * sums of leaflets add up to the sum of the whole surface, up to rounding. The sums of edges are loads for tissue codes. The sums
  * of edges do not model how a membrane carries loads to its edges. The time for a node grows as log n_edges, or as n_edges if all
- * edges are equally near. The force on a valve at rest is right. The force on a moving valve includes the inertia of the blood in
- * the band. If a scheme has K at its faces, the pressure equation of a moving valve needs a source. Without the source the force
- * is wrong by newtons (docs/solvers.md, "The source in the band"). The source acts in cells whose faces are walls or have K dt >
- * rho: the faces with K dt > rho get the outflow of u_surface. Finite elements have the same fault for K dt > rho, and no source
- * is known for them.
+ * edges are equally near. The force on a valve at rest is correct. The force on a moving valve includes the inertia of the blood
+ * in the band. If a scheme has K at its faces, the pressure equation of a moving valve needs a source. Without the source the
+ * force is wrong by newtons (docs/solvers.md, "The source in the band"). The source acts in cells whose faces are walls or have K
+ * dt > rho: the faces with K dt > rho get the outflow of u_surface. Finite elements have the same fault for K dt > rho, and no
+ * source is known for them.
  * Errors: as riis_marks_add_resistance. RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small (the message names the
  * leaflet id), a leaflet without an edge, a bad edge, and a reaction without any sum. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,

@@ -195,8 +195,8 @@ RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *
 /* A list of .vtu files, the pieces of one mesh, as in a .pvtu file. The pieces are read one by one, so a mesh may be
  * larger than the memory. */
 typedef struct riis_vtk_pieces riis_vtk_pieces;
-/* Reads the list, not the pieces.
- *   `path`: ends in .pvtu. Names of pieces are absolute or relative to its folder.
+/* Reads the list, but not the pieces.
+ *   `path`: ends in .pvtu. Names of pieces are absolute, or relative to the folder of the .pvtu file.
  * Errors: RIIS_FILE_ERROR naming the file and the piece: if there is no piece, if a piece is missing, is listed twice
  * or is no .vtu file, and as in riis_vtk_mesh_read. */
 RIIS_API riis_status riis_vtk_pieces_read(const char *path, riis_vtk_pieces **pieces);
@@ -320,7 +320,7 @@ RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *con
                                                 const double *times, const char *leaflets,
                                                 riis_vtk_motion **motion);
 /* Reads a motion from one .vtp or .vtu file with displacements. A frame consists of the points plus the displacements in a point
- * array of 3 components. The points alone make no frame.
+ * array of 3 components. The points without displacements are not a frame.
  *   `prefix`: the name of each array is the prefix, then "_" or nothing, then a whole number, as in displacement_0 and
  *     displacement_10. Frames are in the order of the numbers, which may have gaps.
  *   `n_times`: the number of these arrays, or 0.

@@ -103,7 +103,7 @@ typedef struct riis_passage_ends {
 RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t struct_size); /* the defaults */
 /* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
  *   `mesh`: must have an adjacency, and need not have been marked.
- *   `ends`: paths include their ends, so an end limits the passage to its own distance from the surface.
+ *   `ends`: a path includes its two ends, so the distances of the ends from the surface also limit the passage.
  *   `options`: only node_mask, n_threads and instructions are used. No path passes through a node that node_mask leaves out.
  * A new half thickness moves a valve's triangles by up to tolerance * half_thickness: search again after
  * riis_surface_update.

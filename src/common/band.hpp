@@ -31,7 +31,7 @@ struct Band {
     if (!steps_aside() || !(distance > 0)) return distance;
     const double cosine = height / distance, along = offset * cosine;
     const double root = std::sqrt(1 - offset * offset * ((1 - cosine) * (1 + cosine)));
-    // Neither formula subtracts numbers of the same sign, so no digits are lost. Off the rim the root is 1.
+    // Neither formula subtracts numbers of the same sign, so no digits are lost. For a node off the rim, the root is 1.
     const double made =
         root == 1 || along >= 0 ? distance / (along + root) : distance * (root - along) / ((1 - offset) * (1 + offset));
     double least = distance / reach_of(1);

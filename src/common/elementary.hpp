@@ -39,7 +39,7 @@ inline SineCosine of_small(double x) {
   constexpr double cosine[] = {0.041666666666666664,    -0.0013888888888887398, 2.480158729876456e-05,
                                -2.7557317271145144e-07, 2.087614614655861e-09,  -1.1382623647474604e-11};
   const double square = x * x, half = 0.5 * square, rest = 1 - half;
-  // The second part holds the rounding error of 1 - x^2/2.
+  // The cosine is 1 - x^2/2, plus the rounding error of this difference, plus the terms of higher degree.
   return {x + x * square * polynomial(sine, square),
           rest + (((1 - rest) - half) + square * square * polynomial(cosine, square))};
 }
@@ -100,7 +100,7 @@ inline double arc_tangent(double y, double x) {
                                    -0.06664510525508936, 0.05858140904866328,  -0.050854078345894844,
                                    0.03923044778479309,  -0.019175404711104935};
   const double ax = std::abs(x), ay = std::abs(y), least = ay < ax ? ay : ax, largest = ay < ax ? ax : ay;
-  // Beyond pi/8 the angle is measured from pi/4. The quotient is therefore at most tan(pi/8).
+  // The angle is measured from the nearest multiple of pi/4, so the quotient is at most tan(pi/8).
   constexpr double tangent_of_eighth = 0.41421356237309503;
   const bool is_wide = least > tangent_of_eighth * largest;
   const double over = is_wide ? least - largest : least, under = is_wide ? least + largest : largest;
@@ -120,7 +120,7 @@ inline double exponential_minus_one(double x) {
   if (x < -50) return -1;
   int n_doublings = 0;
   for (; x < -0.25; x *= 0.5) ++n_doublings;
-  // Taylor's series of (exp(x) - 1) / x. The next term is below 1e-17.
+  // Taylor's series of (exp(x) - 1) / x. The first term that is left out is below 1e-17.
   constexpr double series[] = {1.0,          1.0 / 2,       1.0 / 6,        1.0 / 24,        1.0 / 120,       1.0 / 720,
                                1.0 / 5040.0, 1.0 / 40320.0, 1.0 / 362880.0, 1.0 / 3628800.0, 1.0 / 39916800.0};
   double value = x * elementary::polynomial(series, x);

@@ -24,8 +24,8 @@ constexpr std::int64_t least_triangles = 4;
 // the part's area.
 constexpr double band_share = 0.5;
 constexpr std::size_t n_sectors = 12;
-// Two flat parts that touch are both unclear if their areas differ by a factor of less than `most_apart`. If the factor is
-// larger, only the smaller part is unclear.
+// Two flat parts that touch are both unclear if their areas differ by a factor of less than `most_apart`. If the areas differ
+// more, only the smaller part is unclear.
 constexpr double most_apart = 10;
 // A small part is an end if its rim has at least `least_sides` sides, and if the wall stays as steep up to `wide_band_share` of
 // the radius.

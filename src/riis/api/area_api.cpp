@@ -112,7 +112,8 @@ class AreaTrials {
  private:
   const char *words() const { return search_.area == RIIS_AREA_EFFECTIVE ? "effective area" : "area"; }
 
-  // Returns the caller's range. A usual end, limited to the possible values, replaces an end that the caller left out.
+  // Returns the caller's range. If the caller left out an end of the range, the usual end is taken, limited to the possible
+  // values.
   Values checked(const Values &usual, const std::array<double, 2> &range) const {
     const double from = std::isnan(search_.from) ? std::clamp(usual.from, range[0], range[1]) : search_.from;
     const double to = std::isnan(search_.to) ? std::clamp(usual.to, range[0], range[1]) : search_.to;

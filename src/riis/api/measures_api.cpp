@@ -38,7 +38,7 @@ riis_resistance resistance_for(const riis_resistance *resistance, const riis::Su
   return whole;
 }
 
-// `wall` is null, or bounds the orifice.
+// `wall` bounds the orifice. Without a wall, the pointer is null.
 riis_orifice orifice_of(const riis::Surface &surface, const riis::Surface *wall, const riis_resistance &resistance) {
   const double c = riis::rim_reach(surface, resistance.rim);
   const double eps = resistance.half_thickness;

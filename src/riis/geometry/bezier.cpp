@@ -143,8 +143,8 @@ struct SpeedOnPart {
 };
 
 // Finds the parameters of ascending lengths from the start of the part, each from the previous parameter. Returns false if the
-// lengths do not add up to the length of the part. The speed is then too far from a polynomial, as at a cusp, and one quadrature
-// for each step is not enough.
+// lengths do not add up to the length of the part. This happens where the speed is not nearly a polynomial, such as at a cusp,
+// because one quadrature for each step is then not accurate enough.
 bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t n, double *t) {
   const Speed &speed = part.speed;
   const double close_enough = 1e-14 * part.whole_length;
@@ -220,8 +220,8 @@ double flatness(const Bezier &curve) {
 }
 
 // Bounds the curvature |B' x B''| / |B'|^3. The bound is infinite if the derivative may be 0 somewhere. B' and B'' are Bézier
-// curves with these control points. Products of these points bound the numerator. The least component of B' along the chord,
-// taken over its control points, bounds the denominator from below.
+// curves with the control points `first` and `second`. Products of these control points bound the numerator. The least component
+// of B' along the chord, taken over its control points, bounds the denominator from below.
 template <std::size_t n, std::size_t m>
 static double rough_curvature(const Vec3 (&first)[n], const Vec3 (&second)[m], Vec3 chord) {
   double least_along = std::numeric_limits<double>::infinity(), largest_sq = 0;
@@ -261,8 +261,8 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // Bounds each quarter of the curve separately. The bound from control points is loose if the control points vary much. Within a
-  // quarter of the curve they vary little.
+  // Bounds each quarter of the curve separately. The bound from control points is loose if the control points vary much, but the
+  // control points of a quarter vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);

@@ -128,7 +128,8 @@ std::optional<Along> along_span(const Bezier &span, double speed) {
   if (!(speed > 0)) return Along{};
   const Derivatives d(span);
   const bool is_cubic = d.n == 3;
-  // In the middle of the span, B' is this vector. To either side, B'' changes B' over half of the range of t.
+  // `middle` is B' in the middle of the span. From the middle to either end, the change of B' is the integral of B'' over half of
+  // the range of t.
   const Vec3 middle = is_cubic ? 0.25 * (d.first[0] + 2 * d.first[1] + d.first[2]) : 0.5 * (d.first[0] + d.first[1]);
   const double size = length(middle);
   if (!(size > 0)) return std::nullopt;

@@ -221,7 +221,7 @@ void differentiate(const PointsAndTriangles &pairs, const PointsOnTriangles &loc
     (weight * unit.y).store(weighted[k][1]);
     (weight * unit.z).store(weighted[k][2]);
   }
-  // Gathering the rates of eight points would take longer than computing one point at a time.
+  // This loop computes one point at a time, because gathering the rates of eight points would take longer.
   for (int32_t lane = 0; lane < n_points; ++lane) {
     const int64_t a = 3 * vertex[lane][0], b = 3 * vertex[lane][1], c = 3 * vertex[lane][2];
     const auto part = [&](int k, const double *rate) RIIS_LAMBDA {

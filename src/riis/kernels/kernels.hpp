@@ -130,7 +130,7 @@ struct ClusterTask {
   LinesAhead ahead;     // filter_cluster empties it
   bool is_done;         // the last call of filter_cluster sets this
 
-  // The following members belong to the filter. The arrays have room for whole registers. A node is given by its position in the
+  // Only the filter uses the following members. The arrays have room for whole registers. A node is given by its position in the
   // cluster.
   int32_t next_leaf, next_group;
   int32_t n_listed, next_listed;
@@ -264,9 +264,9 @@ struct DecisionKernels {
   void (*mix_at_vertices)(const VertexNumbers *numbers, const int64_t *const *vertex, const PointsOnTriangles &located,
                           VertexNumbers *mixed);
   // Computes how fast the distances of the first n_points points change when the triangles' vertices move. n_points is above 0.
-  // The search has computed the distances, so no root is computed again. `vertex` has the ids of each pair's three vertices, and
-  // rates[i] has the rates of all vertices in direction i. The derivatives of a point follow each other. A derivative at distance
-  // 0 is 0.
+  // The search passes the distances that it has computed, so that no root is computed again. `vertex` has the ids of each pair's
+  // three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of a point follow each other. A
+  // derivative at distance 0 is 0.
   void (*differentiate)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                         const double (&distance)[pairs_at_once], const int64_t *const *vertex,
                         const double *const *rates, int64_t n_directions, int32_t n_points, double *derivatives);
@@ -274,7 +274,7 @@ struct DecisionKernels {
   // normal.
   void (*find_sides)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                      const double (&normal)[3][pairs_at_once], int32_t *side);
-  // Sums cubes of distances. The first function does not change the derivatives. All instruction sets give the same bits.
+  // Sums cubes of distances. Only sum_cubes_with_derivatives writes the derivatives. All instruction sets give the same bits.
   void (*sum_cubes)(const CubeSources &sources, const double *at, CubeSums &sums);
   void (*sum_cubes_with_derivatives)(const CubeSources &sources, const double *at, CubeSums &sums);
 };

@@ -180,7 +180,7 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const Unaligned *>(from)[i];
     return lanes;
   }
-  // Fills a register with numbers. The number of each lane comes from its own address.
+  // Fills a register with numbers. Each lane has an address from which its number is read.
   static RIIS_INLINE Register gather_register(const Scalar *const *f, int64_t offset) {
     if constexpr (per_register == 8)
       return Register{f[0][offset], f[1][offset], f[2][offset], f[3][offset],
@@ -264,8 +264,9 @@ RIIS_INLINE Row high_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 
 template <int n, class Address>
 RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
 #if defined(__AVX2__)
-  // A row has the three numbers of a point and the next number. The array ends after the last point, so the last row begins with
-  // the number before the point. A single point has no number before it, so a mask leaves out the fourth number.
+  // A load takes four numbers: the three numbers of a point and the next number. The array ends after the last point, so the last
+  // load begins with the number before that point. A single point has no number before it, so a mask leaves out the fourth number
+  // of the load.
   constexpr int last = n - 1;
   const auto load = [](const double *from, int k) __attribute__((always_inline)) {
     if constexpr (n == 1) return _mm256_maskload_pd(from, _mm256_setr_epi64x(-1, -1, -1, 0));
@@ -508,7 +509,7 @@ RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
     m[i] = (__m128)least(least(of[i].part[0], of[i].part[1]), least(of[i].part[2], of[i].part[3]));
 #endif
   }
-  // Combines neighbouring halves twice. Each step keeps the lesser number of two lanes.
+  // Combines neighbouring halves twice, and keeps the lesser number of two lanes each time.
   const __m128 first = _mm_min_ps(_mm_unpacklo_ps(m[0], m[1]), _mm_unpackhi_ps(m[0], m[1]));
   const __m128 last = _mm_min_ps(_mm_unpacklo_ps(m[2], m[3]), _mm_unpackhi_ps(m[2], m[3]));
   _mm_storeu_ps(least_lane, _mm_min_ps(_mm_movelh_ps(first, last), _mm_movehl_ps(last, first)));

@@ -165,8 +165,8 @@ class CirclesModel : public CuspModel {
   }
 };
 
-// The cusps of the paper's valve. Two neighbours end at the same angle but at different radii, so a commissure lies between two
-// ends.
+// The cusps of the paper's valve. At a commissure, two neighbouring cusps end at the same angle but at different radii, so the
+// commissure lies between the two ends.
 class AorticModel : public CuspModel {
  public:
   using CuspModel::CuspModel;

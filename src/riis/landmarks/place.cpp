@@ -90,7 +90,7 @@ std::pair<Vec3, double> axis_and_angle(const Rotation &r) {
   const double angle = arc_tangent(sine, trace - 1) * (180 / pi);
   if (sine > 1e-6) return {unit(twice), angle};
   if (trace > 1) return {{0, 0, 1}, 0};
-  // The angle is half a turn. For half a turn, each column of R + 1 that is not 0 has the direction of the axis.
+  // Here the angle is 180 degrees. For this angle, each column of R + 1 that is not 0 has the direction of the axis.
   const Vec3 columns[3] = {{r.row_x.x + 1, r.row_y.x, r.row_z.x},
                            {r.row_x.y, r.row_y.y + 1, r.row_z.y},
                            {r.row_x.z, r.row_y.z, r.row_z.z + 1}};
@@ -300,8 +300,8 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
     }
 }
 
-// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because other sizes
-// follow from these.
+// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because the other sizes
+// follow from the sizes of the landmarks.
 void check_sizes(const Valve &valve, const LandmarkModel &model) {
   try {
     valve.make_patches();
@@ -354,8 +354,8 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
 
   PlacedValve placed{valve, landmarks.scale, {0, 0, 1}, 0, {0, 0, 0}, {}, {}, 0, fitted.rotation_error, 0, {}, {}};
   placed.n_as_annulus = of_kind.n_as_annulus;
-  // First all lengths grow with the valve. After that, the fitted sizes take their values. Last come the parameters that depend
-  // on several sizes.
+  // First all lengths grow with the valve. After that, the fitted sizes take their values. Parameters that depend on several
+  // sizes are set last.
   double size_now = value_of(valve, of_kind.size_name);
   for (const FittedSize &size : model.sizes)
     if (size.name == of_kind.size_name) size_now = size.value;

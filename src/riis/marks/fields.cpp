@@ -112,7 +112,7 @@ class TriangleFields {
   }
 
   // Replaces the velocity of each node with ties by the mean over all leaflets that are equally near. A leaflet's velocity is
-  // the mean over its tied points. A node belongs to the range that contains its first tie.
+  // the mean over its tied points. `range` is a range of ties: a node belongs to the range that contains the node's first tie.
   void take_means(const Range &range) const {
     const std::int64_t begin = next_node(range.begin), end = next_node(range.end);
     MeanOfLeaflets mean(-1, {0, 0, 0});
@@ -214,7 +214,7 @@ class TriangleFields {
 
   std::int64_t n_directions() const { return view(rates_).size(); }
 
-  // Writes the velocities and (u,v). The weights interpolate these fields from the vertices.
+  // Writes the velocities and (u,v). Both fields are interpolated from the vertices by the barycentric weights.
   void write_mixed(const std::int64_t *triangle, const PointsOnTriangles &on, std::int64_t first,
                    std::int64_t n) const {
     const std::int64_t *vertex[pairs_at_once];

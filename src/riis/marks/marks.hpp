@@ -71,7 +71,7 @@ struct NodeList {
 // for its force.
 // Each requested field becomes an array over the nodes within the limit, for the closest triangles that the search found.
 
-// A field of every marking with an offset, which no caller can request: NodeFields::height.
+// The field NodeFields::height, which every marking with an offset has, and which no caller can request.
 inline constexpr std::int32_t field_height = 1 << 30;
 
 // Fields, and the number of the surface's directions, which RIIS_FIELD_GRADIENT needs.
@@ -89,7 +89,7 @@ struct NodeFields {
   UnfilledVector<double> height_gradient;                       // (n_directions, n), with height and distance_gradient
   UnfilledVector<std::int32_t> side, rim, patch_id;             // (n)
 
-  // Reserves memory for n nodes. After that, resize(m) with m <= n does not throw.
+  // Reserves memory for n nodes. After this call, resize(m) with m <= n does not throw.
   void reserve(const FieldSet &fields, std::int64_t n);
   bool has_room(const FieldSet &fields, std::int64_t n) const;
   void resize(const FieldSet &fields, std::int64_t n);
@@ -141,7 +141,7 @@ class NodeRanks {
   void clear();
   // `node` is a number within the bin.
   void add(std::int64_t node);
-  // Call this after all nodes were added, and before the first call of rank.
+  // Call count() after all nodes were added, and before the first call of rank().
   void count();
   std::int64_t rank(std::int64_t node) const;
 

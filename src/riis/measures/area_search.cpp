@@ -12,8 +12,8 @@ namespace {
 
 // An interval is not cut further if its length is at most `shortest_interval` times the magnitude of its ends.
 constexpr double shortest_interval = 1e-13;
-// The golden-section search shortens an interval to `extreme_interval` times its length. The area is flat at an extreme, so its
-// error is the square of this share.
+// The golden-section search shortens an interval to `extreme_interval` times its length. The area is flat at an extreme, so the
+// relative error of the area is about the square of `extreme_interval`.
 constexpr double extreme_interval = 1e-6;
 
 }  // namespace
@@ -124,7 +124,7 @@ void AreaSearch::part() {
     } else if (direction == 0) {
       direction = has_grown ? 1 : has_fallen ? -1 : 0;
     }
-    // Only the extreme in the present direction counts, so the opposite extreme starts from this value.
+    // The extreme in the opposite direction is sought anew from the extreme in the present direction on.
     if (direction > 0) low = high;
     if (direction < 0) high = low;
   }

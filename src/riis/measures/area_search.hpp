@@ -28,7 +28,7 @@ class AreaSearch {
   AreaSearch(Area area, double from, double to, std::int32_t n_samples, bool grows);
 
   bool has_area() const { return !points_.empty(); }
-  // The next functions need at least one value with an area.
+  // All functions below need at least one value with an area.
   const Point &least() const { return points_[least_]; }
   const Point &most() const { return points_[most_]; }
   // Returns whether all areas are equal, apart from jumps.

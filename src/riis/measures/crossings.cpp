@@ -57,8 +57,8 @@ Triangle moved(const Triangle &t, Vec3 origin) { return {t[0] - origin, t[1] - o
 
 std::array<Vec3, 3> edges_of(const Triangle &t) { return {t[1] - t[0], t[2] - t[1], t[0] - t[2]}; }
 
-// Returns whether t reaches beyond the limit on both sides of a plane. The corners of t are relative to a point of the plane, and
-// w is the plane's normal.
+// Returns whether the triangle t extends farther than the limit on both sides of a plane. The corners of t are relative to a
+// point of the plane, and w is the plane's normal.
 bool cuts_plane(const Triangle &t, Vec3 w, double limit) {
   const double x = dot(w, t[0]), y = dot(w, t[1]), z = dot(w, t[2]), least = limit * length(w);
   return std::max({x, y, z}) > least && -std::min({x, y, z}) > least;
@@ -71,8 +71,9 @@ bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e
 // at most `limit`. Triangles that only touch, or that lie in one plane, have depth 0. The error is at most 2^-24 of the longest
 // edge plus 2^-48 of the largest coordinate.
 double penetration_depth(const Triangle &a, const Triangle &b, double limit) {
-  // Most pairs of triangles are dismissed here, because one triangle does not cut the plane of the other. Points are relative to
-  // a corner of the other triangle, so the height of its plane is exactly 0.
+  // Most pairs of triangles are dismissed here, because one triangle does not cut the plane of the other. The corners of each
+  // triangle are taken relative to a corner of the other triangle, so that the plane of the other triangle passes exactly through
+  // the origin.
   const Vec3 normal_a = cross(a[1] - a[0], a[2] - a[0]), normal_b = cross(b[1] - b[0], b[2] - b[0]);
   const Triangle b_from_a = moved(b, a[0]);
   if (!cuts_plane(b_from_a, normal_a, limit) || !cuts_plane(moved(a, b[0]), normal_b, limit)) return 0;

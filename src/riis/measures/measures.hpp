@@ -28,8 +28,8 @@ namespace riis {
 
 // The factor c of the effective area A - c eps P. The band around the rim narrows an orifice by the distance c eps. A wall
 // without thickness blocks the flow as much as the band if its rim extends c eps farther into the orifice. Each number lies
-// midway between the c of two valves that docs/validation.md compares with walls in body-fitted meshes. The open bileaflet valve
-// has 0.98 (round) and 0.95 (cut). The open trileaflet valve has 0.70 and 0.46.
+// midway between the c of two valves that docs/validation.md compares with walls in body-fitted meshes. For the open bileaflet
+// valve, c is 0.98 (round rim) and 0.95 (cut rim). For the open trileaflet valve, c is 0.70 and 0.46.
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
 

@@ -22,7 +22,7 @@ struct End {
   double x, along;
 };
 
-// One end of an interval where only areas are measured.
+// The end of an interval on a line, if only areas are measured.
 struct Place {
   double x;
 };
@@ -167,7 +167,7 @@ class Covered {
     for (std::int64_t i = lines_.first_from(centre[1] - radius); i < end; ++i) {
       const double y = lines_.y(i) - centre[1];
       const double half = std::sqrt(std::max(0.0, (radius - y) * (radius + y)));
-      // A circle runs at right angles to its radius (half, y).
+      // The direction of a circle is at right angles to the radius, which is (half, y) here.
       AnEnd at = end_at(centre[0] - half, y, half);
       widen(i, at);
       at.x = centre[0] + half;

@@ -241,7 +241,7 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
          max_count);
 }
 
-// The lists of neighbouring cells. In these lists the nodes are the cells, and an entry is a face between two cells.
+// The lists of neighbouring cells. These lists have cells in place of nodes, and an entry is a face between two cells.
 struct InnerFaces {
   static constexpr std::int64_t most_neighbors = 1;
 
@@ -266,7 +266,7 @@ struct InnerFaces {
   void prefetch(std::int64_t) const {}
 };
 
-// The lists of a grid. An entry is the node itself.
+// The lists of a grid, in which each node has one entry.
 struct GridNodes {
   static constexpr std::int64_t most_neighbors = 6;
 

@@ -15,7 +15,8 @@
 
 namespace riis {
 
-// The edges of one shape of cell, as pairs of positions in a cell's list of nodes. The number of nodes decides the shape.
+// The edges of one shape of cell, as pairs of positions in a cell's list of nodes. The shape of a cell follows from the cell's
+// number of nodes.
 struct CellShape {
   int n_nodes, n_edges;
   std::array<std::array<std::uint8_t, 2>, 12> edges;

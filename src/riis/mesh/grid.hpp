@@ -85,7 +85,7 @@ class Grid {
   Axes axes_;
   GridIndex size_, stride_;
   std::int64_t first_, n_numbers_;
-  // The axes with several nodes. The axis with the largest stride comes first. On other axes every index is 0.
+  // The axes with several nodes. The axis with the largest stride comes first. On an axis with one node, every index is 0.
   int long_axes_[3], n_long_axes_;
 };
 

@@ -92,7 +92,7 @@ struct MeshNodes {
   MeshNodes(const StridedPoints &given) : n(given.n), points(given) {}  // NOLINT(google-explicit-constructor)
   explicit MeshNodes(const Grid &given) : n(given.n_numbers()), points{0, nullptr, nullptr, nullptr, 1}, grid(&given) {}
   std::int64_t n_nodes() const { return grid ? grid->all().n_nodes() : n; }
-  // Returns node i. A grid must have a node with this number.
+  // Returns node i. In a grid, the number i must have a node.
   Vec3 operator[](std::int64_t i) const { return grid ? (*grid)[i] : points[i]; }
   void prefetch(std::int64_t i) const {
     if (!grid) points.prefetch(i);

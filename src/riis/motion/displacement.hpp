@@ -175,7 +175,7 @@ Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoi
 
 // Returns the joints of a side in the patch's parameter.
 Vector<double> joints_of(const PatchSet &set, const Side &side);
-// Moves each line with the two joints beside it. If the number of joints changed, no line moves.
+// Moves each grid line along with the two joints on either side of the line. If the number of joints changed, no line moves.
 Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to);
 
 // Returns whether each patch has the same images in both states.

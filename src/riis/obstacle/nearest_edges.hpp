@@ -29,8 +29,8 @@ Edges checked_edges(const char *owner, std::int64_t n, const double *ends, const
 // same bits.
 double distance_sq(const Edges &edges, std::int64_t edge, Vec3 point);
 
-// Building the trees takes a time of order n log n. A query usually takes a time of order log n. If all edges are equally near,
-// it takes a time of order n.
+// Building the trees takes a time of order n log n. A query usually takes a time of order log n. If all edges are equally near, a
+// query takes a time of order n.
 class NearestEdges {
  public:
   // Borrows the arrays of the edges.

@@ -157,8 +157,7 @@ constexpr std::int64_t nodes_per_block = 4096, few_nodes = 16384;
 // The search for nearest edges has smaller limits, because each node takes ten times as long.
 constexpr std::int64_t edge_nodes_per_block = 512, few_edge_nodes = 2048;
 
-// Finds the nearest edge of each node. The node's force is added to this edge. Entries of nodes without resistance mean
-// nothing.
+// Finds the nearest edge of each node, to which the node's force is added. The entries of nodes without resistance are arbitrary.
 Vector<std::int64_t> nearest_edges(const Marks &marks, const Resistance &resistance, const Edges &edges) {
   const NearestEdges search(edges);
   for (const std::int32_t leaflet : marks.leaflet_ids)

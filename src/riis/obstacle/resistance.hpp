@@ -20,14 +20,14 @@ struct Resistance {
 Resistance checked_resistance(const riis_resistance &resistance, const char *name, const Band &band,
                               double distance_limit);
 // Computes K and K u_surface at the nodes of the list, and stores both in the list. The fields of the nodes are already in the
-// list. `resistance` is null if `data` requests none of the two arrays.
+// list. `resistance` is null if `data` requests neither K nor K u_surface.
 void list_resistance(const Resistance *resistance, const WantedData &data, const Threads &n_threads, ListedNodes &list);
 
 // Each of the next five functions fails with RIIS_INVALID_ARGUMENT if the marks lack data that it needs.
 Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks);
 void add_resistance(const Marks &marks, const Resistance &resistance, const riis_resistance_arrays &to);
-// Adds the flow's force on the surface, and its moments. If the reaction's edges or n_leaflets do not fit the surface, it also
-// fails, and adds nothing.
+// Adds the flow's force on the surface, and its moments. Also fails, and adds nothing, if the reaction's edges or n_leaflets do
+// not fit the surface.
 void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow,
                   const riis_reaction &to);
 // Adds the flow's force on each vertex of the triangles with which the nodes were marked. The function fails if the triangles

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loops over a fixed number of blocks. The exhaustive search runs on OpenMP's threads. Loops of a time step also run on
-// OpenMP's threads. After a long wait for one of these threads, such loops run on a team. Only parallel_for.cpp uses OpenMP.
+// OpenMP's threads. After a long wait for one of OpenMP's threads, the loops of a time step run on a team. Only parallel_for.cpp
+// uses OpenMP.
 #pragma once
 
 #include <cstdint>

@@ -116,7 +116,7 @@ class Team {
   }
 
   [[noreturn]] void work_for_ever() {
-    // The first loop may have begun before this thread started. The number of a loop is never 0.
+    // This thread may start after the first loop has begun. `last_loop` is 0 at first, because no loop has the number 0.
     for (std::uint32_t last_loop = 0;;) {
       State state{state_.load()};
       if (!state.has_place_after(last_loop)) {

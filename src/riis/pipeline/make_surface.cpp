@@ -129,9 +129,9 @@ namespace {
 
 // The lines are chosen for `n_openings` openings, evenly spaced from 0 to 1.
 constexpr int n_openings = 33;
-// After that, the chosen lines are tested at `n_between` openings between every two neighbouring openings. If the lines are too
-// coarse at some of these openings, all lines are chosen again, with these openings included. The test is repeated at most
-// `n_trials` times.
+// The chosen lines are then tested at `n_between` further openings between every two neighbouring openings. If the lines are too
+// coarse at some of these openings, all lines are chosen again, also for the openings where they were too coarse. The test is
+// repeated at most `n_trials` times.
 constexpr int n_between = 7, n_trials = 4;
 // A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
 constexpr std::size_t max_patches = 10'000;

@@ -150,7 +150,8 @@ class SkirtLine {
       const Moving a = vertex(edge.from) - centre_, b = vertex(edge.to) - centre_;
       area = area + MovingNumber{0.5, 0} * cross(a, b);
     }
-    // As for valves from patches, the area is compared with the area of a circle of this length.
+    // The area is compared with the area of a circle whose circumference is the length of the attachment, as for valves from
+    // patches.
     const MovingNumber size = length_of(area);
     if (!(size.now > 1e-3 * whole.now * whole.now)) return;
     direction_ = area / size;

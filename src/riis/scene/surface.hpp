@@ -33,7 +33,8 @@ struct SourceValve {
 
 class Surface {
  public:
-  // Makes the surface. After a motion, another call reuses the surface's memory. After a failure the surface must not be used.
+  // Makes the surface. A further call, such as after a motion, reuses the surface's memory. After a failure the surface must not
+  // be used.
   void make(TriangleSet triangles, const Band &band, int n_threads);
   // Moves the triangles out, so that the next surface's triangles can reuse their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }

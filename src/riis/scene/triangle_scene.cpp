@@ -196,8 +196,8 @@ bool add_group(RTCPointQueryFunctionArguments *arguments) {
 }
 
 // Bounds the rounding of a distance. The kernel computes a point of the triangle. The point's coordinates are accurate to a few
-// units of rounding of the largest coordinate, and 16 units are ample. The distance from that point is accurate to its own
-// rounding.
+// units of rounding of the largest coordinate, and 16 units are ample. The distance from a given point to the computed point has
+// only a small relative error.
 double rounding_of_distances(const Bounds &bounds) { return 0x1p-49 * bounds.largest_coordinate(); }
 
 }  // namespace
@@ -282,7 +282,7 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
   } else {
     double reach = limit;
     if (!(reach * frame.scale < 4 * far_away)) {
-      // A limit this large would exclude nothing. The distance of the first triangle therefore replaces such a limit.
+      // A limit far beyond the surface's size would exclude nothing, so the distance of the first triangle replaces such a limit.
       query_triangle<keeps_ties>(query, 0);
       reach = std::sqrt(query.best.distance_sq);
     }

@@ -53,7 +53,7 @@ struct Candidate {
   }
 };
 
-// An edge that only the row of `other` contains.
+// An edge from `node` to `other` that is listed in the row of `other` only.
 struct OneWayEdge {
   std::int64_t node, other;
 
@@ -94,8 +94,8 @@ class Opening {
     return is_joined();
   }
 
-  // Opens one by one the other nodes that are farther than `nearest`. Returns the node that joins the ends. If no node does,
-  // returns a candidate with the id -1.
+  // Opens the closed nodes that are farther than `nearest` one by one, until a node joins the ends. Returns this node, or a
+  // candidate with the id -1 if no node joins the ends.
   Candidate open_until_joined(double nearest) {
     const std::vector<OneWayEdge> one_way = one_way_edges();
     OpenSets sets = this->sets();

@@ -63,9 +63,9 @@ class ClosestPoints {
   }
 
  private:
-  // Two distances from the surface's middle, in half extents of the surface. For a point beyond `far`, single precision does not
-  // separate triangles. One such point would make the frame of its batch useless for the other points. If no point is beyond
-  // `wide`, one frame serves all batches.
+  // `far` and `wide` are distances from the surface's middle, in half extents of the surface. For a point beyond `far`, single
+  // precision does not separate triangles. A single point beyond `far` would make the frame of its batch useless for the other
+  // points. If no point is beyond `wide`, one frame serves all batches.
   static constexpr double far = 0x1p10, wide = 0x1p4;
 
   double reach_of(Vec3 p) const { return largest_coordinate(scene_.groups().frame(p)); }

@@ -363,8 +363,8 @@ class ClusterSearch {
   // Sets the limits of a filter, for a limit in the surface's frame. Returns the filter's error.
   double limits_within(double limit, FilterLimits &limits) const {
     const double scale = groups_.frame.scale;
-    // The second term covers the rounding of the distances in double precision. The third term covers ties, which may be farther
-    // than the closest triangle by this amount.
+    // The first term is the filter's own error. The second term covers the rounding of the distances in double precision. The
+    // third term covers ties, which may be a little farther than the closest triangle.
     const double error = filter_error(placing_.ratio, placing_.largest_shift, limit, groups_.longest_edge) +
                          4 * scene_.rounding() * scale + request_.ties.of_leaflets * scale;
     limits.reach_sq = static_cast<float>((limit + 2 * error) * (limit + 2 * error));

@@ -407,7 +407,8 @@ class Planner {
     }
   }
 
-  // Returns the shares in the patch's parameter. A side that is collapsed at all openings has lines only at its ends.
+  // Returns the shares of the lines along a side, in the patch's parameter. A side that is collapsed at all openings has lines
+  // only at its ends.
   Vector<double> shares_along(const Side &side) const {
     if (is_collapsed(side)) return {0, 1};
     const Vector<double> &shares = plan_.shares[side.curve];
@@ -427,8 +428,8 @@ class Planner {
     return made;
   }
 
-  // Returns the joints at the first opening, if the lines can move with the joints. The lines can do so if the base has the same
-  // number of joints at every opening, and no joint near an end.
+  // Returns the joints at the first opening, or nothing if the lines cannot move with the joints. Lines can move with the joints
+  // if the base has the same number of joints at every opening, and no joint near an end.
   Vector<double> joints(std::size_t patch) const {
     constexpr double near_end = 0.01;
     const Vector<double> first = joints_of(set_, set_.patches[patch].v0);
@@ -466,7 +467,7 @@ class Planner {
     plan_.n_rows = std::max(plan_.n_rows, static_cast<std::size_t>(rows_for(offset, max_error_)));
   }
 
-  // Returns a first choice of few lines, which usually suffices. Some lines are at the joints.
+  // Returns a first choice of few lines, which usually suffices. The choice includes lines at the joints.
   Vector<double> first_arc_lines(std::size_t patch, const Vector<double> &joints) const {
     const Patch &first = set_.patches[patch];
     Vector<double> ends{0};

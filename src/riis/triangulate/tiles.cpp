@@ -56,8 +56,8 @@ PatchVertices vertices_of(const LevelledGrid &levelled) {
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *level_of_next++;
     if (level == 0) return;
-    // At one level, all parts of a bilinear quad have the same flatness. Recursive halving would therefore end in equal
-    // parts. This loop makes the equal parts directly.
+    // At one level, all parts of a bilinear quad have the same flatness. Recursive halving would therefore end in equal parts,
+    // which this loop makes directly.
     const int n_parts = 1 << level;
     const double step = 1.0 / n_parts;  // a power of two
     const Quad quad = quad_of(grid, i, j);
@@ -81,7 +81,8 @@ PlacedBy placed_by(const PatchImage &image, const Placement &placement) {
     put({from.row_x.z, from.row_y.z, from.row_z.z}, to[2]);
   };
   put_columns(image.rotation, by.of_image);
-  // Negates a column of the matrix instead of a coordinate of each point. The products have the same bits.
+  // A mirror image negates a coordinate of each point. Here a column of the matrix is negated instead, which gives products with
+  // the same bits.
   if (image.mirror != Mirror::none)
     for (double &x : by.of_image[image.mirror == Mirror::in_x ? 0 : 1]) x = -x;
   put(image.translation, by.offset_of_image);

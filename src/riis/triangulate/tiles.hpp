@@ -35,7 +35,8 @@ struct PatchVertices {
   Vector<Vec3> displacements;  // displacements since an earlier state of the same build; empty without such a state
 };
 
-// Two states of a moving valve whose builds differ. Each tile has a patch of its own, with the number of the tile.
+// Two states of a moving valve, if their builds differ. Each tile has its own patch in these sets, and patch and tile have the
+// same number.
 struct OwnPatches {
   PatchSet now, before;
 };

@@ -125,8 +125,8 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
   if (!take_planned_triangles(patches, how, grids, plan.connectivity, memory)) {
-    // At this opening, the triangles with an area are not those of the plan. The plan's groups therefore do not fit, and new
-    // groups are made.
+    // At this opening, other triangles have an area than in the plan. The groups of the plan therefore do not fit, and new groups
+    // are made.
     Tiles tiles(patches, how, grids, memory);
     const Vector<std::size_t> vanished = make_triangles(tiles);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
@@ -154,8 +154,8 @@ void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan
   for (std::size_t i = 0; i < grids.size(); ++i) raise_levels(grids[i], max_error, plan.levels[i]);
 }
 
-// Halves the columns of each patch of arcs that then has fewer triangles, because its quads need fewer halvings. Returns whether
-// there is such a patch. After the halving, the levels of the plan must be found again.
+// Halves the columns of a patch of arcs if this gives the patch fewer triangles, because the quads then need fewer halvings.
+// Returns whether the columns of any patch were halved. After the halving, the levels of the plan must be found again.
 bool halve_columns(const PatchSet &set, TriangulationPlan &plan) {
   bool are_any = false;
   for (std::size_t i = 0; i < set.patches.size(); ++i) {

@@ -56,7 +56,7 @@ const ParameterRule rotation_rules[n_cusps] = {
     {"0, 0, -(right.leaflet_angle + non_coronary.leaflet_angle) - 2/3 (180 - sum of all leaflet_angle)",
      non_coronary_rotation}};
 
-// The paper's values of the cusps. The translation is along the axis.
+// The paper's values of the cusps. The value of `translation` is the translation along the axis.
 constexpr double table[n_cusps][n_of_cusp] = {{0.24, 1.365, 61.0, 1.58, 0.40, 1.390, 47.30, 1.82, 0.0, -1},
                                               {0.49, 1.495, 58.5, 2.77, 0.74, 1.355, 43.00, 4.12, 119.5, -1},
                                               {0.20, 1.380, 60.5, 1.19, 0.67, 1.435, 42.75, 2.54, -121.5, -1}};
@@ -200,8 +200,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   PatchSet set;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const HalfCusp closed_half = half_cusp(shape_of(closed.values, cusp));
-    // At opening 0, the open state of the valve's own parameters is not made. A closed valve does not need it, and it might be
-    // refused.
+    // At opening 0, the open state of the valve's own parameters is not made, because a closed valve does not need an open state,
+    // and the open state might be refused.
     const HalfCusp open_half = !has_own_open_state ? half_cusp(shape_of(open.values, cusp))
                                : opening != 0      ? own_open_half(closed.values, cusp)
                                                    : open_half_of(closed.values, cusp);

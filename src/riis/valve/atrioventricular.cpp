@@ -309,8 +309,8 @@ Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, 
   return made;
 }
 
-// A leaflet first turns about its hinges, and then becomes straight. Lengths therefore change later than angles. If both changed
-// at the same pace, neighbours would meet.
+// A leaflet first turns about its hinges, and then becomes straight. Lengths therefore change later than angles. If lengths and
+// angles changed at the same pace, neighbouring leaflets would meet.
 double behind(double share) { return share * share; }
 
 // Swings a vector about its hinge from one state to another: blends the two vectors, and gives the result the blended length.

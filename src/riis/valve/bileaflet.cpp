@@ -152,7 +152,7 @@ Curve make_arc(double circle_radius, double whole_angle, double last_x, double l
   Vector<Bezier> spans;
   for (int i = 0; i < n_spans; ++i) {
     const Point from = on_circle(i), to = on_circle(i + 1);
-    // The circle's tangent is the radius turned by 90 degrees.
+    // The tangent at a point of the circle is the point's radius vector, turned by 90 degrees.
     spans.push_back(Bezier::cubic(placed(from.x, from.y), placed(from.x - reach * from.y, from.y + reach * from.x),
                                   placed(to.x + reach * to.y, to.y - reach * to.x), placed(to.x, to.y)));
   }

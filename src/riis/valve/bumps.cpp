@@ -13,7 +13,7 @@ namespace {
 
 constexpr double none = -1;
 
-// The parameters of one bump. The last parameter exists only with BumpLift::yes.
+// The parameters of one bump. Only bumps with BumpLift::yes have the last parameter.
 constexpr std::size_t n_parameters = 7;
 std::size_t n_parameters_of(BumpLift lift) { return lift == BumpLift::yes ? n_parameters : n_parameters - 1; }
 

@@ -47,9 +47,9 @@ HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);
 // Returns the derivatives of the control points with respect to the opening, from two states whose openings differ by `apart`.
 HalfCusp rate(const HalfCusp &closed, const HalfCusp &open, double apart = 1);
 
-// Refuses curves that extend far away. Values that are each acceptable can together make such curves. Examples are a high
-// power with a long tangent, and a bending curve near the root. `state` and `cusp` begin the message, for example "" and "the
-// right cusp". `also` is the end of the message's list of parameters.
+// Refuses curves that extend far away. Values within their ranges can together make such curves: for example a high power with a
+// long tangent, or a bending curve near the root. `state` and `cusp` begin the message, for example "" and "the right cusp".
+// `also` is the end of the message's list of parameters.
 void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state, const char *cusp, const char *also);
 
 // The position of a cusp. The cusp is turned and then shifted. The id of its leaflet also numbers its patches.

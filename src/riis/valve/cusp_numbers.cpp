@@ -141,9 +141,9 @@ HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
   return half;
 }
 
-// Returns the closed numbers with the open free edge. Seen along the axis, the edge is round like an arc of a circle. An edge
-// that is too short for an arc leaves the commissure straighter, the less it opens. A fused edge is shorter than the arc, and its
-// straight direction leads to the inner control point at the middle.
+// Returns the numbers of the closed half with the free edge of the open half. Seen along the axis, the edge is round like an arc
+// of a circle. An edge that is too short for an arc leaves the commissure straighter, the less it opens. A fused edge is shorter
+// than the arc, and its straight direction leads to the inner control point at the middle.
 HalfNumbers with_open_edge(const CuspSizes &sizes, const CuspSizes::Side &side, const HalfNumbers &closed,
                            double ratio) {
   const HalfSector &sector = sizes.sector;
@@ -222,7 +222,7 @@ CuspNumbers open_cusp(const CuspSizes &sizes) {
 }  // namespace
 
 HalfSector half_sector(double sector_degrees) {
-  // For three equal cusps, this rounded root is the sine of 60 degrees.
+  // Three equal cusps take this rounded root as the sine of 60 degrees.
   const double sine_60 = std::sqrt(0.75), on_cylinder_60 = tangent_on_cylinder(sine_60, 0.5);
   if (sector_degrees == 120) return {sine_60, 0.5, 4.0 / 3.0 * (2 - std::sqrt(3.0)), 1, std::nullopt};
   const auto [sine, cosine] = sine_cosine_degrees(sector_degrees / 2);
@@ -271,8 +271,8 @@ EdgeLength::Value EdgeLength::at(double depth) const {
 }
 
 // The length is a growing and convex function of the depth. Newton's method starts at a depth that is too large. Newton's method
-// therefore descends to the solution and never passes it. A half is at least as long as the line between its ends. The start is
-// therefore deep enough if one half alone has the whole length there.
+// therefore descends to the solution and never passes it. A half is at least as long as the line between its ends. At the
+// starting depth, the line of one half alone has the whole length, so this depth is large enough.
 double edge_depth(const CuspNumbers &cusp) {
   Vector<EdgeLength> halves(cusp.begin(), cusp.end());
   const double wanted = total_length(cusp), first_top = cusp.front().edge_top;

@@ -27,7 +27,7 @@ constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
 // The sine that is used also falls to 0 if the sine of the line's angle to the axis is below `least_sine_to_axis`.
 constexpr double least_sine_to_axis = 0.2;
 // If the sine of a side's angle to the plane across the axis is at least `least_rise`, the skirt leans as the side's tangent
-// does. Beside a flatter side the skirt leans less, and beside a side in that plane it does not lean.
+// does. Beside a flatter side the skirt leans less, and beside a side in the plane across the axis the skirt does not lean.
 constexpr double least_rise = 0.5;
 // If a skirt is turned at rest, small turns by the warp are added to its place at rest. If the warp turns the skirt by
 // `most_turn_as_at_rest` or more, the whole turn counts. In between, the skirt changes gradually from one rule to the other.
@@ -68,7 +68,7 @@ Vector<Step> steps_of_attachment(const PatchSet &set, const Vector<HeldSide> &si
     for (const PatchImage &image : set.patches[held.patch].images) {
       const PatchImage turn = turn_of(image);
       // Triangles are turned over in a mirror image, and in a patch that a warp has made of a mirror image. In a patch made of a
-      // mirror image, the sides run the other way.
+      // mirror image, the sides run in the opposite direction.
       const double sign = points_upstream(image) ? -1 : 1;
       for (const Step &step : of_side) steps.push_back({place(image, step.at), sign * place(turn, step.by)});
     }

@@ -47,7 +47,7 @@ inline constexpr std::size_t n_skirt_parts = 32;  // parts of each side with suc
 // before the warp. The patches must then have their axes.
 Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns);
 
-// An end of a side, with the unit tangent there. The sign of the tangent does not matter.
+// An end of a side, with the unit tangent there, which may point either way along the side.
 struct SideEnd {
   Vec3 point, tangent;
 };

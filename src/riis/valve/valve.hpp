@@ -153,7 +153,7 @@ class Valve {
   // Returns whether make_patches adds a skirt.
   bool has_skirt() const { return kind_->skirt_axis != SkirtAxis::none && state_.values[kind_->skirt_length][0] != 0; }
   // Replaces the skirt by a skirt with these lengths (valve/skirt.hpp). The parameter "skirt_length" becomes the largest of these
-  // lengths. Setting that parameter removes the lengths.
+  // lengths. If "skirt_length" is set later, the skirt loses these lengths.
   void set_skirt_lengths(SkirtLengths lengths);
 
   // Compares this valve with another valve. Fails if they differ in anything except the opening and the values of a warp. The

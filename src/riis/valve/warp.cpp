@@ -162,8 +162,8 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
   reduce();
 }
 
-// Finds the columns U that are orthogonal to the polynomials and make U^T K U tridiagonal, where K_ij = |r_ij|^3. K is positive
-// definite on these columns.
+// Finds the columns U that are orthogonal to the polynomials and make U^T K U tridiagonal, where K_ij = |r_ij|^3. U^T K U is
+// positive definite.
 void WarpLandmarks::reduce() {
   const std::size_t n = size(), m = n_terms_;
   const auto term = [&](std::size_t k, Vec3 y) { return k == 0 ? 1.0 : dot(axis_[k - 1], y); };
@@ -271,7 +271,7 @@ void WarpLandmarks::tridiagonalise(Vector<double> &matrix) {
   basis_.assign(columns.begin() + static_cast<std::ptrdiff_t>(m * n), columns.end());
 }
 
-// Solves (T + lambda 1) solution = reduced. The residuals are lambda * solution. Returns the sum of their squares.
+// Solves (T + lambda 1) solution = reduced. The residuals are lambda * solution. Returns the sum of the squares of the residuals.
 double WarpLandmarks::solve(double lambda) {
   solution_ = reduced_;
   double square = 0;

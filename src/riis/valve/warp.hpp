@@ -126,8 +126,8 @@ class WarpLandmarks {
 // Every image of a patch becomes a patch of its own, and a warp may move its curves (docs/theory/warp.md). The patches of a valve
 // become patches with one image each.
 
-// Returns the patches with every image as a patch of its own. The order and the labels u and v stay. Patches that met still share
-// their curves. Patches that already have one image each keep the numbers of their curves.
+// Returns the patches with every image as a patch of its own. The patches keep their order and their labels u and v. Patches that
+// met still share their curves. Patches that already have one image each keep the numbers of their curves.
 PatchSet without_images(const PatchSet &set);
 
 // Returns the same patches with warped curves. Curves are cut at landmarks first. Each warped part has the warped ends and the

@@ -71,7 +71,7 @@ double within_limits(double factor, double own) {
 using MappedSpan = std::array<Vec3, n_curve_steps + 1>;
 
 // Returns the cubic with the warped ends and the warped directions there. The lengths of its end tangents fit the warped points
-// best. The map at the ends is given. Also writes the warped points.
+// best. `first` and `last` give the map at the ends. Also writes the warped points.
 Bezier warped_span(const Bezier &given, const MapAt &first, const MapAt &last, const BlendedWarp &warp,
                    MappedSpan &mapped) {
   mapped.fill(first.value);
@@ -195,7 +195,7 @@ struct MaterialOfCurve {
 };
 
 // Estimates the length of a span between two near parameters by Gauss's rule of 3 points. Both states use the same rule, so a
-// slide of 0 is exact.
+// point that does not slide gets exactly the slide 0.
 double length_near(const Bezier &span, double from, double to) {
   const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * 0.77459666924148337704;
   return (to - from) / 18 *
@@ -307,8 +307,8 @@ struct CellNormal {
   bool is_sliver;
 };
 
-// Maps the inner points of the grid. `image` places the patch before the warp. With `check` yes, a warp that folds there makes
-// the function fail.
+// Maps the inner points of the grid. `image` places the patch before the warp. With FoldCheck::yes, the function fails if the
+// warp folds at one of these points.
 void map_inner_points(const LabelGrid &before, const PatchImage &image, const BlendedWarp &warp, FoldCheck check,
                       MappedGrid &mapped) {
   for (std::size_t j = 1; j < n_fold_cells; ++j)
@@ -342,7 +342,7 @@ void map_outer_points(const PatchSet &made, const Patch &patch, const LabelGrid 
   for (std::size_t j = 1; j < n_fold_cells; ++j)
     for (const bool is_end : {false, true}) {
       const std::size_t i = is_end ? n_fold_cells : 0;
-      // On an arc, v is not a share of the length.
+      // The known points lie at shares of the length of a side, but along an arc v is not the share of the length.
       mapped[j * (n_fold_cells + 1) + i] =
           has_arcs ? warp.value(place(image, before.at(i, j))) : known(is_end ? patch.u1 : patch.u0, step * j);
     }
@@ -431,7 +431,7 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts
   bend_arcs(made);
   for (std::size_t i = 0; i < material.size(); ++i) locate_on_curve(made.curves[i], *material[i]);
   made.material = std::move(material);
-  // Only kinds without rates have arcs. An arc may be straight at an opening, so all patches of arcs count.
+  // Only kinds without rates have arcs. The arcs themselves are not checked, because an arc may be straight at an opening.
   const bool has_arcs = set.rates.empty();
   const auto at_rest = [&](std::size_t curve) -> const std::array<PointOnSpan, n_material> & {
     return of_curves[curve]->on_curve;
