@@ -39,8 +39,8 @@ RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /*
  *   `loads`: radius, edges and n_leaflets; the forces are not read.
  *   `nodes`: the nodes of a surface or a volume of tissue, in the frame of the edges. Nodes beyond the radius count in no sum,
  *     and get no force.
- *   `weight` (n_points), 0 to 1e60: the area or volume around a node, 0 for nodes of other ranks. NULL: 1 for each node. `sums`
- *   (11, n_leaflets): the array to which the sums are added.
+ *   `weight` (n_points), 0 to 1e60: the area or volume around a node, 0 for nodes of other ranks. NULL: 1 for each node.
+ *   `sums` (11, n_leaflets): the array to which the sums are added.
  * A bileaflet valve has no attachment. A surface from arrays has an attachment only with `attached` or a skirt. Without an
  * attachment the caller gives edges: the pivots, or the edges at which the leaflets are sewn. With MPI each rank passes its own
  * nodes, and all ranks then add up their sums.

@@ -103,8 +103,8 @@ RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, i
 /* Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement.
  *   `valve`: the template, a kind with any parameters: lengths without a landmark keep their proportions. Translation, opening
  *     and the open state of riis_valve_set_open_state stay.
- *   `held`: names of parameters that keep the valve's values, separated by blanks or commas. "" stands for no name. `arrays`: the
- *   arrays that the call writes; NULL: not wanted.
+ *   `held`: names of parameters that keep the valve's values, separated by blanks or commas. "" stands for no name.
+ *   `arrays`: the arrays that the call writes; NULL: not wanted.
  * The result minimises the sum of squared distances between the landmarks and their places on the closed valve
  * (docs/theory/landmarks.md). Cusps of a bicuspid, coapting or quadricuspid valve get different sectors, with a sum of 360
  * degrees, if the landmarks show differences above the noise. The commissures get different heights in the same way, and

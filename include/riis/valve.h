@@ -56,8 +56,8 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
 
 /* Sizes by a surgeon's names, and sizes that follow from other sizes (docs/theory/sizes.md). Three names stand for parameters. A
  * kind that lacks such a size refuses the name, and says why. The names are:
- *   `annulus`: the diameter of the annulus, 2 root_radius (kinds with cusps) or 2 radius (bileaflet). `stj`: the diameter at the
- *   commissures, 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius (coapting, bicuspid,
+ *   `annulus`: the diameter of the annulus, 2 root_radius (kinds with cusps) or 2 radius (bileaflet).
+ *   `stj`: the diameter at the commissures, 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius (coapting, bicuspid,
  *     quadricuspid).
  *   `effective_height`: the height of the free edges above the annulus, leaflet_height (aortic, trileaflet). The other kinds with
  *     cusps have it as a parameter, for the middle of the edges.
