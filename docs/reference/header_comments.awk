@@ -2,7 +2,7 @@
 # Doxygen's filter for the C headers, which are written for readers of the headers: plain comments become Doxygen's.
 #   comment before a declaration -> /**;  after a field or value -> /**<;  banner of a section -> a group;
 #   the first -> the file's
-#   "  name  text" in a function's comment -> @param;  "Errors: " -> a paragraph;  other indented lines -> verbatim
+#   "  `name`: text" in a function's comment -> @param;  "Errors: " -> a paragraph;  other indented lines -> verbatim
 function verbatim(on) {
   if (on != in_verbatim) print(on ? " * @verbatim" : "@endverbatim")
   in_verbatim = on
@@ -18,11 +18,10 @@ function text_line(text) {
     return
   }
   verbatim(0)
-  if (!in_list && text ~ /^  [a-z][a-z_0-9]*(, [a-z_0-9]+)*  +[^ ]/) {
-    match(text, /^  [a-z][a-z_0-9]*(, [a-z_0-9]+)*/)
-    names = substr(text, 3, RLENGTH - 2)
-    gsub(/ /, "", names)
-    print " * @param " names substr(text, RLENGTH + 1)
+  if (!in_list && match(text, /^  `[a-z][a-z_0-9]*`(, `[a-z][a-z_0-9]*`)*:? /)) {
+    names = substr(text, 3, RLENGTH - 3)
+    gsub(/[ `:]/, "", names)
+    print " * @param " names substr(text, RLENGTH)
     in_parameters = 1
     return
   }

@@ -244,7 +244,7 @@ module riis_c
     type(c_ptr) :: skirt_lengths          !< real(c_double), (n_vertices), or c_null_ptr
   end type riis_surface_arrays
 
-  !> The size of a surface, and the seconds that its last create or update took.
+  !> The size of a surface, and the wall times of the last call that made or updated it.
   type, bind(c) :: riis_surface_info
     integer(c_int64_t) :: n_vertices         !< as riis_triangles.n_vertices
     integer(c_int64_t) :: n_triangles        !< triangles that answer queries
@@ -252,10 +252,11 @@ module riis_c
     real(c_double) :: half_thickness         !< mesh units
     real(c_double) :: area                   !< of all triangles, mesh units squared
     real(c_double) :: lower(3), upper(3)     !< bounds of the triangles, mesh units
-    real(c_double) :: seconds_triangles      !< wall time of the last create or update: for checks and triangles
-    real(c_double) :: seconds_scene          !< wall time of the last create or update: for groups of triangles,
-                                             !! sampling, minimisation. Embree's tree is not included: the first query
-                                             !! that needs it builds it
+    real(c_double) :: seconds_triangles      !< wall time of the last call that made or updated the surface: for checks
+                                             !! and triangles
+    real(c_double) :: seconds_scene          !< wall time of the same call: for groups of triangles, sampling,
+                                             !! minimisation. Embree's tree is not included, because the first query
+                                             !! that needs the tree builds it
     real(c_double) :: error_bound            !< the largest possible difference between a point's distances to the
                                              !! triangles and to the smooth valve; at most tolerance * half_thickness. 0
                                              !! for a surface from arrays
@@ -299,7 +300,8 @@ module riis_c
     integer(c_int32_t) :: real_bits !< storage_size(xyz)
   end type riis_keyframe_arrays
 
-  !> The closest point of the surface to one point. RIIS_MEASURE_* says what holds for other measures than triangles.
+  !> The closest point of the surface to one point. The comment of RIIS_MEASURE_* describes the closest points of
+  !! sampling and minimisation.
   type, bind(c) :: riis_closest
     real(c_double) :: distance        !< >= 0, mesh units
     real(c_double) :: point(3)        !< on the triangle, mesh units
@@ -308,9 +310,9 @@ module riis_c
     integer(c_int64_t) :: triangle_id !< the lowest id of the closest triangles
     integer(c_int32_t) :: leaflet_id  !< of the triangle
     integer(c_int32_t) :: side        !< +1 on the side to which normals point (downstream), -1 on the other side, 0 on
-                                      !! the surface or level with its rim. At a shared edge or vertex (equal placed
-                                      !! coordinates), the angle-weighted mean of the normals decides (Baerentzen,
-                                      !! Aanaes 2005)
+                                      !! the surface and in its continuation beyond the rim. At a shared edge or vertex
+                                      !! (equal placed coordinates), the angle-weighted mean of the normals decides
+                                      !! (Baerentzen, Aanaes 2005)
   end type riis_closest
 
   type, bind(c) :: riis_closest_options
@@ -567,10 +569,10 @@ module riis_c
     integer(c_int64_t) :: node_id  !< the path's node that is nearest to the surface; -1 without a path. If nodes have
                                    !! equal distances, the higher id counts as nearest
     real(c_double) :: distance     !< the distance of node_id. A half thickness of at least this distance closes the
-                                   !! passage between these triangles, and a smaller one leaves it open. 0 without a
-                                   !! path. With an offset o, `distance` is the least half thickness that marks the
-                                   !! node, and nodes are ordered by it: s / (1 + o) for a signed distance s >= 0, and
-                                   !! -s / (1 - o) for s < 0
+                                   !! passage between these triangles. A smaller half thickness leaves the passage open.
+                                   !! 0 without a path. With an offset o, `distance` is the least half thickness that
+                                   !! marks the node, and nodes are ordered by it: s / (1 + o) for a signed distance s
+                                   !! >= 0, and -s / (1 - o) for s < 0
     real(c_double) :: point(3)     !< the coordinates of node_id; 0 without a path
     real(c_double) :: seconds      !< wall time of riis_find_passage
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
@@ -589,19 +591,19 @@ module riis_c
   type, bind(c) :: riis_leaflet
     integer(c_int64_t) :: n_triangles !< the number of its triangles with an area above 0
     real(c_double) :: area            !< the area of its triangles
-    real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 of only one patch of the leaflet.
-                                      !! A surface from arrays has no patches: its free edge is all open edges except
-                                      !! the longest closed line of open edges. An open edge belongs to only one
-                                      !! triangle. 0 for a skirt
+    real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 that belong to only one patch of
+                                      !! the leaflet. A surface from arrays has no patches: its free edge is all open
+                                      !! edges except the longest closed line of open edges. An open edge belongs to
+                                      !! only one triangle. 0 for a skirt
     integer(c_int32_t) :: leaflet_id  !< as in riis_triangles
     integer(c_int32_t) :: reserved    !< 0
   end type riis_leaflet
 
   !> The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is
-  !! the vector area of the outline's edges in space. The axis points to the side of a valve's z axis, or to the side of
-  !! the normals of arrays and keyframes. The axis of a bileaflet valve is its z axis. A skirt does not count. If
-  !! leaflets of arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units
-  !! (docs/theory/measures.md, "Outline").
+  !! the direction of the vector area of the outline's edges in space. The axis points to the side of a valve's z axis,
+  !! or to the side of the normals of arrays and keyframes. The axis of a bileaflet valve is its z axis. A skirt does
+  !! not count. If leaflets of arrays do not touch at the commissures, straight lines join their ends. Lengths are in
+  !! mesh units (docs/theory/measures.md, "Outline").
   type, bind(c) :: riis_orifice
     real(c_double) :: area           !< the area of the orifice. Without an outline, all fields but axis and rim_reach
                                      !! are 0
@@ -640,8 +642,9 @@ module riis_c
     real(c_double) :: from, to          !< the values that were searched
     real(c_double) :: least, most       !< the least and the largest area
     real(c_double) :: least_at, most_at !< a value with that area
-    real(c_double) :: turns(4)          !< the first values at which the area stops growing or falling; NaN: no more. A
-                                        !! change by less than 1e-4 of the largest area does not count
+    real(c_double) :: turns(4)          !< the first values at which the area stops growing or falling; NaN stands for
+                                        !! no further value. A change by less than 1e-4 of the largest area does not
+                                        !! count
     real(c_double) :: seconds           !< wall time of riis_find_by_area
     integer(c_int64_t) :: n_turns       !< the number of turns. Without a turn, the area only grows or only falls
     integer(c_int64_t) :: n_surfaces    !< the number of surfaces that were made, which is the cost of the search
@@ -666,7 +669,7 @@ module riis_c
   !> The opening at which a valve first lets the mesh pass.
   type, bind(c) :: riis_first_passage
     real(c_double) :: opening        !< the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE
-    real(c_double) :: closed_opening !< FOUND: the largest tried opening below `opening`, which has no passage. Else:
+    real(c_double) :: closed_opening !< FOUND: the largest opening below `opening` at which no passage was found. Else:
                                      !! `opening`
     integer(c_int64_t) :: node_id    !< the passage at `opening`, as in riis_passage
     real(c_double) :: distance       !< as in riis_passage
@@ -700,7 +703,7 @@ module riis_c
     integer(c_int32_t) :: reserved
   end type riis_landmarks
 
-  !> The placement that riis_place finds, for the fields of riis_surface_options with these names.
+  !> The placement that riis_place finds, for the fields of riis_surface_options with the same names.
   type, bind(c) :: riis_placement
     real(c_double) :: scale                 !< the scale of the landmarks, which also gives the default half thickness
                                             !! of 0.1 cm

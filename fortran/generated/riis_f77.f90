@@ -925,9 +925,9 @@ subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, 
   integer(int32), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
   integer(int32), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_all                     !< Columns are below this number, at least n_rows. Columns from
-                                                          !! n_rows on are ghosts, nodes of other ranks, and are ignored. 0
-                                                          !! stands for n_rows.
+  integer(int32), intent(in) :: n_all                     !< Columns are below this number, which is at least n_rows. Columns
+                                                          !! from n_rows on are ghosts, which belong to other ranks, and are
+                                                          !! ignored. 0 stands for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -954,9 +954,9 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
   integer(int64), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
   integer(int64), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int64), intent(in) :: n_all                     !< Columns are below this number, at least n_rows. Columns from
-                                                          !! n_rows on are ghosts, nodes of other ranks, and are ignored. 0
-                                                          !! stands for n_rows.
+  integer(int64), intent(in) :: n_all                     !< Columns are below this number, which is at least n_rows. Columns
+                                                          !! from n_rows on are ghosts, which belong to other ranks, and are
+                                                          !! ignored. 0 stands for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -1375,8 +1375,8 @@ subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_fac
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
-  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement: a strip from the
-                                                          !! attachment outwards. The length is 1e-4 to 10 times the mean
+  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip from
+                                                          !! the attachment outwards. The length is 1e-4 to 10 times the mean
                                                           !! distance of the attachment from its axis. 0: no skirt.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
@@ -1439,8 +1439,8 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
-  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement: a strip from the
-                                                          !! attachment outwards. The length is 1e-4 to 10 times the mean
+  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip from
+                                                          !! the attachment outwards. The length is 1e-4 to 10 times the mean
                                                           !! distance of the attachment from its axis. 0: no skirt.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
@@ -5097,10 +5097,11 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   integer(int32), intent(in) :: leaflet_num               !< 1 to n_leaflets, ascending by leaflet_id.
   integer(int32), intent(inout) :: leaflet_id             !< From 0.
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
-  real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 of only one patch of
-                                                          !! the leaflet. A surface from arrays has no patches: its free edge
-                                                          !! is all open edges except the longest closed line of open edges. An
-                                                          !! open edge belongs to only one triangle. 0 for a skirt.
+  real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 that belong to only
+                                                          !! one patch of the leaflet. A surface from arrays has no patches:
+                                                          !! its free edge is all open edges except the longest closed line of
+                                                          !! open edges. An open edge belongs to only one triangle. 0 for a
+                                                          !! skirt.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leaflet) :: sizes
   status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, sizes, c_sizeof(sizes))
@@ -5479,8 +5480,8 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest tried opening below `opening`, which has no
-                                                          !! passage. Else: `opening`.
+  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest opening below `opening` at which no passage was
+                                                          !! found. Else: `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5549,8 +5550,8 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest tried opening below `opening`, which has no
-                                                          !! passage. Else: `opening`.
+  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest opening below `opening` at which no passage was
+                                                          !! found. Else: `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5818,10 +5819,10 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the cusp of a nadir or attachment point, then
                                                           !! -1; the two leaflets of a commissure, in any order. -1 and -1: not
                                                           !! known. For an aortic or tricuspid valve, the known leaflets must
-                                                          !! determine the names of all. For other kinds without names, the
-                                                          !! first nadir lies on cusp 0.
-  real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for
-                                                          !! metres. Must be set.
+                                                          !! determine the names of all leaflets. For other kinds without
+                                                          !! names, the first nadir lies on cusp 0.
+  real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1 for centimetres,
+                                                          !! or 0.01 for metres. Must be set.
   real(c_double), intent(in) :: noise                     !< The scatter of the landmarks: the standard deviation of each
                                                           !! coordinate, mesh units, >= 0. RIIS_AUTO: 0.03 * scale.
   real(c_double), intent(in) :: flow(3)                   !< The direction of flow; 0 0 0: not known.

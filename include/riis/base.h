@@ -49,9 +49,9 @@ RIIS_API const char *riis_last_error(void);
 RIIS_API const char *riis_version_string(void);
 
 /* Receives messages, in the thread whose call sends them. A log function must not call the library, throw or jump out.
- *   user_data  the pointer that was passed to riis_set_log
- *   level      RIIS_LOG_INFO or RIIS_LOG_WARNING
- *   message    one line without a newline; valid during the call only */
+ *   `user_data`: the pointer that was passed to riis_set_log.
+ *   `level`: RIIS_LOG_INFO or RIIS_LOG_WARNING.
+ *   `message`: one line without a newline; valid during the call only. */
 typedef void (*riis_log_function)(void *user_data, int32_t level, const char *message);
 /* The levels of a message. */
 enum {
@@ -59,13 +59,13 @@ enum {
   RIIS_LOG_WARNING = 1 /* skipped triangles, sizes in different units, leaflets that cross */
 };
 /* Sets the log function of the process. Any thread may call riis_set_log.
- *   function   receives the messages; NULL, the default, means no log
- *   user_data  passed to the function; it must stay valid as long as the function is set
- * The previous function may still get a message that another thread is sending. With a log function, the library also
- * searches surfaces for crossings (riis_find_crossings). Only shapes whose parameters, patches or open state the caller chose are
- * searched. The search takes longer than an update. Openings have five ranges: 0, up to 0.05, up to 1/3, up to 2/3, and up to 1.
- * A shape is searched once in each range, at its first opening in that range. After its first warning a shape is not searched
- * again. */
+ *   `function`: receives the messages; NULL, the default, means no log.
+ *   `user_data`: passed to the function; it must stay valid as long as the function is set.
+ * If another thread is just sending a message, the previous function may still receive the message. With a log function, the
+ * library also searches surfaces for crossings (riis_find_crossings). The library searches a shape only if the caller has chosen
+ * its parameters, patches or open state. The search takes longer than an update. Openings have five ranges: 0, up to 0.05, up to
+ * 1/3, up to 2/3, and up to 1. A shape is searched once in each range, at its first opening in that range. A shape is not
+ * searched again after its first warning. */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
 /* RIIS_AUTO in a field stands for the value of another quantity. The comment of the field names that quantity. */

@@ -24,7 +24,7 @@ extern "C" {
  * - `now` may be the struct `before` itself. `now` gets the struct_size of `before`. To repeat a step, start from `before`
  *   again. */
 
-/* An opening by its values at keys in time. */
+/* An opening that is given by its values at keys in time. */
 typedef struct riis_opening_table {
   int64_t struct_size;   /* set by the init function */
   int64_t n_keys;        /* 1 to 1,000,000 */
@@ -38,13 +38,14 @@ typedef struct riis_opening_table {
 } riis_opening_table;
 RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size); /* the defaults */
 /* Gives the opening of a table at a time. opening and rate may be NULL.
- *   time  magnitude at most 1e30
+ *   `time`: magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value. */
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
 
-/* An opening by the times of two ramps. The ramps are of fifth degree, so neither the rate nor its derivative jumps. For
- * example, a mitral valve opens from 0.45 s and closes from 0.95 s in each second, and takes 0.05 s for both. */
+/* An opening that is given by the times of two ramps. The ramps are of fifth degree, so the rate and its derivative are
+ * continuous. For example, a mitral valve opens from 0.45 s and closes from 0.95 s in each second, and each motion takes 0.05
+ * s. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
   double opening_start;   /* when the valve begins to open. Default NaN here and in the next three fields; NaN is
@@ -57,7 +58,7 @@ typedef struct riis_opening_times {
 } riis_opening_times;
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
 /* Gives the opening at a time by the times of the ramps. opening and rate may be NULL.
- *   time  magnitude at most 1e30
+ *   `time`: magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT naming the field and its value. */
 RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening,
                                              double *rate);
@@ -97,8 +98,8 @@ typedef struct riis_opening_switch_state {
 RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size);
 /* Advances a switch to a time. The switch's phase changes at the end of the step in which the condition is met. The opening is
  * therefore accurate to first order in the length of steps.
- *   time                       at least before->time, magnitude at most 1e30
- *   pressure_difference, flow  at that time, magnitude at most 1e30
+ *   `time`: at least before->time, magnitude at most 1e30.
+ *   `pressure_difference`, `flow`: at that time, magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now stays unchanged. */
 RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
                                                  const riis_opening_switch_state *before, double time,
@@ -109,9 +110,9 @@ RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
  * system including heart valve dynamics and atrioventricular interaction", Med. Eng. Phys. 28 (2006):
  *   angle'' = -friction angle' + (pressure_gain dp + flow_gain Q) cos(angle)
  *             - vortex_gain max(Q, 0) sin(2 angle)
- * with angles in radians, between stops where the speed becomes 0. The opening is the angle's share of its range.
- * The paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the
- * aortic and 3.5 for the mitral valve. */
+ * Angles are in radians here. At the stops angle_min and angle_max the speed becomes 0. The opening is the angle's share of its
+ * range. The paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and
+ * 3.5 for the mitral valve. */
 typedef struct riis_opening_angle {
   int64_t struct_size;  /* set by the init function */
   double pressure_gain; /* K_p, >= 0. Default NaN here and in the next three fields; NaN is refused */
@@ -131,14 +132,14 @@ typedef struct riis_opening_angle_state {
   double pressure_difference; /* at that time; NaN: none yet */
   double flow;                /* at that time; NaN: none yet */
 } riis_opening_angle_state;
-/* Fills *state with a closed valve at rest, at time 0. Until the first step its angle 0 stands for angle_min. */
+/* Fills *state with a closed valve at rest, at time 0. Until the first step, the angle 0 of this state stands for angle_min. */
 RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
 /* Advances the angle law to a time. The law takes pressure difference and flow as linear over the step, so the angle is accurate
  * to second order in the length of steps. The first step has no earlier pressure difference and flow, so the present values hold
  * for the whole step.
- *   time                       at least before->time, magnitude at most 1e30
- *   pressure_difference, flow  at that time, magnitude at most 1e30
- * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step
+ *   `time`: at least before->time, magnitude at most 1e30.
+ *   `pressure_difference`, `flow`: at that time, magnitude at most 1e30.
+ * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. RIIS_LIMIT_EXCEEDED for a step
  * whose integration needs more than a million smaller steps. *now stays unchanged. */
 RIIS_API riis_status riis_opening_angle_advance(const riis_opening_angle *law,
                                                 const riis_opening_angle_state *before, double time,

@@ -36,31 +36,31 @@ typedef struct riis_loads {
 } riis_loads;
 RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /* the defaults */
 /* Adds the sums over nodes of tissue that riis_loads_add_forces needs.
- *   loads   radius, edges and n_leaflets; the forces are not read
- *   nodes   the nodes of a surface or a volume of tissue, in the frame of the edges. Nodes beyond the radius count in no
- *           sum, and get no force
- *   weight  (n_points), 0 to 1e60: the area or volume around a node, 0 for nodes of other ranks. NULL: 1 for each node
- *   sums    (11, n_leaflets): sums are added
+ *   `loads`: radius, edges and n_leaflets; the forces are not read.
+ *   `nodes`: the nodes of a surface or a volume of tissue, in the frame of the edges. Nodes beyond the radius count in no sum,
+ *     and get no force.
+ *   `weight` (n_points), 0 to 1e60: the area or volume around a node, 0 for nodes of other ranks. NULL: 1 for each node.
+ *   `sums` (11, n_leaflets): the array to which the sums are added.
  * A bileaflet valve has no attachment. A surface from arrays has an attachment only with `attached` or a skirt. Without an
  * attachment the caller gives edges: the pivots, or the edges at which the leaflets are sewn. With MPI each rank passes its own
  * nodes, and all ranks then add up their sums.
  * Errors: RIIS_INVALID_ARGUMENT naming the field, or the edge, node or weight and its value. */
 RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_points *nodes, const double *weight, double *sums);
-/* Adds the forces of the leaflets at nodes of tissue. For each leaflet, their sum is leaflet_force and their moment is
+/* Adds the forces of the leaflets at nodes of tissue. The forces of a leaflet have the sum leaflet_force and the moment
  * leaflet_moment, up to rounding.
- *   loads, nodes, weight  as in riis_loads_add_sums
- *   sums        (11, n_leaflets): of riis_loads_add_sums, added up over all ranks
- *   node_force  (3, n_points): forces are added
- * The force of a leaflet at a node is m w(d) (a + b x s). Here m is the weight of the node, d its distance from the leaflet's
- * edges, w(d) = (1 + cos(pi d / radius)) / 2 up to the radius, and s its place from the middle of the leaflet's nodes. The
- * vectors a and b belong to the leaflet. Of all forces with this sum and moment, these forces have the least sum
- * of |force|^2 / (m w). In a rigid motion the power of these forces is force times velocity plus moment times angular velocity.
- * The forces are linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to get the forces of one leaflet.
- * The mechanics of a membrane plays no part in these forces.
- * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also for a leaflet with a force or a moment whose nodes within the
- * radius are fewer than three, or lie nearly on a line. Nodes lie nearly on a line if their root-mean-square distance from it is
- * less than a hundredth of their root-mean-square distance from their middle. Nodes also lie nearly on a line if the first
- * distance is less than a thousandth of the size of the edges (docs/theory/loads.md). */
+ *   `loads`, `nodes`, `weight`: as in riis_loads_add_sums.
+ *   `sums` (11, n_leaflets): of riis_loads_add_sums, added up over all ranks.
+ *   `node_force` (3, n_points): the array to which the forces are added.
+ * The force of a leaflet at a node is m w(d) (a + b x s). Here m is the weight of the node, and d is its distance from the
+ * leaflet's edges. Up to the radius, w(d) is (1 + cos(pi d / radius)) / 2. The vector s leads from the middle of the leaflet's
+ * nodes to the node. The vectors a and b belong to the leaflet. Among all forces with the same sum and moment, the forces of a
+ * leaflet have the least sum of |force|^2 / (m w). In a rigid motion the power of the forces is force times velocity plus moment
+ * times angular velocity. The forces are linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to get the
+ * forces of one leaflet. The forces do not model the mechanics of a membrane.
+ * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also for a leaflet with a force or a moment, if fewer than three nodes
+ * lie within the radius, or if these nodes lie nearly on a line. Nodes lie nearly on a line if their root-mean-square distance
+ * from the line is less than a hundredth of their root-mean-square distance from their middle. Nodes also lie nearly on a line if
+ * their root-mean-square distance from the line is less than a thousandth of the size of the edges (docs/theory/loads.md). */
 RIIS_API riis_status riis_loads_add_forces(const riis_loads *loads, const riis_points *nodes, const double *weight,
                                            const double *sums, double *node_force);
 

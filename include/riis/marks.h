@@ -21,18 +21,18 @@ typedef struct riis_marks riis_marks;
 RIIS_API riis_status riis_marks_create(riis_marks **marks);
 RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and their lists */
 
-/* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes (docs/theory/search.md). */
+/* How nodes are searched. All searches except RIIS_SEARCH_PAPER find the same nodes (docs/theory/search.md). */
 enum {
-  RIIS_SEARCH_AUTO = 0,       /* clusters. The exhaustive search runs instead in three cases: for distances by sampling or
-                                 minimisation; at the first marking of a mesh without riis_mesh_prepare, if the distance limit is
-                                 at most a fifth of the surface's extent; for a larger limit with few nodes. A grid
-                                 (riis_mesh_create_grid) has clusters from its first marking on */
+  RIIS_SEARCH_AUTO = 0,       /* clusters. Sampling and minimisation take the exhaustive search. The first marking of a mesh
+                                 without riis_mesh_prepare also takes the exhaustive search if the distance limit is at most a
+                                 fifth of the surface's extent. With few nodes, a marking with a larger limit also takes the
+                                 exhaustive search. A grid (riis_mesh_create_grid) has clusters from its first marking on */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
                                  neighbor search") and queries every other node that it cannot prove to be far. The
                                  mesh must have an adjacency, which need not be connected */
-  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes that no path
-                                 joins to its one starting node. The mesh must have an adjacency */
+  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes that no path joins to its
+                                 only starting node. The mesh must have an adjacency */
   RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, and decides in double precision. The exhaustive
                                  search runs instead (stats.search) for 2^32 points and more, and for a mesh that is a million
                                  times as large as the surface or as far away */
@@ -47,8 +47,8 @@ enum {
   RIIS_INSTRUCTIONS_AVX512 = 3    /* AVX-512 F, DQ, BW and VL */
 };
 
-/* Fields of the closest point that a marking keeps on request. Add the values to request several. Distances by
- * sampling or minimisation have RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH only. */
+/* Fields of the closest point that a marking keeps on request. Add the values to request several fields. Distances by sampling or
+ * minimisation have RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH only. */
 enum {
   RIIS_FIELD_POINT = 1,      /* riis_mark_list.point */
   RIIS_FIELD_NORMAL = 2,     /* riis_mark_list.normal */
@@ -74,8 +74,8 @@ enum {
  * from the middle of the band, |s - o eps|. Here eps is the half thickness of this resistance (riis_surface_create). */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
-  double R;              /* 0 to 1e60, mass / (length time): kg/(m s). A flat closed valve in a flow of
-                            velocity u has a pressure drop of (R / eps) u. Default NaN, which is refused */
+  double R;              /* 0 to 1e60, in mass / (length time), such as kg/(m s). A flat closed valve in a flow of velocity u has
+                            a pressure drop of (R / eps) u. Default NaN, which is refused */
   double half_thickness; /* eps, at least 1e-50. With the offset o, (1 + |o|) eps is at most the distance limit. Default
                             RIIS_AUTO: the marking's half thickness */
   int32_t rim;           /* RIIS_RIM_*, default RIIS_RIM_ROUND */
@@ -86,9 +86,9 @@ RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t s
 /* Options of a marking. */
 typedef struct riis_mark_options {
   int64_t struct_size;       /* set by the init function */
-  double distance_limit;     /* the search finds nodes up to this distance, from (1 + |o|) half thicknesses with the offset o
-                                to 1e60. Default RIIS_AUTO: the list within the limit has the marked nodes only. The limit
-                                does not change the marked nodes */
+  double distance_limit;     /* the search finds the nodes whose distance is at most this limit. With the offset o, the limit is
+                                at least (1 + |o|) half thicknesses and at most 1e60. Default RIIS_AUTO: the list within the limit
+                                has the marked nodes only. The limit does not change the marked nodes */
   const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out, but must be finite. NULL: all nodes */
   const riis_resistance *resistance; /* requests riis_mark_list.K and, if the last update of the surface gave
                                         velocities, riis_mark_list.K_u_surface. Default NULL: neither */
@@ -101,13 +101,13 @@ typedef struct riis_mark_options {
 } riis_mark_options;
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size); /* the defaults */
 
-/* Finds every node near the surface: the nodes within the half thickness (marked), and within the distance limit.
- * The reported distance, in double precision, decides which nodes are near. With an offset, the nodes in the band are marked
- * (riis_surface_create).
- *   marks  its content is replaced
- * The log warns if the units of mesh and surface seem to differ. Units seem to differ if the two boxes' largest sides differ by
- * more than a factor of 50, or one of these sides is less than the half thickness. The log warns once per surface and mesh, at
- * most eight times per mesh, and never for fewer than 1000 nodes.
+/* Finds every node near the surface: the marked nodes, which lie within the half thickness, and the nodes within the distance
+ * limit. The reported distance, in double precision, decides which nodes are near. With an offset, the marked nodes are the nodes
+ * in the band (riis_surface_create).
+ *   `marks`: its content is replaced.
+ * The log warns if the units of mesh and surface seem to differ. Units seem to differ if the largest sides of the two bounding
+ * boxes differ by more than a factor of 50, or if one of these sides is below the half thickness. The log warns once per surface
+ * and mesh, at most eight times per mesh, and never for fewer than 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);
@@ -117,8 +117,8 @@ enum {
   RIIS_LIST_MARKED = 0,      /* the nodes within the half thickness, or with an offset the nodes in the band */
   RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not. Without a limit: the marked nodes */
 };
-/* A list of nodes, ascending by node_id. Lengths are in mesh units. The arrays from `point` on are NULL unless
- * options.fields requested them. riis_closest_point gives the same values, to the last bit. */
+/* A list of nodes, ascending by node_id. Lengths are in mesh units. The arrays from `point` on are NULL if options.fields did not
+ * request them. riis_closest_point gives the same values, to the last bit. */
 typedef struct riis_mark_list {
   int64_t n_nodes;            /* in the list */
   const int64_t *node_id;     /* (n_nodes) */
@@ -130,9 +130,9 @@ typedef struct riis_mark_list {
   const double *point;        /* (3, n_nodes): the closest point of the surface */
   const double *normal;       /* (3, n_nodes): the unit normal of its triangle */
   const double *barycentric;  /* (3, n_nodes): the point's weights for the triangle's vertices */
-  const double *uv;           /* (2, n_nodes): u and v of the point on its patch, in [0,1]. S_u x S_v points along the normal, on
-                                 mirrored patches against it (cusps: patch_id % 4 >= 2; mitral: 3, 4, 5, 8, 9). flip_normals
-                                 reverses both cases */
+  const double *uv;           /* (2, n_nodes): u and v of the point on its patch, in [0,1]. S_u x S_v points along the normal, and
+                                 on mirrored patches against the normal (cusps: patch_id % 4 >= 2; mitral: 3, 4, 5, 8, 9).
+                                 flip_normals reverses both cases */
   const double *velocity;     /* (3, n_nodes): the velocity of the surface at the point, from its last update.
                                  Several leaflets may be equally near (within 1e-6 half thicknesses), or several patches
                                  of one leaflet (within 1e-9). The velocity is then the mean of the velocities at their
@@ -146,17 +146,18 @@ typedef struct riis_mark_list {
   int64_t n_directions;       /* the surface's directions during the marking; 0 without RIIS_FIELD_GRADIENT */
   const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, -n.V. The unit
                                       vector n points from the closest point to the node, on both sides. V is the rate of the
-                                      closest point, on the triangle of triangle_id. On the surface the derivative is 0, because
-                                      the distance has a kink there. The distance also has a kink at nodes with several nearest
-                                      places */
+                                      closest point, as a point of the triangle triangle_id. On the surface the derivative is 0,
+                                      because the distance has a kink there. The distance also has a kink at nodes with several
+                                      nearest places */
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. This derivative
                                  is 0 beyond the half thickness and beyond a cut rim; NULL without a resistance. With an offset,
                                  on the surface n is the surface's normal, and at a rim the normal turns too */
   const double *height;       /* (n_nodes): with an offset, the signed distance s of riis_surface_create; at a rim n.(x - p).
                                  NULL without an offset */
 } riis_mark_list;
-/* Gives a list of the last marking. The list is valid until the next riis_mark_nodes with these marks, or their destruction.
- *   which  RIIS_LIST_* */
+/* Gives one of the two lists of the last marking. The list is valid until the marks are destroyed, or used in another
+ * riis_mark_nodes.
+ *   `which`: RIIS_LIST_*. */
 RIIS_API riis_status riis_marks_get_list(const riis_marks *marks, int32_t which, riis_mark_list *list,
                                          int64_t struct_size);
 
@@ -191,7 +192,7 @@ typedef struct riis_mark_stats {
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */
   int64_t n_unreached;  /* nodes within the limit that the neighbour search found outside of its walks */
 } riis_mark_stats;
-/* Tells how the last marking with the marks went; all 0 for empty marks. */
+/* Tells how the last marking with these marks went. For empty marks all fields are 0. */
 RIIS_API riis_status riis_marks_get_stats(const riis_marks *marks, riis_mark_stats *stats, int64_t struct_size);
 
 #ifdef __cplusplus

@@ -19,20 +19,20 @@ extern "C" {
 typedef struct riis_leaflet {
   int64_t n_triangles; /* the number of its triangles with an area above 0 */
   double area;         /* the area of its triangles */
-  double free_edge;    /* the length of its free edge: the sides v = 1 of only one patch of the leaflet. A surface from arrays has
-                          no patches: its free edge is all open edges except the longest closed line of open edges. An open edge
-                          belongs to only one triangle. 0 for a skirt */
+  double free_edge;    /* the length of its free edge: the sides v = 1 that belong to only one patch of the leaflet. A surface
+                          from arrays has no patches: its free edge is all open edges except the longest closed line of open
+                          edges. An open edge belongs to only one triangle. 0 for a skirt */
   int32_t leaflet_id;  /* as in riis_triangles */
   int32_t reserved;    /* 0 */
 } riis_leaflet;
 /* Gives the number of the surface's leaflets. */
 RIIS_API riis_status riis_surface_get_n_leaflets(const riis_surface *surface, int64_t *n_leaflets);
 /* Gives the sizes of a leaflet.
- *   leaflet  0 to n_leaflets - 1, ascending by leaflet_id */
+ *   `leaflet`: 0 to n_leaflets - 1, ascending by leaflet_id. */
 RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
                                               int64_t struct_size);
 
-/* The outline of an orifice. A valve and a surface from arrays or keyframes with its triangles have the same outline. */
+/* The outline of an orifice. A surface from arrays or keyframes with a valve's triangles has the same outline as the valve. */
 enum {
   RIIS_OUTLINE_NONE = 0,      /* the boundary of the leaflets does not surround a centre, or encloses no area */
   RIIS_OUTLINE_DISC = 1,      /* bileaflet: the disc of radius about the z axis */
@@ -41,10 +41,11 @@ enum {
   RIIS_OUTLINE_BOUNDARY = 3,  /* a surface from arrays or keyframes: the farthest edges that only one triangle has */
   RIIS_OUTLINE_WALL = 4       /* riis_surface_get_orifice_in_wall: the longest line of open edges of the wall */
 };
-/* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is the vector
- * area of the outline's edges in space. The axis points to the side of a valve's z axis, or to the side of the normals of arrays
- * and keyframes. The axis of a bileaflet valve is its z axis. A skirt does not count. If leaflets of arrays do not touch at the
- * commissures, straight lines join their ends. Lengths are in mesh units (docs/theory/measures.md, "Outline"). */
+/* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is the direction
+ * of the vector area of the outline's edges in space. The axis points to the side of a valve's z axis, or to the side of the
+ * normals of arrays and keyframes. The axis of a bileaflet valve is its z axis. A skirt does not count. If leaflets of arrays do
+ * not touch at the commissures, straight lines join their ends. Lengths are in mesh units (docs/theory/measures.md,
+ * "Outline"). */
 typedef struct riis_orifice {
   double area;           /* the area of the orifice. Without an outline, all fields but axis and rim_reach are 0 */
   double outline_area;   /* the area inside the outline */
@@ -65,14 +66,14 @@ typedef struct riis_orifice {
   int32_t reserved;      /* 0 */
 } riis_orifice;
 /* Measures the orifice of a surface.
- *   resistance  only half_thickness and rim are used, with the surface's offset. RIIS_AUTO stands for the surface's half
- *               thickness. NULL stands for the defaults */
+ *   `resistance`: only half_thickness and rim are used, with the surface's offset. RIIS_AUTO stands for the surface's half
+ *     thickness. NULL stands for the defaults. */
 RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                               riis_orifice *orifice, int64_t struct_size);
-/* Measures the orifice inside a wall: a ring or a tube around leaflets that do not reach it, such as those of a mechanical valve
- * from arrays. The longest connected line of open edges of the wall gives the outline and the axis (docs/theory/measures.md,
- * "Outline"). The other arguments are as in riis_surface_get_orifice.
- *   wall  in the frame of the surface. RIIS_INVALID_ARGUMENT if the wall's line does not surround a centre */
+/* Measures the orifice inside a wall, for leaflets that do not reach it, such as the leaflets of a mechanical valve from arrays.
+ * The wall is a ring or a tube around the leaflets. The longest connected line of open edges of the wall gives the outline and
+ * the axis (docs/theory/measures.md, "Outline"). The other arguments are as in riis_surface_get_orifice.
+ *   `wall`: in the frame of the surface. RIIS_INVALID_ARGUMENT if the wall's line does not surround a centre. */
 RIIS_API riis_status riis_surface_get_orifice_in_wall(const riis_surface *surface, const riis_surface *wall,
                                                       const riis_resistance *resistance, riis_orifice *orifice,
                                                       int64_t struct_size);
@@ -87,9 +88,10 @@ typedef struct riis_area_search {
   int64_t struct_size;                 /* set by the init function */
   const riis_surface_options *surface; /* options of the valve's surface. NULL, the default, stands for defaults */
   const riis_resistance *resistance;   /* as in riis_surface_get_orifice. NULL, the default, stands for defaults */
-  double from, to;    /* the values to search, from < to. Default NaN: 0 to 1 for the opening, a tenth to ten times the
-                         scale, half to twice a parameter, and all shares if a share is 0. Other zeros need both */
-  double tolerance;   /* of an area, as a share of it, 1e-12 to 1e-2. Default 1e-8 */
+  double from, to;    /* the range to search, from < to. The default NaN stands for 0 to 1 for the opening, a tenth to ten times
+                         the scale, and half to twice a parameter. For a share that is 0, NaN stands for all shares. Any other
+                         parameter that is 0 needs both numbers */
+  double tolerance;   /* the tolerance of an area, as a share of the area, 1e-12 to 1e-2. Default 1e-8 */
   int32_t n_samples;  /* the number of values that are tried first, 2 to 100,001. Default 33 */
   int32_t area;       /* RIIS_AREA_*, default RIIS_AREA_GEOMETRIC */
 } riis_area_search;
@@ -100,8 +102,8 @@ typedef struct riis_area_range {
   double from, to;          /* the values that were searched */
   double least, most;       /* the least and the largest area */
   double least_at, most_at; /* a value with that area */
-  double turns[4];          /* the first values at which the area stops growing or falling; NaN: no more. A change by
-                               less than 1e-4 of the largest area does not count */
+  double turns[4];          /* the first values at which the area stops growing or falling; NaN stands for no further value. A
+                               change by less than 1e-4 of the largest area does not count */
   double seconds;           /* wall time of riis_find_by_area */
   int64_t n_turns;          /* the number of turns. Without a turn, the area only grows or only falls */
   int64_t n_surfaces;       /* the number of surfaces that were made, which is the cost of the search */
@@ -109,22 +111,23 @@ typedef struct riis_area_range {
 } riis_area_range;
 /* Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, "From an area to
  * a valve").
- *   valve    its own opening is ignored if openings are found
- *   name     "opening", "scale" of the placement, or a parameter that riis_valve_get gives one value of
- *   n_areas  0 to 1,000,000. With 0 areas only *range is written, and areas may be NULL
- *   areas    (n_areas), 0 to 1e120, mesh units squared
- *   search   NULL stands for the defaults
- *   values   (n_areas): the openings or sizes. NULL: not wanted
- *   reached  (n_areas): the areas at these values. NULL: not wanted
- *   range    the areas that can be reached. NULL: not wanted
+ *   `valve`: its own opening is ignored if openings are found.
+ *   `name`: "opening", "scale" of the placement, or a parameter with one value in riis_valve_get.
+ *   `n_areas`: 0 to 1,000,000. With 0 areas only *range is written, and areas may be NULL.
+ *   `areas` (n_areas), 0 to 1e120, mesh units squared.
+ *   `search`: NULL stands for the defaults.
+ *   `values` (n_areas): the openings or sizes. NULL: not wanted.
+ *   `reached` (n_areas): the areas at these values. NULL: not wanted.
+ *   `range`: the areas that can be reached. NULL: not wanted.
  * The area 0 stands for the closed valve: it gives the opening with the least area, even if slits remain between the leaflets. If
  * several openings have the wanted area, the call gives the least of them. If several sizes have the wanted area, the call gives
- * the size nearest to the present size. The area of RIIS_TRIANGULATION_ADAPTED jumps by up to 1e-4 of the largest area where
- * triangles change. An area inside a jump gives the nearer end of the jump. The search may miss areas that occur only between two
- * neighbouring samples.
- * Errors: RIIS_INVALID_ARGUMENT naming the area. If the area is out of reach, the message has the range.
- * RIIS_INVALID_PARAMETER for an unknown name, for a parameter with three values, for a valve with one state or no orifice, and
- * if the name does not change the area. The errors of riis_surface_create come with the value. On an error nothing is written. */
+ * the size nearest to the present size. With RIIS_TRIANGULATION_ADAPTED the area jumps by up to 1e-4 of the largest area where
+ * the triangles change. An area inside a jump gives the nearer end of the jump. The search may miss areas that occur only between
+ * two neighbouring samples.
+ * Errors: RIIS_INVALID_ARGUMENT naming the area. If the area is out of reach, the message names the range. RIIS_INVALID_PARAMETER
+ * for an unknown name, for a parameter with three values, for a valve with one state or no orifice, and if the name does not
+ * change the area. If riis_surface_create fails inside the call, the message also names the opening or size. On an error nothing
+ * is written. */
 RIIS_API riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t n_areas,
                                        const double *areas, const riis_area_search *search, double *values,
                                        double *reached, riis_area_range *range, int64_t struct_size);
@@ -140,9 +143,9 @@ typedef struct riis_coaptation {
   double reach; /* the distance within which leaflets touch */
 } riis_coaptation;
 /* Measures the coaptation. The bileaflet housing and a skirt are no leaflets, and touch nothing.
- *   reach       1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness
- *   leaflet_id  as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from
- *               both sides
+ *   `reach`: 1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness.
+ *   `leaflet_id`: as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from both
+ *     sides.
  * The error of an area is at most 1e-3 reach times the length of the contact's outline (docs/theory/measures.md). The extent of a
  * surface is the diagonal of its box. A reach below 1/250 of the extent loses details below 1/2000 of the extent.
  * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
@@ -150,11 +153,11 @@ RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, do
                                                  riis_coaptation *coaptation, int64_t struct_size);
 
 /* Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The
- * bileaflet housing does not count in the area. With an offset o, the surface is first moved by o eps along its normals, and its
- * area is taken there. The leak in a solver differs from the ideal (docs/solvers.md).
- *   resistance  only R, 1e-60 to 1e60, and half_thickness are used. RIIS_AUTO stands for the surface's half thickness
- *   drop        upstream pressure minus downstream pressure, magnitude at most 1e30
- *   flow        in the unit of drop * area * eps / R, which is m^3/s in SI units
+ * bileaflet housing does not count in the area. With an offset o, the surface is first moved by o eps along its normals, and the
+ * area of the moved surface counts. The leak in a solver differs from the ideal (docs/solvers.md).
+ *   `resistance`: only R, 1e-60 to 1e60, and half_thickness are used. RIIS_AUTO stands for the surface's half thickness.
+ *   `drop`: upstream pressure minus downstream pressure, magnitude at most 1e30.
+ *   `flow`: in the unit of drop * area * eps / R, which is m^3/s in SI units.
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. */
 RIIS_API riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resistance *resistance,
                                            double drop, double *flow);
@@ -178,7 +181,7 @@ enum {
 /* The opening at which a valve first lets the mesh pass. */
 typedef struct riis_first_passage {
   double opening;        /* the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE */
-  double closed_opening; /* FOUND: the largest tried opening below `opening`, which has no passage. Else: `opening` */
+  double closed_opening; /* FOUND: the largest opening below `opening` at which no passage was found. Else: `opening` */
   int64_t node_id;       /* the passage at `opening`, as in riis_passage */
   double distance;       /* as in riis_passage */
   double point[3];       /* as in riis_passage */
@@ -187,9 +190,9 @@ typedef struct riis_first_passage {
   int32_t state;         /* RIIS_FIRST_PASSAGE_* */
 } riis_first_passage;
 /* Finds the opening at which riis_find_passage first finds a passage.
- *   valve  its own opening is ignored
- *   mesh   must have an adjacency, and need not have been marked
- *   ends   as for riis_find_passage; each end must be outside the band at each tried opening
+ *   `valve`: its own opening is ignored.
+ *   `mesh`: must have an adjacency, and need not have been marked.
+ *   `ends`: as for riis_find_passage; each end must be outside the band at each tried opening.
  * The call tries the openings 0, 1/8, 2/8, ... until a passage is open. Then the call halves the last step until opening and
  * closed_opening differ by at most the tolerance. A valve that opens further may close a passage again, so the call may miss a
  * passage that ends before the next multiple of 1/8.
@@ -210,21 +213,22 @@ typedef struct riis_cells_across {
 } riis_cells_across;
 /* Computes the number of mesh edges across the band. An edge counts once, whether one or both of its nodes list it. Edges to
  * ghosts and edges of length 0 do not count.
- *   marks  marks from riis_mark_nodes
- *   mesh   the mesh of the marking, with an adjacency
+ *   `marks`: marks from riis_mark_nodes.
+ *   `mesh`: the mesh of the marking, with an adjacency.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of
- * nodes; RIIS_INVALID_MESH as riis_mark_nodes. */
+ * nodes. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh *mesh,
                                                  riis_cells_across *cells, int64_t struct_size);
 
 /* Gives the volume that the valve sweeps between two openings, in mesh units cubed. The volume is the integral of u_surface . n
- * over surface and time, positive along the normals. A flow displaces less, because blood slips past the leaflets.
- *   opening_from, opening_to  0 to 1. The valve's own opening is ignored
- *   options     only scale, flip_normals and n_threads are used. NULL stands for the defaults
- *   leaflet_id  RIIS_LEAFLET_*, or the id of a patch's leaflet, or RIIS_ALL_LEAFLETS
+ * over surface and time, positive along the normals. In a flow the valve displaces less blood, because blood slips past the
+ * leaflets.
+ *   `opening_from`, `opening_to`: 0 to 1. The valve's own opening is ignored.
+ *   `options`: only scale, flip_normals and n_threads are used. NULL stands for the defaults.
+ *   `leaflet_id`: RIIS_LEAFLET_*, or the id of a patch's leaflet, or RIIS_ALL_LEAFLETS.
  * The result is within 1e-3 of the largest volume that a leaflet sweeps from 0 to 1 (docs/theory/measures.md).
- * Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks;
- * RIIS_INVALID_PARAMETER for inconsistent parameters, and for a valve with one state unless both are 0. */
+ * Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks.
+ * RIIS_INVALID_PARAMETER for inconsistent parameters, and for a valve with one state if an opening is above 0. */
 RIIS_API riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_from, double opening_to,
                                                  const riis_surface_options *options, int32_t leaflet_id,
                                                  double *volume);

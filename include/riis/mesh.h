@@ -19,31 +19,31 @@ typedef struct riis_mesh riis_mesh;
 
 /* Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. A
  * process without nodes makes the same calls as the other processes.
- *   n_nodes  0 to 2^40; with 0 the pointers may be NULL
- * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. */
+ *   `n_nodes`: 0 to 2^40; with 0 the pointers may be NULL.
+ * Errors: RIIS_INVALID_MESH naming the node and the value. RIIS_LIMIT_EXCEEDED for too many nodes. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride, riis_mesh **mesh);
-/* Tells the mesh that its coordinates changed, in place or by other arrays, and checks the coordinates again. Call it after every
- * change of coordinates. The adjacency stays if n_nodes is the same. For other nodes make a new handle. Arguments and errors as
- * riis_mesh_create. */
+/* Tells the mesh that its coordinates have changed, in the old arrays or in other arrays, and checks them again. Call this
+ * function after every change of coordinates. The adjacency stays if n_nodes is the same. A mesh with other nodes needs a new
+ * handle. Arguments and errors are as in riis_mesh_create. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y,
                                       const double *z, int64_t stride);
-/* Copies node coordinates, such as a Fortran temporary or single precision, and checks them. Single precision is
- * converted to double once, exactly. The handle keeps 24 bytes per node.
+/* Copies node coordinates and checks them. Use this call for a temporary array of Fortran, or for single precision, which is
+ * converted to double exactly. The handle keeps 24 bytes per node.
  * Errors: as riis_mesh_create. */
 RIIS_API riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh);
 /* Does the same as riis_mesh_update, but copies the coordinates. A mesh may change between borrowed and copied coordinates. */
 RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes);
 /* Destroys the handle. The caller's coordinates and all marks stay. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
-/* Makes the clusters of RIIS_SEARCH_CLUSTERS now, not in the first marking that uses them. Clusters copy the
- * coordinates: they take 41 bytes per node while the handle lives, and 32 more while they are made. A grid needs none.
- * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more; RIIS_INVALID_MESH as riis_mark_nodes. */
+/* Makes the clusters of RIIS_SEARCH_CLUSTERS in advance, so that no marking has to make them. Clusters copy the coordinates: they
+ * take 41 bytes per node while the handle lives, and 32 more while they are made. A grid needs no such copy.
+ * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
 /* A rectilinear grid: three axes, and the place of each node in the caller's arrays. Node (i, j, k) is at (x[i], y[j], z[k])
- * and has the number first + i stride[0] + j stride[1] + k stride[2], all from 0. Other numbers below n_nodes, such as the
- * numbers of halos, have no node. */
+ * and has the number first + i stride[0] + j stride[1] + k stride[2], all from 0. Any other number below n_nodes, such as the
+ * number of a halo's entry, has no node. */
 typedef struct riis_grid {
   int64_t struct_size;   /* set by the init function */
   int64_t ni, nj, nk;    /* nodes along each axis, each >= 1 */
@@ -51,11 +51,11 @@ typedef struct riis_grid {
                             origin[0] + i spacing[0] */
   const void *y;         /* (nj), likewise */
   const void *z;         /* (nk), likewise */
-  double origin[3];      /* of axes with NULL. Default 0 */
-  double spacing[3];     /* of axes with NULL, above 0. Default 1 */
+  double origin[3];      /* the first coordinate of axes that are NULL. Default 0 */
+  double spacing[3];     /* the spacing of axes that are NULL, above 0. Default 1 */
   int64_t first;         /* the number of node (0, 0, 0), >= 0. Default 0 */
-  int64_t stride[3];     /* from a node to the next along each axis, >= 1. No two nodes may have one number. Default 0, for
-                            all three, stands for 1, ni and ni nj */
+  int64_t stride[3];     /* the difference of numbers from a node to the next along each axis, >= 1. Two nodes must not have the
+                            same number. Default 0, for all three axes, stands for 1, ni and ni nj */
   int64_t n_nodes;       /* the length of the caller's arrays, above the last node's number and at most 2^40. Default 0
                             stands for the least length */
   int32_t real_bits;     /* of x, y and z: 64, the default, or 32 */
@@ -63,23 +63,23 @@ typedef struct riis_grid {
 } riis_grid;
 RIIS_API riis_status riis_grid_init(riis_grid *grid, int64_t struct_size); /* the defaults */
 /* Makes a mesh from the axes of a grid, and stores nothing for each node. A marking gives the same bits as on a mesh that
- * riis_mesh_create makes of the same nodes. The edges are those of riis_adjacency_create_from_grid, unless
- * riis_mesh_set_adjacency gives the mesh other edges. Axes are not periodic. Markings refuse RIIS_SEARCH_NEIGHBOR and
- * RIIS_SEARCH_PAPER, and sampling and minimisation for more than 10^8 nodes.
- *   grid  the axes, which are copied. Its n_nodes is the n_nodes of the mesh in every other call
- * Errors: RIIS_INVALID_MESH naming the axis, the index and the value; RIIS_LIMIT_EXCEEDED for numbers from 2^40 on. */
+ * riis_mesh_create makes from the same nodes. The edges are those of riis_adjacency_create_from_grid, or the edges that
+ * riis_mesh_set_adjacency gives the mesh. Axes are not periodic. Markings refuse RIIS_SEARCH_NEIGHBOR and RIIS_SEARCH_PAPER, and
+ * sampling and minimisation for more than 10^8 nodes.
+ *   `grid`: the axes, which are copied. The grid's n_nodes is the n_nodes of the mesh in every other call.
+ * Errors: RIIS_INVALID_MESH naming the axis, the index and the value. RIIS_LIMIT_EXCEEDED for numbers from 2^40 on. */
 RIIS_API riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh);
 /* Gives a mesh other axes, or turns a mesh of points into a grid. riis_mesh_update turns a grid into points.
  * Errors: as riis_mesh_create_grid; the mesh then keeps its nodes. */
 RIIS_API riis_status riis_mesh_update_grid(riis_mesh *mesh, const riis_grid *grid);
 
-/* Neighbours of nodes, as compressed sparse rows. With base = index_base, node i of 0 to n_rows - 1 has the
- * neighbours columns[k] - base for k from offsets[i] - base to offsets[i + 1] - base - 1. */
+/* Neighbours of nodes, as compressed sparse rows. Let base be index_base. Node i, from 0 to n_rows - 1, has the neighbours
+ * columns[k] - base, with k from offsets[i] - base to offsets[i + 1] - base - 1. */
 typedef struct riis_csr {
   int64_t struct_size;   /* set by the init function */
   int64_t n_rows;        /* the mesh's n_nodes */
-  int64_t n_all;         /* columns are below this number, at least n_rows. Columns from n_rows on are ghosts, nodes
-                            of other ranks, and are ignored. Default 0 stands for n_rows */
+  int64_t n_all;         /* columns are below this number, which is at least n_rows. Columns from n_rows on are ghosts, which
+                            belong to other ranks, and are ignored. Default 0 stands for n_rows */
   const void *offsets;   /* (n_rows + 1), ascending from the base; a row may be empty. NULL only for 0 rows */
   const void *columns;   /* (offsets[n_rows] - base), in any order; repetitions and the node itself are ignored */
   int32_t offset_bits;   /* of offsets */
@@ -90,18 +90,20 @@ typedef struct riis_csr {
 RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size); /* the defaults */
 
 /* Gives the mesh the adjacency that the neighbour search walks along, and checks it once.
- *   csr the struct's arrays are borrowed: they must stay in place, unchanged, until the handle is destroyed or gets another
- *        adjacency. NULL removes the adjacency, as riis_mesh_update with another n_nodes does
+ *   `csr`: the struct's arrays are borrowed: they must stay in place, unchanged, until the handle is destroyed or gets another
+ *     adjacency. NULL removes the adjacency, as riis_mesh_update with another n_nodes does.
  * Errors: RIIS_INVALID_MESH naming the row and its value. */
 RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);
 
 /* ---- Adjacency from cells, faces, or a structured grid ------------------------------------------------- */
 
-/* Compressed sparse rows that the library owns: ascending columns without repetition, symmetric, base 0. */
+/* Compressed sparse rows that the library owns. The columns ascend without repetition, the adjacency is symmetric, and the base
+ * is 0. */
 typedef struct riis_adjacency riis_adjacency;
 
-/* Cells by their nodes, in the order of VTK, Abaqus, CGNS and Gmsh: the base, then the apex or the nodes above.
- * The number of nodes tells the shape: 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron. */
+/* Cells that are given by their nodes. The order of the nodes is that of VTK, Abaqus, CGNS and Gmsh: first the base, then the
+ * apex or the nodes above the base. The number of nodes tells the shape: 4 for a tetrahedron, 5 for a pyramid, 6 for a prism, 8
+ * for a hexahedron. */
 typedef struct riis_mesh_cells {
   int64_t struct_size;     /* set by the init function */
   int64_t n_nodes;         /* of the mesh, >= 0 */
@@ -138,7 +140,7 @@ RIIS_API riis_status riis_mesh_faces_init(riis_mesh_faces *faces, int64_t struct
 RIIS_API riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *faces, riis_adjacency **adjacency);
 
 /* Makes the adjacency of a structured grid. Neighbours differ by 1 in one of i, j, k.
- *   ni, nj, nk  each >= 1; node (i, j, k) has the number i + ni (j + nj k), all from 0
+ *   `ni`, `nj`, `nk`: each >= 1; node (i, j, k) has the number i + ni (j + nj k), all from 0.
  * Errors: RIIS_LIMIT_EXCEEDED for more nodes than memory can hold. */
 RIIS_API riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
                                                      riis_adjacency **adjacency);

@@ -26,8 +26,8 @@ typedef struct riis_resistance_arrays {
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size);
 /* Adds K and K u_surface to the caller's arrays, which then hold sums over several valves. The solver's term is
- * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. riis_mark_list also has both.
- *   resistance  RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY
+ * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. riis_mark_list also has K and K u_surface.
+ *   `resistance`: RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY.
  * Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that the marks lack. */
 RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
                                                const riis_resistance_arrays *arrays);
@@ -60,37 +60,38 @@ typedef struct riis_reaction {
                                magnitude at most 1e60. An edge may have length 0 */
   const int32_t *edge_leaflet_id; /* (n_edges), >= 0: a node counts for the nearest edge of its leaflet, and each leaflet needs an
                                      edge. NULL, the default: a node counts for the nearest of all edges */
-  double *edge_force;       /* (3, n_edges): force of the nodes that count for the edge. A node's distances are measured
-                               to its closest point. If edges are equally near, the first one counts */
+  double *edge_force;       /* (3, n_edges): force of the nodes that count for the edge. The distance of an edge is measured from
+                               the node's closest point. If edges are equally near, the first one counts */
   double *edge_moment;      /* (3, n_edges): moment of the same nodes about the middle of the edge */
 } riis_reaction;
 /* Fills *reaction with the defaults. */
 RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_size);
 /* Adds the force of the flow on the surface, and its moment, for the whole surface, each leaflet and each edge.
- *   flow      u and the volumes; u_surface counts as 0 if the marking lacks RIIS_FIELD_VELOCITY
- *   reaction  moments and sums of edges need RIIS_FIELD_POINT
- * Each result is a plain sum over nodes. With MPI all ranks pass the same points and edges, and add up their sums. The sums
- * of leaflets add up to the sum of the whole, up to rounding. The sums of edges are loads for tissue codes. These sums do not
- * model how a membrane carries loads to its edges. The time for a node grows as log n_edges, or as n_edges if all edges are
- * equally near. The force on a valve at rest is right. The force on a moving valve includes the inertia of the blood in the band.
- * If a scheme has K at its faces, its pressure equation then needs a source, or the force is wrong by newtons (docs/solvers.md,
- * "The source in the band"). The source acts in cells that only walls and faces with K dt > rho bound: these faces get the
- * outflow of u_surface. Finite elements have the same fault for K dt > rho, and no source is known for them.
- * Errors: as riis_marks_add_resistance; RIIS_INVALID_ARGUMENT also for too small an n_leaflets, naming the leaflet
- * id, for a leaflet without edge, for a bad edge, and for a reaction without any sum. */
+ *   `flow`: u and the volumes; u_surface counts as 0 if the marking lacks RIIS_FIELD_VELOCITY.
+ *   `reaction`: moments and sums of edges need RIIS_FIELD_POINT.
+ * Each result is a plain sum over nodes. With MPI all ranks pass the same reference point and edges, and add up their sums. The
+ * sums of leaflets add up to the sum of the whole surface, up to rounding. The sums of edges are loads for tissue codes. The sums
+ * of edges do not model how a membrane carries loads to its edges. The time for a node grows as log n_edges, or as n_edges if all
+ * edges are equally near. The force on a valve at rest is correct. The force on a moving valve includes the inertia of the blood
+ * in the band. If a scheme has K at its faces, the pressure equation of a moving valve needs a source. Without the source the
+ * force is wrong by newtons (docs/solvers.md, "The source in the band"). The source acts in cells whose faces are walls or have K
+ * dt > rho: the faces with K dt > rho get the outflow of u_surface. Finite elements have the same fault for K dt > rho, and no
+ * source is known for them.
+ * Errors: as riis_marks_add_resistance. RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small (the message names the
+ * leaflet id), a leaflet without an edge, a bad edge, and a reaction without any sum. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
                                              const riis_flow_arrays *flow, const riis_reaction *reaction);
 
 /* Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets.
- *   surface       the surface of the marking, without an update since then
- *   flow          as in riis_marks_add_reaction
- *   n_vertices    riis_triangles.n_vertices
- *   vertex_force  (3, n_vertices): forces are added. A node's force goes to the three vertices of its closest triangle, in the
- *                 shares of the closest point's barycentric coordinates
+ *   `surface`: the surface of the marking, without an update since then.
+ *   `flow`: as in riis_marks_add_reaction.
+ *   `n_vertices`: riis_triangles.n_vertices.
+ *   `vertex_force` (3, n_vertices): the array to which the forces are added. A node's force goes to the three vertices of its
+ *     closest triangle, in the shares of the closest point's barycentric coordinates.
  * The forces on the vertices of a leaflet add up to leaflet_force of riis_marks_add_reaction, and their moment is
- * leaflet_moment, up to rounding. In every motion of the vertices, these forces have the power of the nodes' forces. Vertices
- * with equal coordinates are not joined: a valve repeats its vertices along sides of patches, and arrays may share a vertex
- * between leaflets. With MPI add up the forces of all ranks.
+ * leaflet_moment, up to rounding. In every motion of the vertices, the forces on the vertices have the same power as the forces
+ * of the nodes. Vertices with equal coordinates are not joined: a valve repeats its vertices along sides of patches, and arrays
+ * may share a vertex between leaflets. With MPI add up the forces of all ranks.
  * Errors: as riis_marks_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, another number of
  * vertices, or a closest triangle that the surface lacks. */
 RIIS_API riis_status riis_marks_add_vertex_reaction(const riis_marks *marks, const riis_surface *surface,
@@ -114,8 +115,8 @@ typedef struct riis_band {
   const double *weight; /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
 } riis_band;
 RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* the defaults */
-/* Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim, and nodes on neither
- * side, are left out. With an open valve the two sides have no meaning. With the offset o of the surface, the distance is |s - o
+/* Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim, and nodes with side
+ * 0, are left out. With an open valve the two sides have no meaning. With the offset o of the surface, the distance is |s - o
  * eps|, and the sign of s - o eps is the side. Here s is the signed distance, and eps is the half thickness of the marking.
  * Errors: RIIS_INVALID_ARGUMENT also for a field that the marks lack. */
 RIIS_API riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *band,

@@ -17,8 +17,8 @@ extern "C" {
 
 /* The anatomy that a landmark marks, on the closed valve. */
 enum {
-  RIIS_LANDMARK_COMMISSURE = 0,     /* cusps: the top of the attachment between two of them; as many as cusps.
-                                       tricuspid: the annulus between two leaflets; exactly 3 */
+  RIIS_LANDMARK_COMMISSURE = 0,     /* cusps: the top of the attachment between two cusps; as many as cusps. tricuspid: the
+                                       annulus between two leaflets; exactly 3 */
   RIIS_LANDMARK_NADIR = 1,          /* cusps: the lowest point of a cusp's attachment; as many as cusps */
   RIIS_LANDMARK_COAPTATION = 2,     /* cusps: where the closed cusps meet; at most 1. The valve's axis passes through this point;
                                        the point's height is not used */
@@ -34,7 +34,7 @@ enum {
   RIIS_LANDMARK_POSTEROMEDIAL = 7,  /* mitral: the annulus at the posteromedial commissure; at most 1 */
   RIIS_LANDMARK_ANTEROLATERAL = 8,  /* mitral: the annulus at the anterolateral commissure; at most 1 */
   RIIS_LANDMARK_HINGE = 9,          /* bileaflet: an end of a leaflet's hinge line; 2 of one leaflet, or 4 */
-  RIIS_LANDMARK_ATTACHMENT = 10     /* cusps: a further point of the attachment; at most 900. The sizes and the placement do not
+  RIIS_LANDMARK_ATTACHMENT = 10     /* cusps: any further point of the attachment; at most 900. The sizes and the placement do not
                                        depend on such a point, which serves a warp by riis_placement_arrays.place */
 };
 /* Landmarks of a patient, in the caller's arrays. */
@@ -46,9 +46,10 @@ typedef struct riis_landmarks {
   const int32_t *role;       /* (n_landmarks): RIIS_LANDMARK_* */
   const int32_t *leaflet_id; /* (2, n_landmarks): the cusp of a nadir or attachment point, then -1; the two leaflets of a
                                 commissure, in any order. -1 and -1: not known. NULL: all -1. For an aortic or tricuspid
-                                valve, the known leaflets must determine the names of all. For other kinds without names,
+                                valve, the known leaflets must determine the names of all leaflets. For other kinds without names,
                                 the first nadir lies on cusp 0 */
-  double scale;              /* mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for metres. Must be set */
+  double scale;              /* mesh units in a centimetre: 10 for millimetres, 1 for centimetres, or 0.01 for metres. Must be
+                                set */
   double noise;              /* the scatter of the landmarks: the standard deviation of each coordinate, mesh units, >= 0.
                                 Default RIIS_AUTO: 0.03 * scale */
   double flow[3];            /* the direction of flow, of any length; default 0: not known. bileaflet: must be set.
@@ -69,7 +70,7 @@ enum {
   RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on the parameter but do not determine it, so it stays near the valve's
                                 proportions */
 };
-/* The placement that riis_place finds, for the fields of riis_surface_options with these names. */
+/* The placement that riis_place finds, for the fields of riis_surface_options with the same names. */
 typedef struct riis_placement {
   double scale;              /* the scale of the landmarks, which also gives the default half thickness of 0.1 cm */
   double rotation_axis[3];   /* unit vector */
@@ -93,29 +94,31 @@ typedef struct riis_placement_arrays {
   double *standard_error;    /* (number of parameters, in the order of riis_valve_get_parameter), in the parameter's
                                 unit; infinite for RIIS_SIZE_TIED, 0 for RIIS_SIZE_KEPT */
   int32_t *size_state;       /* (number of parameters): RIIS_SIZE_* */
-  double *place;             /* (3, n_landmarks): the landmarks' places on the closed valve, mesh units: the sources of a warp
-                                to the landmarks. A commissure's place is the mean of its cusps' ends. Points of the attachment
-                                have the places with which this warp bends least. Equal points of one line have one place */
+  double *place;             /* (3, n_landmarks): the landmarks' places on the closed valve, in mesh units. The places are the
+                                sources of a warp to the landmarks. A commissure's place is the mean of its cusps' ends. Points of
+                                the attachment have the places with which this warp bends least. Equal points of one line have one
+                                place */
 } riis_placement_arrays;
 RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
 /* Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement.
- *   valve   the template, a kind with any parameters: lengths without a landmark keep their proportions. Translation,
- *           opening and the open state of riis_valve_set_open_state stay
- *   held    names of parameters that keep the valve's values, between blanks or commas; "": none
- *   arrays  the arrays that the call writes; NULL: not wanted
+ *   `valve`: the template, a kind with any parameters: lengths without a landmark keep their proportions. Translation, opening
+ *     and the open state of riis_valve_set_open_state stay.
+ *   `held`: names of parameters that keep the valve's values, separated by blanks or commas. "" stands for no name.
+ *   `arrays`: the arrays that the call writes; NULL: not wanted.
  * The result minimises the sum of squared distances between the landmarks and their places on the closed valve
- * (docs/theory/landmarks.md). Cusps of a bicuspid, coapting or quadricuspid valve get sectors of their own, with a sum of
- * 360 degrees, if the landmarks show that they differ by more than the noise. The commissures get heights of their own in the
- * same way, and commissure_height is then the mean height. Otherwise sectors and proportions of heights stay. Rotations and
- * leaflet angles of an aortic valve follow from the landmarks. A leaflet_power at which cusps would overlap is lowered.
- * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear, mirrored, or too
- * large or small for a heart valve at this scale, and if they do not show the flow; the message names them. The axis of a
- * tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus' normal. A mitral valve must satisfy three
- * conditions:
+ * (docs/theory/landmarks.md). Cusps of a bicuspid, coapting or quadricuspid valve get different sectors, with a sum of 360
+ * degrees, if the landmarks show differences above the noise. The commissures get different heights in the same way, and
+ * commissure_height is then the mean height. If the landmarks show no such differences, sectors and proportions of heights stay.
+ * Rotations and leaflet angles of an aortic valve follow from the landmarks. A leaflet_power at which cusps would overlap is
+ * lowered.
+ * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear or mirrored, or that are too
+ * large or too small for a heart valve at this scale. Landmarks that do not show the flow are also refused. The message names the
+ * landmarks. The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus' normal. A mitral valve
+ * must satisfy three conditions:
  * - The posterior horn and the trigones are on their own sides of the annulus.
  * - The axis of the fitted valve is at most 20 degrees from the annulus' normal.
- * - The fitted AP_diameter agrees with the depth that the horns or the annulus show. The difference may be a twelfth of
- *   this depth or five times the noise.
+ * - The fitted AP_diameter agrees with the depth that the horns or the annulus show. The difference is at most a twelfth of this
+ *   depth, or five times the noise.
  * RIIS_INVALID_PARAMETER for a valve from patches, an unknown name in held, and sizes that do not fit together. */
 RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
                                 const riis_placement_arrays *arrays, riis_placement *placement,
@@ -133,30 +136,31 @@ typedef struct riis_warp_options {
   int64_t struct_size; /* set by the init function */
   double noise;        /* standard deviation of each coordinate of the targets, 0 to 1e50. The map is smoothed until it misses the
                           targets by about this noise. Default 0: the map meets the targets exactly */
-  const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates. Otherwise
-                                            landmarks and noise are in the mesh's frame, where scale, rotation and translation of
-                                            these options place the valve. Use the same options for the surface */
+  const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates. With these
+                                            options, landmarks and noise are in the mesh's frame, where the options' scale,
+                                            rotation and translation place the valve. Use the same options for the surface */
 } riis_warp_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);
 
 /* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, the warp is the identity.
- *   sources  3 to 1000 landmarks. Landmarks nearly in a plane do not determine the map across that plane. The map then stretches
- *            the plane's normal as much as the plane, and keeps the normal at right angles (riis_warp_info.is_planar)
+ *   `sources`: 3 to 1000 landmarks. Landmarks nearly in a plane do not determine the map across that plane. The map then
+ *     stretches the direction across the plane as much as the plane, and keeps it at right angles to the plane
+ *     (riis_warp_info.is_planar).
  * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
  * landmarks on a line. */
 RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
 /* Destroys the warp. Valves with this warp keep their copies. */
 RIIS_API void riis_warp_destroy(riis_warp **warp);
-/* Makes the warp take the landmarks to these places. The same targets give the same bits, whatever the earlier targets were.
- *   targets  as many points as the sources, in their order
- * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: half way from some
- * landmark to the nearest other one, its determinant is not above 0. A warp with more noise folds less. */
+/* Makes the warp take the landmarks to the targets. The same targets give the same bits, whatever the earlier targets were.
+ *   `targets`: as many points as the sources, in their order.
+ * Errors: RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds: half way from some landmark to
+ * the nearest other landmark, the determinant of the map's derivative is not above 0. A warp with more noise folds less. */
 RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
 /* Makes the warp take the landmarks to their places at a time, from a table of keys in time.
- *   frames  n_vertices is the number of landmarks. The keys are read during the call only
- *   time    magnitude at most 1e30
- * Errors: as riis_warp_set_targets; RIIS_INVALID_ARGUMENT naming the field, key or landmark and its value. */
+ *   `frames`: n_vertices is the number of landmarks. The keys are read during the call only.
+ *   `time`: magnitude at most 1e30.
+ * Errors: as riis_warp_set_targets. RIIS_INVALID_ARGUMENT naming the field, key or landmark and its value. */
 RIIS_API riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyframe_arrays *frames, double time);
 
 /* A warp's quality, in the units of its landmarks. */
@@ -176,22 +180,23 @@ typedef struct riis_warp_info {
 /* Gives the quality of a warp. */
 RIIS_API riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *info, int64_t struct_size);
 /* Maps points, such as points of the chords of a mitral valve.
- *   points  in the coordinates of the landmarks
- *   mapped  (3, n_points); may be the array of the points
+ *   `points`: in the coordinates of the landmarks.
+ *   `mapped` (3, n_points); may be the array of the points.
  * Errors: RIIS_INVALID_ARGUMENT naming the point. */
 RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *points, double *mapped);
 
 /* Warps a valve: its curves are mapped at every opening, before the placement. The valve copies both maps.
- *   closed  the map at opening 0. If both maps are NULL, the valve loses its warp.
- *   open    the map at opening 1. If this map is NULL, `closed` serves for all openings.
- * Between the openings the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches stay patches
- * between the mapped curves. Error bounds, fixed triangulations and velocities therefore hold as for any valve, and with
+ *   `closed`: the map at opening 0. If both maps are NULL, the valve loses its warp.
+ *   `open`: the map at opening 1. If this map is NULL, `closed` serves for all openings.
+ * Between the openings the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches then lie between
+ * the mapped curves. Error bounds, fixed triangulations and velocities therefore hold as for any valve. With
  * RIIS_TRIANGULATION_FIXED the warp may move. Landmarks of `closed` cut the curves of the closed valve, and landmarks of `open`
- * cut the curves of the open valve. The warped valve thus passes through the mapped landmarks on its curves. An annulus that
- * moves needs two valves in turn. In each step call riis_warp_set_targets and this function for one of them, and pass both to
- * riis_surface_update_moving. Either both valves have a warp, or neither has one. A call that makes or updates a surface refuses
- * a warp that folds at the valve or turns a part of it over: RIIS_INVALID_PARAMETER names the place and the value.
- * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`; RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
+ * cut the curves of the open valve. The warped valve thus passes through the mapped landmarks on its curves. A moving annulus
+ * needs two valves, which take turns. In each step call riis_warp_set_targets and this function for one of the two valves, and
+ * pass both valves to riis_surface_update_moving. Either both valves have a warp, or neither has one. A call that makes or
+ * updates a surface refuses a warp that folds at the valve or turns a part of the valve over: RIIS_INVALID_PARAMETER names the
+ * place and the value.
+ * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`. RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
 RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open);
 
 /* ---- Skirt: the gap between the attachment and a wall -------------------------------------------------- */
@@ -205,23 +210,23 @@ typedef struct riis_gap {
   int64_t n_without_wall;   /* the number of ends whose line misses the wall. These ends count in no other field */
 } riis_gap;
 /* Measures the gap between a valve's attachment and a wall, such as a patient's vessel.
- *   wall      a surface in the same frame, usually by riis_surface_create_from_arrays
- *   distance  (2, n_edges): the gap at both ends of each edge of riis_attachment; RIIS_FAR_DISTANCE if the line
- *             misses the wall. NULL if it is not wanted
+ *   `wall`: a surface in the same frame, usually by riis_surface_create_from_arrays.
+ *   `distance` (2, n_edges): the gap at both ends of each edge of riis_attachment. RIIS_FAR_DISTANCE if the line misses the wall.
+ *     NULL if it is not wanted.
  * The gap is the distance along the skirt's direction, which is outwards from the valve's axis and perpendicular to it
- * (docs/theory/skirt.md). If the line meets the wall several times, the nearest place counts. The gap is negative if the
- * wall lies inside.
+ * (docs/theory/skirt.md). If the line meets the wall several times, the nearest place counts. The gap is negative if the wall
+ * lies inside the attachment.
  * Errors: RIIS_INVALID_ARGUMENT for a surface without an attachment, and for an attachment that encloses no area. */
 RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance,
                                           riis_gap *gap, int64_t struct_size);
 /* Gives a valve a skirt that just reaches a wall, and replaces the valve's skirt.
- *   wall     as in riis_surface_get_gap
- *   longest  the longest length to accept, mesh units, 1e-50 to 1e50
- *   options  scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults
+ *   `wall`: as in riis_surface_get_gap.
+ *   `longest`: the longest length to accept, mesh units, 1e-50 to 1e50.
+ *   `options`: scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults.
  * The length at each point of the closed valve's attachment is the gap there. The length is at least 0.01 of the attachment's
  * mean distance from the axis. The lengths of the skirt stay while the valve opens. The parameter "skirt_length" becomes the
  * largest length, before placement. If the caller sets "skirt_length", the lengths at the points are lost.
- * Errors: RIIS_INVALID_ARGUMENT if the wall is missed or farther than longest, naming the first such point;
+ * Errors: RIIS_INVALID_ARGUMENT if the wall is missed or farther than longest, naming the first such point.
  * RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
 RIIS_API riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,
                                                   const riis_surface_options *options);

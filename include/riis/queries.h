@@ -14,7 +14,8 @@ extern "C" {
 
 /* ---- Closest points (paper, 4.1) ----------------------------------------------------------------------- */
 
-/* The closest point of the surface to one point. RIIS_MEASURE_* says what holds for other measures than triangles. */
+/* The closest point of the surface to one point. The comment of RIIS_MEASURE_* describes the closest points of sampling and
+ * minimisation. */
 typedef struct riis_closest {
   double distance;        /* >= 0, mesh units */
   double point[3];        /* on the triangle, mesh units */
@@ -22,13 +23,13 @@ typedef struct riis_closest {
   double normal[3];       /* unit normal of the triangle, by the right-hand rule */
   int64_t triangle_id;    /* the lowest id of the closest triangles */
   int32_t leaflet_id;     /* of the triangle */
-  int32_t side;           /* +1 on the side to which normals point (downstream), -1 on the other side, 0 on the surface
-                             or level with its rim. At a shared edge or vertex (equal placed coordinates),
-                             the angle-weighted mean of the normals decides (Baerentzen, Aanaes 2005) */
+  int32_t side;           /* +1 on the side to which normals point (downstream), -1 on the other side, 0 on the surface and in its
+                             continuation beyond the rim. At a shared edge or vertex (equal placed coordinates), the
+                             angle-weighted mean of the normals decides (Baerentzen, Aanaes 2005) */
 } riis_closest;
 /* Finds the closest point of the surface at any distance, in double precision, as a loop over all triangles
  * would. Distances below 1e-154 underflow to 0.
- *   point  3 finite coordinates, magnitude at most 1e60
+ *   `point`: 3 finite coordinates, magnitude at most 1e60.
  * Errors: RIIS_INVALID_ARGUMENT naming the coordinate. */
 RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
                                         int64_t struct_size);
@@ -66,7 +67,7 @@ typedef struct riis_closest_arrays {
 RIIS_API riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size);
 
 /* Finds the closest points of many points, in parallel.
- *   arrays  the arrays to write; none may overlap another or the coordinates
+ *   `arrays`: the arrays to write; none may overlap another or the coordinates.
  * Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written. */
 RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
                                          const riis_closest_options *options,
@@ -90,22 +91,22 @@ RIIS_API riis_status riis_crossings_create(riis_crossings **crossings); /* makes
 RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys the crossings and their list */
 
 /* Finds every pair of the surface's triangles that go through each other.
- *   options    a pair crosses if its depth is larger. A depth within the rounding error always counts as touching. The rounding
- *              error is 2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate
- *   crossings  its content is replaced
+ *   `options`: a pair crosses if it is deeper than options->depth. A depth within the rounding error always counts as touching.
+ *     The rounding error is 2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate.
+ *   `crossings`: its content is replaced.
  * The depth of a pair is the length of the shortest translation of one triangle after which the triangles only touch
  * (docs/theory/crossings.md). Triangles that touch or lie in one plane have depth 0. Triangles of one leaflet that share a vertex
- * (equal placed coordinates) are neighbours, not a pair. The call uses the triangles, also with other measures than
- * RIIS_MEASURE_TRIANGLES. Where smooth leaflets touch, their triangles may cross by twice riis_surface_info.error_bound. A log
- * function (riis_set_log) gets warnings of deeper crossings without this call.
+ * (equal placed coordinates) are neighbours, not a pair. The call uses the triangles, whatever the surface's measure is. Where
+ * smooth leaflets touch, their triangles may cross by up to twice riis_surface_info.error_bound. A log function (riis_set_log)
+ * gets warnings of deeper crossings even without this call.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
 RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings);
 
 /* Pairs of triangles that cross, ascending by first triangle, then by second. Lengths are in mesh units. */
 typedef struct riis_crossing_list {
-  int64_t n_pairs;            /* the number of pairs that cross. If this number is 0, ids are -1, and all other fields but seconds
-                                 are 0 */
+  int64_t n_pairs;            /* the number of pairs that cross. If this number is 0, ids are -1, and all other fields except
+                                 seconds are 0 */
   const int64_t *triangle_id; /* (2, n_pairs): the two triangles, the lower id first */
   const double *point;        /* (3, n_pairs): the middle of the segment where the two triangles meet */
   const double *depth;        /* (n_pairs): the penetration depth */

@@ -26,10 +26,10 @@
  *   centimetres. The scale of a placement turns centimetres into the mesh's unit (0.01 for metres).
  * - Ids: values called *_id count from 0, also in messages. If a struct has a field index_base, the ids in this struct count from
  *   that base, 0 (default) or 1. A field id_bits gives the ids' width: 32 (default) or 64.
- * - Points: point i is x[i * stride], y[i * stride], z[i * stride]. Coordinates are finite, of magnitude at most 1e60. The
- *   stride is in numbers, not bytes, and is at least 1: 1 for separate arrays, 3 for xyz(3,n) with y = x + 1, z = x + 2. A field
- *   real_bits gives the numbers' width: 64 (default) or 32. Without this field the numbers are doubles. These rules also hold for
- *   vectors.
+ * - Points: point i is x[i * stride], y[i * stride], z[i * stride]. Coordinates are finite, of magnitude at most 1e60. The stride
+ *   counts numbers, not bytes, and is at least 1. Separate arrays have the stride 1; xyz(3,n) with y = x + 1 and z = x + 2 has
+ *   the stride 3. A field real_bits gives the width of the numbers: 64 bits (default) or 32 bits. Without this field the numbers
+ *   are doubles. These rules also hold for vectors.
  * - Order: the first argument is the object that the function is named after. Then come arguments that the call reads,
  *   then options, then arguments that it writes. Functions with `get` in their names return content.
  * - Status: a function that can fail returns a riis_status; 0 is success, and riis_last_error() gives the message of a failure.
@@ -40,20 +40,22 @@
  * - Handles: a new object is the last argument, and is written only on success. A destroy function takes a handle's
  *   address, accepts NULL, and sets the handle to NULL. A destroy function ignores handles of another kind; other calls refuse
  *   such handles.
- * - Memory: a call reads its arguments and their arrays only while it runs, unless its comment says that it borrows them. Arrays
- *   that a call returns belong to the handle, and are valid until the handle's next update or destruction. A returned array
- *   without entries is NULL. The caller may also pass NULL for an array without entries.
- * - Structs that a call fills in are followed by their size, as in (&list, sizeof list). The call writes no more bytes.
+ * - Memory: a call reads its arguments and their arrays only while it runs. A call that borrows arrays for longer says so in its
+ *   comment. Arrays that a call returns belong to the handle, and are valid until the handle's next update or destruction. A
+ *   returned array without entries is NULL. The caller may also pass NULL for an array without entries.
+ * - A struct that a call fills in is followed by its size, as in (&list, sizeof list). The call writes at most this number of
+ *   bytes.
  * - Structs that a call reads begin with struct_size. The init function of a struct sets struct_size and the defaults, and sets
  *   all other fields to 0 or NULL. A NULL options pointer means all defaults. New fields are appended, or replace `reserved`,
  *   which must be 0.
  * - Threads: any number of threads may read a handle (const) at once. One thread may write a handle while no other thread reads
  *   it. Different handles never interfere. Results are bitwise the same for any number of threads.
- * - n_threads: 1 to 1024, or 0, the default. By default a call takes one thread, and one more for each 4096 triangles (of
- *   a surface's last content), 16,384 nodes, cells or faces, or 2048 points. The default never exceeds the number of processors
- *   in the calling thread's affinity mask. Parts of a call with little work take one thread by default. With n_threads 1, no
- *   thread is started. OMP_NUM_THREADS and omp_set_num_threads have no effect. If the system refuses a thread or its memory,
- *   OpenMP and TBB end the process (docs/building.md). The library's own threads block all signals but those of errors.
+ * - n_threads: 1 to 1024, or 0, the default. By default a call takes one thread, and one more for each 4096 triangles, 16,384
+ *   nodes, cells or faces, or 2048 points. The triangles are those of a surface's last content. The default never exceeds the
+ *   number of processors in the calling thread's affinity mask. Parts of a call with little work take one thread by default. With
+ *   n_threads 1, no thread is started. OMP_NUM_THREADS and omp_set_num_threads have no effect. If the system refuses a thread or
+ *   its memory, OpenMP and TBB end the process (docs/building.md). The library's own threads block all signals except the signals
+ *   of errors, such as SIGSEGV.
  * - fork(): if the library has used several threads, a child process may use only one thread, which is then the default. A child
  *   that requests more gets RIIS_UNAVAILABLE. A child cannot make surfaces if another thread was inside the library during the
  *   fork.

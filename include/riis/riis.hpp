@@ -3,8 +3,8 @@
 // riis.hpp - riis.h for C++14 and later: handles that destroy themselves, errors as exceptions, structs with their defaults,
 // spans.
 //
-// All calls are the functions of riis.h. Pass a handle as the pointer to an object, and its out() as the address of a
-// pointer:
+// All calls are the functions of riis.h. Pass a handle for a pointer to an object. Pass the handle's out() for the address of
+// such a pointer:
 //
 //   riis::Valve valve; riis::Surface surface; riis::Mesh mesh; riis::Marks marks;
 //   riis::check(riis_valve_create("mitral", valve.out()));
@@ -42,7 +42,7 @@ class Error : public std::runtime_error {
   riis_status status_;
 };
 
-// Throws an Error unless the status is RIIS_OK. Call it on the thread that made the refused call.
+// Throws an Error if the status is not RIIS_OK. Call it on the thread that made the refused call.
 inline void check(riis_status status) {
   if (status != RIIS_OK) throw Error(status, riis_last_error());
 }

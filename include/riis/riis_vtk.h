@@ -31,41 +31,39 @@ extern "C" {
 /* A mesh as read from the file: an unstructured grid with its points as doubles, or the axes of a rectilinear grid. */
 typedef struct riis_vtk_mesh riis_vtk_mesh;
 
-/* Reads a mesh, which may have no cells. Its nodes and cells keep the file's order, and cells of second order
- * get VTK's order of nodes. docs/formats.md has the limits of each format.
- *   path  a file by its ending, or a folder of OpenFOAM:
- *         .vtu (VTK XML), .vtk (legacy VTK), .vti, .vtr or .vts (structured grids of VTK), .vtm (blocks, whose shared
- *         nodes are joined), .msh (gmsh), .xdmf or .xmf, .e, .exo, .ex2 or .exii (Exodus), .foam, a case, its time
- *         folder, or a polyMesh
+/* Reads a mesh, which may have no cells. The mesh's nodes and cells keep the file's order, and cells of second order get VTK's
+ * order of nodes. docs/formats.md has the limits of each format.
+ *   `path`: a file, whose ending tells its format, or a folder of OpenFOAM: .vtu (VTK XML), .vtk (legacy VTK), .vti, .vtr or .vts
+ *     (structured grids of VTK), .vtm (blocks, whose shared nodes are joined), .msh (gmsh), .xdmf or .xmf, .e, .exo, .ex2 or
+ *     .exii (Exodus), .foam, a case, its time folder, or a polyMesh.
  * HDF5 and VTK's reader of Exodus can crash on damaged files. If you do not trust an .xdmf or Exodus file, read it in a
  * separate process, as the program riis does.
  * Errors: RIIS_FILE_ERROR naming the file, if it is missing, unreadable, of another kind, truncated, or has
  * no points. */
 RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
-/* Gives notes on the file in one line, such as "its points have single precision", or "". The text is valid
+/* Gives notes on the file in one line, such as "its points have single precision", or gives "" without notes. The text is valid
  * until the mesh is destroyed. */
 RIIS_API riis_status riis_vtk_mesh_get_notes(const riis_vtk_mesh *mesh, const char **notes);
 /* Replaces the nodes of the mesh by the centres of its cells, in the order of the cells. The call serves solvers with unknowns at
  * cell centres, and computes centres as OpenFOAM does. Two nodes are then neighbours if their cells share a face. Arrays that are
  * set later become arrays of cells. A mesh of centres has no parts (riis_vtk_mesh_extract).
- * Errors: RIIS_INVALID_ARGUMENT for a cell that is neither a linear volume cell nor a polyhedron, naming it.
- * The mesh then keeps its nodes. */
+ * Errors: RIIS_INVALID_ARGUMENT naming a cell that is no linear volume cell and no polyhedron. The mesh then keeps its nodes. */
 RIIS_API riis_status riis_vtk_mesh_use_centers(riis_vtk_mesh *mesh);
 /* Destroys the mesh. */
 RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
 
 /* Gives the nodes in the file's order, xyz(3, n_nodes), and the number of cells. The array is valid until the
  * mesh is destroyed.
- *   n_nodes, n_cells, xyz  NULL if not wanted */
+ *   `n_nodes`, `n_cells`, `xyz`: NULL if not wanted. */
 RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
                                              const double **xyz);
 
-/* Gives the axes of a mesh whose nodes are a rectilinear grid, for riis_mesh_create_grid: a .vti or .vtr file, or a
- * legacy file of these kinds, with two or more nodes along each axis and coordinates that strictly ascend. The cells
- * are hexahedra. Coordinates and cells are stored only after a call that needs them, such as riis_vtk_mesh_get_nodes.
- * riis_vtk_mesh_set_marks and the other calls for arrays do not need them.
- *   grid  ni, nj and nk are 0 for any other mesh, and after riis_vtk_mesh_use_centers or riis_vtk_mesh_choose_cells. x,
- *         y and z are valid until the mesh is destroyed */
+/* Gives the axes of a mesh whose nodes are a rectilinear grid, for riis_mesh_create_grid. Such a mesh comes from a .vti or .vtr
+ * file, or from a legacy file of these kinds. The mesh has two or more nodes along each axis, and coordinates that strictly
+ * ascend. The cells are hexahedra. Coordinates and cells are stored only after a call that needs them, such as
+ * riis_vtk_mesh_get_nodes. riis_vtk_mesh_set_marks and the other calls for arrays do not need them.
+ *   `grid`: ni, nj and nk are 0 for any other mesh, and after riis_vtk_mesh_use_centers or riis_vtk_mesh_choose_cells. x, y and z
+ *     are valid until the mesh is destroyed. */
 RIIS_API riis_status riis_vtk_mesh_get_axes(const riis_vtk_mesh *mesh, riis_grid *grid, int64_t struct_size);
 
 /* Makes the adjacency of nodes that are joined by an edge of a volume cell, for riis_mesh_set_adjacency. The adjacency borrows
@@ -73,27 +71,26 @@ RIIS_API riis_status riis_vtk_mesh_get_axes(const riis_vtk_mesh *mesh, riis_grid
  * not.
  * - A linear cell, a prism with more than three sides and a polyhedron have the edges of their faces.
  * - A quadratic cell has edges from each corner to the middles of its sides, and between the middles of
- *   neighbouring sides of a face. If a face has a node in its middle, edges join this node to all others of the face
+ *   neighbouring sides of a face. If a face has a node in its middle, edges join this node to all other nodes of the face
  *   instead.
  * - A Lagrange or Bezier tetrahedron, wedge or hexahedron has edges along the lines of its lattice.
  * The edges of two kinds of volume cells are not known here: convex point sets, and Lagrange and
  * Bezier cells with nodes beyond their lattice. */
 RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads,
                                                     riis_adjacency **adjacency);
-/* Counts the volume cells. In a mesh without volume cells, such as a mesh of triangles, no edge could
- * leak, so leaks are unknown.
- *   n_volume_cells    NULL if not wanted
- *   n_cells_left_out  the number of volume cells whose edges are not known here; NULL if not wanted */
+/* Counts the volume cells. In a mesh without volume cells, such as a mesh of triangles, no edge can be found to leak, so leaks
+ * are unknown.
+ *   `n_volume_cells`: NULL if not wanted.
+ *   `n_cells_left_out`: the number of volume cells whose edges are not known here; NULL if not wanted. */
 RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
                                                     int64_t *n_cells_left_out);
 
 /* Copies the cells in the file's order. Call it twice: the first call gives the number of node ids as its last offset.
- *   n_cells     the number of cells, as riis_vtk_mesh_get_nodes gives it
- *   offsets     (n_cells + 1): cell i has the nodes node_ids[offsets[i]] to node_ids[offsets[i + 1] - 1]; NULL if not
- *               wanted
- *   types       (n_cells): VTK's numbers of the types, such as 10 for a tetrahedron; NULL if not wanted
- *   n_node_ids  the last offset; 0 if node_ids is NULL
- *   node_ids    (n_node_ids), from 0, in VTK's order; NULL if not wanted. Each point of a polyhedron is listed once
+ *   `n_cells`: the number of cells, as riis_vtk_mesh_get_nodes gives it.
+ *   `offsets` (n_cells + 1): cell i has the nodes node_ids[offsets[i]] to node_ids[offsets[i + 1] - 1]; NULL if not wanted.
+ *   `types` (n_cells): VTK's numbers of the types, such as 10 for a tetrahedron; NULL if not wanted.
+ *   `n_node_ids`: the last offset; 0 if node_ids is NULL.
+ *   `node_ids` (n_node_ids), from 0, in VTK's order; NULL if not wanted. Each point of a polyhedron is listed once.
  * Errors: RIIS_INVALID_ARGUMENT for n_cells or n_node_ids of another mesh, and for a mesh of centres. */
 RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t n_cells, int64_t *offsets,
                                               uint8_t *types, int64_t n_node_ids, int64_t *node_ids);
@@ -101,10 +98,10 @@ RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t
 /* Makes the part of the mesh's adjacency that riis_find_leaks needs, in one pass over the cells. The part consists of the edges
  * that are longer than a given length and whose bounding box meets the surface's bounding box. The adjacency borrows nothing from
  * the mesh. Use this part only for riis_find_leaks: a search cannot go far along so few edges.
- *   longer_than       2 (1 - |o|) half thicknesses of the marking, with the offset o. 0 gives all edges near the
- *                     surface. Use 0 after a marking by RIIS_SEARCH_PAPER, or if distances were not measured to the
- *                     triangles. Edges that are shorter by up to a billionth are also included
- *   n_cells_left_out  as in riis_vtk_mesh_get_volume_cells
+ *   `longer_than`: 2 (1 - |o|) half thicknesses of the marking, with the offset o. 0 gives all edges near the surface. Use 0
+ *     after a marking by RIIS_SEARCH_PAPER, or if distances were not measured to the triangles. Edges that are shorter by up to a
+ *     billionth are also included.
+ *   `n_cells_left_out`: as in riis_vtk_mesh_get_volume_cells.
  * Errors: RIIS_INVALID_ARGUMENT if longer_than is below 0 or not finite. */
 RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
                                                      double longer_than, int32_t n_threads,
@@ -112,69 +109,71 @@ RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, 
 
 /* Sets the point arrays of a marking: PREFIX_marked (UInt8, 0 or 1), PREFIX_distance (Float64, far_distance
  * beyond the limit), PREFIX_leaflet (Int32, -1 beyond the limit). Arrays of these names are replaced.
- *   far_distance  as in riis_dense_arrays
- *   prefix        1 to 64 letters, digits, "_", "-" and ".". NULL stands for "riis", whose marks riis_vtk_draw
- *                 shows
+ *   `far_distance`: as in riis_dense_arrays.
+ *   `prefix`: 1 to 64 letters, digits, "_", "-" and ".". NULL stands for "riis", whose marks riis_vtk_draw shows.
  * Errors: RIIS_INVALID_ARGUMENT for marks of a mesh with another number of nodes. */
 RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_marks *marks, double far_distance,
                                              const char *prefix);
 /* Sets point arrays for the fields of a marking: PREFIX_point, PREFIX_normal, PREFIX_barycentric, PREFIX_uv,
  * PREFIX_velocity (Float64), PREFIX_side, PREFIX_rim, PREFIX_patch (Int32). Beyond the limit these arrays are 0, and PREFIX_patch
  * is -1.
- *   fields  a sum of RIIS_FIELD_* of the marking's fields
- *   prefix  as in riis_vtk_mesh_set_marks
+ *   `fields`: a sum of RIIS_FIELD_* of the marking's fields.
+ *   `prefix`: as in riis_vtk_mesh_set_marks.
  * Errors: RIIS_INVALID_ARGUMENT for a field that the marks lack, and as in riis_vtk_mesh_set_marks. */
 RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_marks *marks,
                                               int32_t fields, const char *prefix);
 /* Sets a point array with the caller's numbers, such as a resistance. An array of that name is replaced.
- *   name          the same letters as the prefix of riis_vtk_mesh_set_marks
- *   n_nodes       the mesh's number of nodes
- *   n_components  1 to 9 for each node
- *   values        (n_components, n_nodes) */
+ *   `name`: the same letters as the prefix of riis_vtk_mesh_set_marks.
+ *   `n_nodes`: the mesh's number of nodes.
+ *   `n_components`: 1 to 9 for each node.
+ *   `values` (n_components, n_nodes). */
 RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const char *name, int64_t n_nodes,
                                                    int64_t n_components, const double *values);
 /* Names the unit of a point array, as VTK's key UNITS_LABEL in .vtu and .pvtu, and as the attribute Unit in XDMF.
- *   name  the name of an array
- *   unit  1 to 64 characters of ASCII that can be printed, such as "g/(cm3 s)"
+ *   `name`: the name of an array.
+ *   `unit`: 1 to 64 characters of ASCII that can be printed, such as "g/(cm3 s)".
  * Errors: RIIS_INVALID_ARGUMENT for a name that the mesh lacks, and for another unit. */
 RIIS_API riis_status riis_vtk_mesh_set_unit(riis_vtk_mesh *mesh, const char *name, const char *unit);
-/* Tells whether the mesh has a point array of that name: *has is then 1, otherwise 0. */
+/* Tells whether the mesh has a point array of that name: *has becomes 1 or 0. */
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
-/* Gives the median length of the edges of volume cells, as in riis_vtk_mesh_create_adjacency, and of faces
- * other than polygons. The length is 0 if the mesh has no such cells. An edge counts once for each of its cells. At most 20,000
- * cells, at equal distances in the list, are measured. */
+/* Gives the median length of edges. The edges of volume cells count, as in riis_vtk_mesh_create_adjacency, and the edges of all
+ * faces except polygons. The length is 0 if the mesh has no such cells. An edge counts once for each of its cells. At most 20,000
+ * cells, evenly spaced in the list, are measured. */
 RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length);
 
-/* Keeps only the cells with certain values in a cell array, such as the fluid of a mesh that also has the wall, and
- * their nodes. Nodes and cells keep their order and their data. As in riis_vtk_mesh_extract, riis_node_id and
- * riis_cell_id have their ids in the whole mesh, also in later parts of this mesh.
- *   where     NAME=VALUES, such as "region=1,2". NAME is a cell array of single numbers. For gmsh's physical groups NAME is
- *             gmsh:physical, and VALUES may be names of groups; all groups of a cell count
- *   n_chosen  the number of cells with such a value; only volume cells count if the mesh has some. NULL refuses none
+/* Keeps only the cells with certain values in a cell array, and their nodes. An example is the fluid of a mesh that also has the
+ * wall. Nodes and cells keep their order and their data. As in riis_vtk_mesh_extract, the arrays riis_node_id and riis_cell_id
+ * have the ids in the whole mesh. Parts that are later made of this mesh also have the ids in the whole mesh.
+ *   `where`: NAME=VALUES, such as "region=1,2". NAME is a cell array of single numbers. For gmsh's physical groups NAME is
+ *     gmsh:physical, and VALUES may be names of groups; all groups of a cell count.
+ *   `n_chosen`: the number of cells with such a value; only volume cells count if the mesh has some. With NULL the call fails if
+ *   there is no such cell.
  * Errors: RIIS_INVALID_ARGUMENT if there is no such array or name; the mesh is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_choose_cells(riis_vtk_mesh *mesh, const char *where, int64_t *n_chosen);
-/* Gives a cell array that probably numbers domains. Volume cells have 2 to 16 whole numbers in this array, and two cells of one
- * type with a common node have different numbers. Arrays named for something else, such as "rank", do not count.
- *   array     its name, until the next call or the mesh's destruction. "" if there is none
- *   n_values  the number of its values; 0 if there is none
- *   values    (n_values), ascending. NULL if they are not wanted */
+/* Gives a cell array that probably numbers domains. The volume cells have 2 to 16 different whole numbers in this array. At least
+ * one pair of cells of the same type with a common node has different numbers. Arrays named for something else, such as "rank",
+ * do not count.
+ *   `array`: its name, until the next call or the mesh's destruction. "" if there is none.
+ *   `n_values`: the number of its values; 0 if there is none.
+ *   `values` (n_values), ascending. NULL if they are not wanted. */
 RIIS_API riis_status riis_vtk_mesh_find_regions(riis_vtk_mesh *mesh, const char **array, int64_t *n_values,
                                                 const double **values);
 
 /* Tells which points lie outside the mesh and farther than a distance from all of its volume cells. Cells of higher
  * order have straight edges here. A point is outside a mesh in pieces if it is outside each piece.
- *   xyz         (3, n_points), finite
- *   distance    >= 0, finite, in the unit of xyz. With the distance 0 the call finds the points that no cell contains
- *   is_outside  (n_points). In: 0 for points that are not wanted. Out: 0 also for the points that are not outside
+ *   `xyz` (3, n_points), finite.
+ *   `distance`: >= 0, finite, in the unit of xyz. With the distance 0 the call finds the points that no cell contains.
+ *   `is_outside` (n_points). Before the call, 0 stands for points that are not wanted. The call also writes 0 for points that are
+ *     not outside.
  * Errors: RIIS_INVALID_ARGUMENT naming the argument and its value; is_outside is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64_t n_points, const double *xyz,
                                                 double distance, uint8_t *is_outside);
 
 /* Makes a mesh of all cells that have one of the given nodes, with all nodes of these cells. Nodes and cells
- * keep their order and their data. Two new arrays give their ids in the whole mesh: riis_node_id of points
- * and riis_cell_id of cells (Int64). The part borrows nothing.
- *   n_ids     >= 0
- *   node_ids  (n_ids), 0 to n_nodes - 1, in any order
+ * keep their order and their data. Two new arrays give the ids of nodes and cells in the whole mesh: riis_node_id of points and
+ * riis_cell_id of cells (Int64). The part borrows nothing.
+ *   `n_ids`: >= 0.
+ *   `node_ids` (n_ids), 0 to n_nodes - 1, in any order.
  * Errors: RIIS_INVALID_ARGUMENT naming the id and its position in node_ids. */
 RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_ids, const int64_t *node_ids,
                                            riis_vtk_mesh **part);
@@ -183,12 +182,12 @@ RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_
 RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes);
 
 /* Writes the mesh with all its arrays to a file. The points are Float64.
- *   path  ends in .vtu, or in .xdmf. If the mesh was read as the axes of a grid, the path may also end in .vtr, or in .vti if the
- *         axes are evenly spaced, as in an image; neither format stores cells. The numbers of NAME.xdmf are in NAME.h5 beside it,
- *         or in NAME.xdmf itself if riis was built without HDF5. Polyhedra and text have no place in an .xdmf. If the mesh was
- *         read from a case of OpenFOAM, with nodes at centres, the path may also be a time folder of the case, such as CASE/0.
- *         The arrays of cells become the folder's fields, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface
- *         becomes Ku. Such a folder may be written in part if an error occurs */
+ *   `path`: ends in .vtu, or in .xdmf. A mesh that was read as the axes of a grid can also go to a .vtr file, or with evenly
+ *     spaced axes to a .vti file. Files .vtr and .vti store no cells. The numbers of NAME.xdmf are in NAME.h5 beside it, or in
+ *     NAME.xdmf itself if riis was built without HDF5. An .xdmf file cannot hold polyhedra or text. If the mesh was read from a
+ *     case of OpenFOAM, with nodes at centres, the path may also be a time folder of the case, such as CASE/0. The arrays of
+ *     cells become the fields of this folder, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface becomes Ku. A
+ *     time folder may be written in part if an error occurs. */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
 
 /* ---- Meshes in pieces ---------------------------------------------------------------------------------- */
@@ -196,32 +195,32 @@ RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *
 /* A list of .vtu files, the pieces of one mesh, as in a .pvtu file. The pieces are read one by one, so a mesh may be
  * larger than the memory. */
 typedef struct riis_vtk_pieces riis_vtk_pieces;
-/* Reads the list, not the pieces.
- *   path  ends in .pvtu. Names of pieces are absolute or relative to its folder
+/* Reads the list, but not the pieces.
+ *   `path`: ends in .pvtu. Names of pieces are absolute, or relative to the folder of the .pvtu file.
  * Errors: RIIS_FILE_ERROR naming the file and the piece: if there is no piece, if a piece is missing, is listed twice
  * or is no .vtu file, and as in riis_vtk_mesh_read. */
 RIIS_API riis_status riis_vtk_pieces_read(const char *path, riis_vtk_pieces **pieces);
 /* Makes a list of pieces that have the same arrays as a mesh, for riis_vtk_pieces_write. The list borrows nothing.
- *   n_files  1 to 1,000,000
- *   files    (n_files), the paths of the pieces, which need not exist yet */
+ *   `n_files`: 1 to 1,000,000.
+ *   `files` (n_files), the paths of the pieces, which need not exist yet. */
 RIIS_API riis_status riis_vtk_pieces_create(const riis_vtk_mesh *mesh, int64_t n_files, const char *const *files,
                                             riis_vtk_pieces **pieces);
 /* Replaces the files of the list, and keeps its arrays.
- *   n_files, files  as in riis_vtk_pieces_create */
+ *   `n_files`, `files`: as in riis_vtk_pieces_create. */
 RIIS_API riis_status riis_vtk_pieces_set_files(riis_vtk_pieces *pieces, int64_t n_files, const char *const *files);
 /* Destroys the list. */
 RIIS_API void riis_vtk_pieces_destroy(riis_vtk_pieces **pieces);
 /* Gives the files of the pieces.
- *   paths  (n_files), valid until the list is destroyed. A relative name is preceded by the folder of the .pvtu */
+ *   `paths` (n_files), valid until the list is destroyed. A relative name is preceded by the folder of the .pvtu. */
 RIIS_API riis_status riis_vtk_pieces_get_files(const riis_vtk_pieces *pieces, int64_t *n_files,
                                                const char *const **paths);
 /* Reads a piece, which may have no points.
- *   piece  0 to n_files - 1
- * Errors: as in riis_vtk_mesh_read; RIIS_FILE_ERROR also for a piece with other point or cell arrays than the .pvtu
+ *   `piece`: 0 to n_files - 1.
+ * Errors: as in riis_vtk_mesh_read. RIIS_FILE_ERROR also for a piece with other point or cell arrays than the .pvtu
  * declares. The array vtkGhostType need not be declared. */
 RIIS_API riis_status riis_vtk_pieces_read_mesh(const riis_vtk_pieces *pieces, int64_t piece, riis_vtk_mesh **mesh);
 /* Writes the list to a file. Names of pieces become relative to the file's folder, unless they are absolute.
- *   path  ends in .pvtu */
+ *   `path`: ends in .pvtu. */
 RIIS_API riis_status riis_vtk_pieces_write(const riis_vtk_pieces *pieces, const char *path);
 
 /* How a node of a piece belongs to the whole mesh. */
@@ -241,9 +240,9 @@ typedef struct riis_vtk_sharing {
 } riis_vtk_sharing;
 /* Tells which nodes of a piece other pieces may share. Global ids are the point array with VTK's attribute GlobalIds,
  * else the array vtkGlobalIds, GlobalNodeId or GlobalPointIds.
- *   n_nodes    the mesh's number of nodes
- *   role       (n_nodes), RIIS_VTK_NODE_*
- *   global_id  (n_nodes), set if the mesh has global ids; NULL if not wanted
+ *   `n_nodes`: the mesh's number of nodes.
+ *   `role` (n_nodes), RIIS_VTK_NODE_*.
+ *   `global_id` (n_nodes), set if the mesh has global ids; NULL if not wanted.
  * Errors: RIIS_FILE_ERROR for global ids that are not whole numbers, and for a vtkGhostType that is not UInt8. */
 RIIS_API riis_status riis_vtk_mesh_get_sharing(const riis_vtk_mesh *mesh, int64_t n_nodes, uint8_t *role,
                                                int64_t *global_id, riis_vtk_sharing *sharing, int64_t struct_size);
@@ -254,13 +253,12 @@ RIIS_API riis_status riis_vtk_mesh_get_sharing(const riis_vtk_mesh *mesh, int64_
 typedef struct riis_vtk_surface riis_vtk_surface;
 
 /* Reads a surface. Polygons, strips and quadratic faces are cut into triangles. Quads stay quads if the file has only quads.
- *   path      ends in .vtp or .vtk (faces only), .vtu (faces, also quadratic; errors name other cells), .stl, .obj
- *             or .ply
- *   leaflets  the name of the cell array of leaflet ids, one whole number >= 0 for each cell. The array must
- *             exist. NULL stands for riis_leaflet, which may be missing
- * The point array riis_attached, if the file has it, becomes riis_surface_arrays.attached. It has one number for each point.
- * A quad is cut from its first corner to its third. If this line runs outside a concave quad, the cut goes
- * from the second corner to the fourth, with the same winding.
+ *   `path`: ends in .vtp or .vtk (faces only), .vtu (faces, also quadratic; errors name other cells), .stl, .obj or .ply.
+ *   `leaflets`: the name of the cell array of leaflet ids, one whole number >= 0 for each cell. The array must exist. NULL stands
+ *     for riis_leaflet, which may be missing.
+ * The point array riis_attached, if the file has it, becomes riis_surface_arrays.attached. This array has one number for each
+ * point. A quad is cut from its first corner to its third. If this line runs outside a concave quad, the cut goes from the second
+ * corner to the fourth, with the same winding.
  * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the arrays that exist. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflets, riis_vtk_surface **surface);
 /* Makes a surface of the faces that only one volume cell of the mesh has. This surface is the wall around the blood, and its
@@ -282,11 +280,10 @@ RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
 RIIS_API riis_status riis_vtk_surface_get_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays,
                                                  int64_t struct_size);
 
-/* Writes to a file exactly the triangles that answer queries, after placement. Points are Float64. Cell arrays
- * are riis_leaflet, riis_patch (Int32) and riis_triangle (Int64). Point arrays are riis_uv (2 x Float64) for
- * valves, riis_velocity (3 x Float64) if the surface's last update gave velocities, and riis_attached (UInt8) if the
- * surface has an attachment: 1 at its vertices.
- *   path  ends in .vtp */
+/* Writes exactly the triangles that answer queries to a file, after placement. Points are Float64. Cell arrays are riis_leaflet,
+ * riis_patch (Int32) and riis_triangle (Int64). Point arrays are riis_uv (2 x Float64) for valves, riis_velocity (3 x Float64) if
+ * the surface's last update gave velocities, and riis_attached (UInt8) if the surface has an attachment: 1 at its vertices.
+ *   `path`: ends in .vtp. */
 RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const char *path);
 
 /* ---- Motion -------------------------------------------------------------------------------------------- */
@@ -310,35 +307,34 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
 typedef struct riis_vtk_motion riis_vtk_motion;
 
 /* Reads a motion from a ParaView collection. Each DataSet has a timestep and a file, whose path is absolute or
- * relative to the folder of the .pvd file. Other attributes are ignored, so a time with several parts is
- * refused.
+ * relative to the folder of the .pvd file. Other attributes of a DataSet are ignored, so a time with several parts is refused.
  * Errors: RIIS_FILE_ERROR naming the .pvd file and the DataSet, also if there is no DataSet. */
 RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaflets,
                                               riis_vtk_motion **motion);
 /* Reads a motion from a list of files.
- *   n_files  1 to 1,000,000
- *   paths    (n_files)
- *   times    (n_files)
+ *   `n_files`: 1 to 1,000,000.
+ *   `paths` (n_files).
+ *   `times` (n_files).
  * Errors: RIIS_INVALID_ARGUMENT naming the entry of paths or times. */
 RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *const *paths,
                                                 const double *times, const char *leaflets,
                                                 riis_vtk_motion **motion);
-/* Reads a motion from one .vtp or .vtu file with displacements. Each frame is the points plus a point array of
- * 3 components. The points alone make no frame.
- *   prefix   the name of each array is the prefix, then "_" or nothing, then a whole number, as in
- *            displacement_0 and displacement_10. Frames are in the order of the numbers, which may have gaps
- *   n_times  the number of these arrays, or 0
- *   times    (n_times); NULL, with n_times 0, takes the times from the field array TimeValue
+/* Reads a motion from one .vtp or .vtu file with displacements. A frame consists of the points plus the displacements in a point
+ * array of 3 components. The points without displacements are not a frame.
+ *   `prefix`: the name of each array is the prefix, then "_" or nothing, then a whole number, as in displacement_0 and
+ *     displacement_10. Frames are in the order of the numbers, which may have gaps.
+ *   `n_times`: the number of these arrays, or 0.
+ *   `times` (n_times); NULL, with n_times 0, takes the times from the field array TimeValue.
  * Errors: RIIS_INVALID_ARGUMENT for a bad entry of times, which the message names, and if n_times is not the number of
  * arrays. */
 RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const char *prefix, int64_t n_times,
                                                         const double *times, const char *leaflets,
                                                         riis_vtk_motion **motion);
-/* Reads a motion from a file of svMultiPhysics, as riis export writes it: the positions of all nodes, frame by
- * frame. The faces are in a .vtu or .vtp file in the same folder. For NAME_motion_open.dat this file
- * is NAME_motion_open, NAME_motion or NAME, each also followed by _mesh or _face.
- *   path       ends in .dat
- *   time_step  above 0: the time from a frame to the next one. The first frame is at 0
+/* Reads a motion from a file for svMultiPhysics that riis export wrote. The file has the positions of all nodes, frame by frame.
+ * The faces are in a .vtu or .vtp file in the same folder. For NAME_motion_open.dat the name of this file is NAME_motion_open,
+ * NAME_motion or NAME, each also followed by _mesh or _face.
+ *   `path`: ends in .dat.
+ *   `time_step`: above 0: the time from a frame to the next one. The first frame is at 0.
  * Errors: RIIS_INVALID_ARGUMENT for a bad time_step. */
 RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_step, const char *leaflets,
                                                  riis_vtk_motion **motion);
@@ -347,7 +343,7 @@ RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_s
  * Errors: RIIS_INVALID_ARGUMENT naming the frame with another time. */
 RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_vtk_motion *other);
 /* Gives the files that were read: one for each frame, or the one file with displacements.
- *   paths  (n_files): the path as given, preceded by the folder of a .pvd file; valid until the motion is destroyed */
+ *   `paths` (n_files): the path as given, preceded by the folder of a .pvd file; valid until the motion is destroyed. */
 RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, int64_t *n_files,
                                                const char *const **paths);
 /* Makes every connected piece of the first frame a leaflet, as riis_vtk_surface_number_pieces does. */
@@ -391,7 +387,7 @@ enum {
   RIIS_VTK_PANELS_MARKS = 2  /* only the marked cells. The picture must have a mesh */
 };
 
-/* The contents and the view of a picture. Texts are in ASCII. Characters outside ASCII are drawn as "?". */
+/* The contents and the view of a picture. Texts are in ASCII. A character outside ASCII is drawn as "?". */
 typedef struct riis_vtk_picture_options {
   int64_t struct_size;    /* set by the init function */
   const char *title;      /* the caption of the surface, which may have one line break. Default NULL: "Surface" */
@@ -401,19 +397,19 @@ typedef struct riis_vtk_picture_options {
   const char *const *leaflet_names; /* (n_leaflet_names): the names by leaflet_id, for the key of the colours. Default
                                        NULL: "leaflet 0", ..., as for leaflets without a name here */
   int64_t n_leaking_edges;/* >= 0, default 0 */
-  const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, which are drawn dark red before the rest. Default
-                                   NULL: the picture says nothing of leaks. If n_leaking_edges is 0 and leaking_edges is not NULL,
-                                   the picture says that no edge leaks */
+  const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, which are drawn dark red in front of everything
+                                   else. Default NULL: the picture says nothing about leaks. If n_leaking_edges is 0 and
+                                   leaking_edges is not NULL, the picture says that no edge leaks */
   int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */
   int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
   int32_t reserved;       /* 0 */
-  double rotation_axis[3]; /* of the valve's placement, for RIIS_VTK_VIEW_VALVE_*; ranges as in
+  double rotation_axis[3]; /* the rotation axis of the valve's placement, for RIIS_VTK_VIEW_VALVE_*, with the ranges of
                               riis_surface_options. Default (0, 0, 1) */
   double rotation_angle;  /* degrees. Default 0: the valve has the mesh's axes */
   const riis_surface *wall; /* the wall around a surface without a mesh. With a mesh, whose boundary is the wall, this field is
                                ignored. Default NULL: none */
   double background[4];   /* red, green and blue, 0 to 1, then the opacity, 0 or 1. Texts are dark on a bright colour, and bright
-                             on a dark one. The opacity 0 makes a transparent picture, with the texts that fit the colour. Default
+                             on a dark one. The opacity 0 makes the picture transparent; the texts still suit the colour. Default
                              (1, 1, 1, 1): white */
   int32_t captions;       /* RIIS_VTK_CAPTIONS_*. Default RIIS_VTK_CAPTIONS_ALL */
   int32_t panels;         /* RIIS_VTK_PANELS_*. Default RIIS_VTK_PANELS_BOTH */
@@ -432,20 +428,20 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  * - Captions name the half thickness and count the marked nodes.
  * - Axes and a scale bar are below the panels. If a mesh is much longer than the surface, the picture cuts
  *   it at dashed lines. Pictures lower than 120 pixels have no texts, axes or bar.
- * - RIIS_VTK_VIEW_THREE and RIIS_VTK_VIEW_VALVE_THREE draw one column for each view, with the panels above each
- *   other. The columns have the same scale.
+ * - RIIS_VTK_VIEW_THREE and RIIS_VTK_VIEW_VALVE_THREE draw one column for each view, with one panel above the other. The columns
+ *   have the same scale.
  *
- *   mesh  must have marks set. NULL draws the surface alone, in one panel
- *   path  ends in .png
- * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for
+ *   `mesh`: must have marks set. NULL draws the surface alone, in one panel.
+ *   `path`: ends in .png.
+ * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second. RIIS_INVALID_ARGUMENT for
  * leaking_edges without a mesh, or with nodes that the mesh lacks, and for RIIS_VTK_PANELS_MARKS without a mesh. */
 RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_mesh *mesh,
                                    const riis_vtk_picture_options *options, const char *path);
 
 /* Draws one picture for each view, as riis_vtk_draw does, but makes geometry and window only once.
- *   n_views  >= 0
- *   views    (n_views) RIIS_VTK_VIEW_*; options->view is ignored
- *   paths    (n_views) the files. Pictures that were finished before an error stay
+ *   `n_views`: >= 0.
+ *   `views` (n_views) RIIS_VTK_VIEW_*; options->view is ignored.
+ *   `paths` (n_views) the files. Pictures that were finished before an error stay.
  * Errors: as riis_vtk_draw. */
 RIIS_API riis_status riis_vtk_draw_views(const riis_surface *surface, const riis_vtk_mesh *mesh,
                                          const riis_vtk_picture_options *options, int64_t n_views,
@@ -454,16 +450,16 @@ RIIS_API riis_status riis_vtk_draw_views(const riis_surface *surface, const riis
 /* Pictures of a moving valve in one mesh, all seen by one camera, such as the frames of a movie. */
 typedef struct riis_vtk_film riis_vtk_film;
 /* Makes the window and the outline of the mesh, which all pictures share.
- *   mesh          the nodes and cells must stay the same, but the marks may change. NULL draws the surface alone. The film shares
- *                 the mesh's data, so the caller may destroy the mesh first
- *   lower, upper  (3), bounds of the surface at all times along the mesh's axes, for the camera
- *   options       the view, the size and the leaflets' names; title and leaking edges are ignored
- * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for
+ *   `mesh`: the nodes and cells must stay the same, but the marks may change. NULL draws the surface alone. The film shares the
+ *     mesh's data, so the caller may destroy the mesh first.
+ *   `lower`, `upper` (3), bounds of the surface at all times along the mesh's axes, for the camera.
+ *   `options`: the view, the size and the leaflets' names; title and leaking edges are ignored.
+ * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second. RIIS_INVALID_ARGUMENT for
  * bounds that are not finite or do not ascend. */
 RIIS_API riis_status riis_vtk_film_create(const riis_vtk_mesh *mesh, const double *lower, const double *upper,
                                           const riis_vtk_picture_options *options, riis_vtk_film **film);
-/* Draws the surface and the marks that the mesh has at present into a .png file, as riis_vtk_draw does.
- *   title  as in riis_vtk_picture_options
+/* Draws the surface and the present marks of the mesh into a .png file, as riis_vtk_draw does.
+ *   `title`: as in riis_vtk_picture_options.
  * Errors: as riis_vtk_draw. */
 RIIS_API riis_status riis_vtk_film_draw(riis_vtk_film *film, const riis_surface *surface, const char *title,
                                         const char *path);

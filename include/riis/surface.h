@@ -30,9 +30,9 @@ enum {
   RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
   RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
   RIIS_LEAFLET_HOUSING = 2,     /* bileaflet: the housing's wall, if ring_height is not 0 */
-  RIIS_LEAFLET_SKIRT = 3        /* the skirt of a valve of any kind but bileaflet, if skirt_length is not 0. It has this id,
-                                   or the largest leaflet_id + 1 if that is larger, as for four cusps. A skirt of arrays
-                                   gets its id by the same rule. riis_surface_info tells the id */
+  RIIS_LEAFLET_SKIRT = 3        /* the skirt of a valve of any kind except bileaflet, if skirt_length is not 0. The skirt has this
+                                   id, or the leaflets' largest leaflet_id + 1 if that number is larger, as for four cusps. A
+                                   skirt of arrays gets its id by the same rule. riis_surface_info tells the id */
 };
 
 /* How triangles of zero area in the caller's arrays are treated. */
@@ -41,15 +41,15 @@ enum {
   RIIS_ZERO_AREA_SKIP = 1    /* skip and count such triangles, and log a warning; other triangles keep their ids */
 };
 
-/* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation are for comparison with
- * the paper, and only for surfaces of valves. Sampling and minimisation measure to points S(u,v) of patches, with the error e =
- * measure_tolerance * half_thickness (docs/theory/paper-distances.md). Their closest points have the leaflet_id of the patch, the
- * normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0. With sampling and minimisation, calls refuse
- * arrays for barycentric and side, and RIIS_SEARCH_CLUSTERS, as RIIS_INVALID_ARGUMENT. */
+/* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation serve comparisons with the
+ * paper, and work only for surfaces of valves. Sampling and minimisation measure the distance to points S(u,v) of the patches,
+ * with the error e = measure_tolerance * half_thickness (docs/theory/paper-distances.md). A closest point by sampling or
+ * minimisation has the leaflet_id of the patch, the normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0.
+ * With sampling or minimisation, calls refuse RIIS_SEARCH_CLUSTERS and arrays for barycentric and side: RIIS_INVALID_ARGUMENT. */
 enum {
   RIIS_MEASURE_TRIANGLES = 0,   /* the closest point of all triangles, without approximation */
-  RIIS_MEASURE_SAMPLING = 1,    /* the nearest of points spaced evenly on the patches, at most 16,777,216 of them.
-                                    The distance is at most e too large, and at most e / 10 too small */
+  RIIS_MEASURE_SAMPLING = 1,    /* the nearest of at most 16,777,216 points that are spaced evenly on the patches. The distance is
+                                    at most e too large, and at most e / 10 too small */
   RIIS_MEASURE_MINIMIZATION = 2 /* Powell's method (1964) runs on every patch. The distance is at most e / 10 too small. In a
                                    local minimum the distance may be too large by any amount, and nothing shows this */
 };
@@ -66,10 +66,11 @@ enum {
                                      slide of the vertices */
 };
 
-/* Options of a surface. The placement, also of arrays, is x -> scale * rotation * x + translation. */
+/* Options of a surface. The placement of a valve or of arrays is x -> scale * rotation * x + translation. */
 typedef struct riis_surface_options {
   int64_t struct_size;     /* set by the init function */
-  double half_thickness;   /* d_min (paper, 4.2), mesh units, 1e-50 to 1e50. Default RIIS_AUTO: 0.1 * scale */
+  double half_thickness;   /* the half thickness of the band, in mesh units, 1e-50 to 1e50: d_min in the paper (4.2). Default
+                              RIIS_AUTO: 0.1 * scale */
   double tolerance;        /* 1e-6 to 1, default 0.05. Distances to a valve's triangles and to its smooth
                               surface differ by at most tolerance * half_thickness (docs/theory.md) */
   double scale;            /* 1e-12 to 1e12, default 1 */
@@ -85,25 +86,27 @@ typedef struct riis_surface_options {
   int32_t flip_normals;    /* 1 turns every triangle over: normal and side change sign; default 0 */
   int32_t n_threads;       /* default 0 */
   int32_t reserved;        /* 0 */
-  double offset;           /* o, in half thicknesses, above -1 and below 1, default 0. The middle of the band lies o half
-                              thicknesses beside the surface, along the normals after flip_normals. Other measures than
+  double offset;           /* the offset o, in half thicknesses, above -1 and below 1, default 0. The middle of the band lies o
+                              half thicknesses beside the surface, along the normals after flip_normals. Other measures than
                               RIIS_MEASURE_TRIANGLES need 0 */
 } riis_surface_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
 
-/* Makes the surface of a valve: curves, polylines, Coons patches, quads, triangles (paper, 3 and 4.1; docs/theory.md).
- *   valve    its parameters must fit together
- *   options  accuracy and placement
+/* Makes the surface of a valve, by way of curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1;
+ * docs/theory.md).
+ *   `valve`: its parameters must fit together.
+ *   `options`: accuracy and placement.
  * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of
  * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring, normals point outwards. Triangles of zero area
- * are skipped. Such triangles lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges.
- * The band around a surface has the thickness 2 eps, with the half thickness eps. With an offset o the middle of the band lies o
- * eps beside the triangles, on the side to which normals point. Let s be the signed distance of a node, with the sign of its
- * side. The band holds the nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, the band holds the
- * nodes x with |x - p - o eps n| <= eps (docs/theory/marks.md, "Offset"). An offset changes no distance, side or closest point.
- * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range;
- * RIIS_INVALID_SURFACE with an offset, for two triangles that run along a shared edge in the same direction;
+ * are skipped. Triangles of zero area lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle
+ * edges. The band around a surface has the thickness 2 eps, with the half thickness eps. With an offset o the middle of the band
+ * lies o eps beside the triangles, on the side to which normals point. Let s be the signed distance of a node, with the sign of
+ * its side. The band holds the nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, the band holds
+ * the nodes x with |x - p - o eps n| <= eps (docs/theory/marks.md, "Offset"). An offset changes no distance, side or closest
+ * point.
+ * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range.
+ * RIIS_INVALID_SURFACE with an offset, for two triangles that run along a shared edge in the same direction.
  * RIIS_LIMIT_EXCEEDED if a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than the rounding
  * of coordinates. */
 RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options,
@@ -125,13 +128,13 @@ typedef struct riis_surface_arrays {
   int32_t id_bits;           /* of vertex_ids */
   int32_t index_base;        /* of vertex_ids */
   int32_t real_bits;         /* of vertices and velocities */
-  double skirt_length;       /* the length of a skirt before placement: a strip from the attachment outwards. The length is 1e-4
-                                to 10 times the mean distance of the attachment from its axis. 0, the default: no skirt */
-  const uint8_t *attached;   /* (n_vertices): not 0 for the vertices of the attachment. The attachment consists of the open
-                                edges between two such vertices. NULL: with a skirt, the call chooses the attachment */
-  const double *skirt_lengths; /* (n_vertices): the skirt's lengths at the attached vertices, at most skirt_length.
-                                  Shorter lengths than the least length count as the least length. NULL: skirt_length
-                                  everywhere */
+  double skirt_length;       /* the length of a skirt before placement. A skirt is a strip from the attachment outwards. The
+                                length is 1e-4 to 10 times the mean distance of the attachment from its axis. 0, the default: no
+                                skirt */
+  const uint8_t *attached;   /* (n_vertices): a number above 0 marks a vertex of the attachment. The attachment consists of the
+                                open edges whose two vertices are attached. NULL: with a skirt, the call chooses the attachment */
+  const double *skirt_lengths; /* (n_vertices): the skirt's lengths at the attached vertices, at most skirt_length. A length below
+                                  the lower limit of skirt_length counts as this limit. NULL: skirt_length everywhere */
 } riis_surface_arrays;
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
@@ -139,24 +142,25 @@ RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64
 /* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have the ids
  * 2 q and 2 q + 1. The id of a skipped triangle is not reused. A triangle has zero area if its longest edge is shorter than
  * 1e-60, or if its height over that edge is at most 1e-12 of the edge.
- * A skirt leads away from an axis: the line through the attachment's centroid along its vector area (docs/theory/skirt.md). The
- * skirt's vertices and triangles come after the caller's. Without `attached`, the attachment is the closed line of open edges
- * that encloses the largest area. The line must enclose 0.8 of the leaflets' outline (RIIS_OUTLINE_BOUNDARY).
- * Errors: RIIS_LIMIT_EXCEEDED for too many triangles; RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying
- * why an attachment is not found; RIIS_INVALID_ARGUMENT for a length of the skirt out of range. */
+ * A skirt leads away from an axis: the line through the attachment's centroid along the attachment's vector area
+ * (docs/theory/skirt.md). The skirt's vertices and triangles come after the caller's vertices and triangles. Without `attached`,
+ * the attachment is the closed line of open edges that encloses the largest area. The line must enclose at least 0.8 of the area
+ * of the leaflets' outline (RIIS_OUTLINE_BOUNDARY).
+ * Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying
+ * why an attachment is not found. RIIS_INVALID_ARGUMENT for a length of the skirt out of range. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options,
                                                      riis_surface **surface);
 
 /* Replaces the surface's content by a valve, such as the same valve after a motion. The handle stays.
- *   options  NULL keeps the surface's own options, not the defaults
+ *   `options`: NULL keeps the surface's own options, not the defaults.
  * Errors: as riis_surface_create. */
 RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
                                          const riis_surface_options *options);
 /* Replaces the surface's content from arrays.
- *   arrays   with n_faces 0, and vertex_ids and leaflet_id NULL, only the vertices move. The faces and the skirt stay:
- *            skirt_length must be 0, and attached and skirt_lengths NULL
- *   options  as in riis_surface_update
+ *   `arrays`: if n_faces is 0, and vertex_ids and leaflet_id are NULL, only the vertices move. The faces and the skirt stay:
+ *     skirt_length must be 0, and attached and skirt_lengths NULL.
+ *   `options`: as in riis_surface_update.
  * Errors: as riis_surface_create_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices differs from the
  * last arrays, or if the surface was not made from arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
@@ -164,7 +168,7 @@ RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, cons
 /* Destroys the surface. Marks that were made with the surface stay. */
 RIIS_API void riis_surface_destroy(riis_surface **surface);
 
-/* The size of a surface, and the seconds that its last create or update took. */
+/* The size of a surface, and the wall times of the last call that made or updated it. */
 typedef struct riis_surface_info {
   int64_t n_vertices;        /* as riis_triangles.n_vertices */
   int64_t n_triangles;       /* triangles that answer queries */
@@ -172,9 +176,9 @@ typedef struct riis_surface_info {
   double half_thickness;     /* mesh units */
   double area;               /* of all triangles, mesh units squared */
   double lower[3], upper[3]; /* bounds of the triangles, mesh units */
-  double seconds_triangles;  /* wall time of the last create or update: for checks and triangles */
-  double seconds_scene;      /* wall time of the last create or update: for groups of triangles, sampling,
-                                minimisation. Embree's tree is not included: the first query that needs it builds it */
+  double seconds_triangles;  /* wall time of the last call that made or updated the surface: for checks and triangles */
+  double seconds_scene;      /* wall time of the same call: for groups of triangles, sampling, minimisation. Embree's tree is not
+                                included, because the first query that needs the tree builds it */
   double error_bound;        /* the largest possible difference between a point's distances to the triangles and to the smooth
                                 valve; at most tolerance * half_thickness. 0 for a surface from arrays */
   int64_t largest_leaflet_id; /* of the triangles */
@@ -198,13 +202,13 @@ typedef struct riis_triangles {
   const int64_t *vertex_id;   /* (3, n_triangles): their vertices */
   const int64_t *triangle_id; /* (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve */
   const int32_t *leaflet_id;  /* (n_triangles): RIIS_LEAFLET_*, or the caller's from patches and arrays */
-  const int32_t *patch_id;    /* (n_triangles). From arrays: 0, skirt: 1. From patches: the patch's number, from 0. n cusps:
-                                 4 * leaflet, plus 0 bottom, 1 top, 2 and 3 mirrored, plus 4 * n in a fused part.
-                                 Mitral, anterior: 0 triangle at the posteromedial commissure, 1 side, 2 middle,
-                                 3 mirrored middle, 4 mirrored side, 5 mirrored triangle. Mitral, posterior: 6 side
-                                 scallop, 7 half of the middle scallop, 8 mirrored half, 9 mirrored side scallop.
-                                 Bileaflet: 2 * leaflet, plus 0 or 1 for the half; 4 to 7 the ring's quarters.
-                                 Skirt: the id of the patch that it continues, plus the number of patch ids
+  const int32_t *patch_id;    /* (n_triangles). From arrays: 0, skirt: 1. From patches: the patch's number, from 0. n cusps: 4 *
+                                 leaflet, plus 0 for the bottom, 1 for the top, 2 and 3 for their mirror images, plus 4 * n in a
+                                 fused part. Anterior mitral leaflet: 0 is the triangle at the posteromedial commissure, 1 the
+                                 side, 2 the middle, 3 the mirrored middle, 4 the mirrored side, 5 the mirrored triangle.
+                                 Posterior mitral leaflet: 6 is a side scallop, 7 half of the middle scallop, 8 the mirrored half,
+                                 9 the mirrored side scallop. Bileaflet: 2 * leaflet, plus 0 or 1 for the half; 4 to 7 are the
+                                 quarters of the ring. Skirt: the id of the patch that it continues, plus the number of patch ids
                                  without the skirt: 10 for mitral, 12 for three cusps without a fused commissure */
 } riis_triangles;
 /* Gives the triangles of the surface, until its next update or its destruction. */
@@ -223,7 +227,7 @@ typedef struct riis_attachment {
 /* Gives the attachment of a valve's surface, until the surface's next update or its destruction.
  * - A cusp is attached at the sinus, u = 1, from the root to the commissures.
  * - A mitral leaflet is attached at the annulus, v = 0.
- * - A valve from patches is attached at the sides v = 0 of only one patch.
+ * - A valve from patches is attached at the sides v = 0 that belong to only one patch.
  * - A bileaflet valve has no attachment, because pivots hold its leaflets.
  * - A surface from arrays or keyframes has an attachment if they have `attached` or a skirt.
  * A skirt continues the leaflets outwards, and does not change the attachment.
@@ -234,23 +238,23 @@ RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, ri
 /* ---- Motion: surfaces with velocities, from two states of a valve or from frames ----------------------- */
 
 /* Replaces the surface's content by a valve, and gives every vertex a velocity. riis_surface_update makes the same
- * triangles, to the last bit. If the valve is at rest, also pass it as valve_before.
- *   valve_before    the earlier state, of the same kind. A valve from patches has the same curves and sides
- *   dt              the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back
- *   options_before  scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now
- * Each vertex is compared with the point of the earlier state at the same patch, u and v. Its velocity is the
- * displacement from that point, divided by dt (docs/theory/velocity.md). A warp does not change u and v, so vertices on
- * the wall have the wall's velocity (docs/theory/warp.md). The velocity is a mean over the step. It approximates the
- * velocity in the middle of the step to second order, and the velocity at either end to first order.
- * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
+ * triangles, to the last bit. For a valve at rest, also pass the valve as valve_before.
+ *   `valve_before`: the earlier state, of the same kind. A valve from patches has the same curves and sides.
+ *   `dt`: the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back.
+ *   `options_before`: scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now.
+ * Each vertex is compared with the point of the earlier state at the same patch, u and v. The velocity of the vertex is the
+ * displacement from that point, divided by dt (docs/theory/velocity.md). A warp does not change u and v, so vertices on the wall
+ * have the wall's velocity (docs/theory/warp.md). The velocity is a mean over the step. This mean approximates the velocity in
+ * the middle of the step to second order, and the velocity at either end to first order.
+ * Errors: as riis_surface_update. RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
  * with parameters that do not fit together. */
 RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
                                                 const riis_valve *valve_before, double dt,
                                                 const riis_surface_options *options,
                                                 const riis_surface_options *options_before);
 
-/* Interpolation between keys in time. A time counts as equal to a key, plus whole periods, if both differ by at most 8 * 2^-52 of
- * the largest of time, key and period. */
+/* Interpolation between keys in time. A time counts as a key, or as a key plus whole periods, if the difference is at most 8 *
+ * 2^-52 of the largest of time, key and period. */
 enum {
   RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at keys; at a key it has the value after the jump */
   RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
@@ -273,16 +277,16 @@ typedef struct riis_keyframe_arrays {
 /* Fills *frames with the defaults. */
 RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int64_t struct_size);
 /* Makes keyframes from copies of arrays and frames.
- *   arrays  as for riis_surface_create_from_arrays; its vertices and velocities are ignored, and may be NULL. The first
- *           frame chooses the attachment of a skirt
- * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face; RIIS_LIMIT_EXCEEDED for too many. */
+ *   `arrays`: as for riis_surface_create_from_arrays; its vertices and velocities are ignored, and may be NULL. The first frame
+ *     chooses the attachment of a skirt.
+ * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face. RIIS_LIMIT_EXCEEDED for too many. */
 RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
                                            const riis_keyframe_arrays *frames, riis_keyframes **keyframes);
 /* Destroys the keyframes. Surfaces made from them stay. */
 RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
 /* Makes a surface from the frames around a time, with velocities.
- *   time  finite, magnitude at most 1e30
- *   dt    the velocity is the mean from time - dt to time; for 0 it is the derivative of the interpolation
+ *   `time`: finite, magnitude at most 1e30.
+ *   `dt`: the velocity is the mean from time - dt to time; for 0 it is the derivative of the interpolation.
  * Errors: as riis_surface_create_from_arrays. */
 RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
                                                         const riis_surface_options *options,

@@ -18,12 +18,12 @@ extern "C" {
 typedef struct riis_valve riis_valve;
 
 /* Makes a valve with the default parameter values. The defaults of "aortic" and "mitral" are the paper's.
- *   kind  one of these (docs/theory.md); any other is RIIS_INVALID_PARAMETER:
- *         "aortic" and "mitral", the paper's three cusps and two leaflets
- *         "coapting", "bicuspid" and "quadricuspid", three, two and four cusps with a zone of coaptation
- *         "tricuspid" and "mitral_coapting", three and two leaflets of an annulus, with a zone of coaptation
- *         "trileaflet", three equal cusps that close in straight lines
- *         "bileaflet", a mechanical prosthesis */
+ *   `kind`: one of these (docs/theory.md); any other is RIIS_INVALID_PARAMETER:
+ *     "aortic" and "mitral", the paper's three cusps and two leaflets
+ *     "coapting", "bicuspid" and "quadricuspid", three, two and four cusps with a zone of coaptation
+ *     "tricuspid" and "mitral_coapting", three and two leaflets of an annulus, with a zone of coaptation
+ *     "trileaflet", three equal cusps that close in straight lines
+ *     "bileaflet", a mechanical prosthesis. */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. The caller destroys both valves. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
@@ -31,15 +31,16 @@ RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy)
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by its name in the paper. riis_surface_create checks whether all values fit together.
- *   name      such as "root_radius", or "right.leaflet_angle", "commissure_0.fusion" and "bump_0.open" of one part. The
- *             name "leaflet_angle" means this parameter of all parts, unless the valve itself has such a parameter
- *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
- *   values    (n_values), within the parameter's range
+ *   `name`: such as "root_radius". Names such as "right.leaflet_angle", "commissure_0.fusion" and "bump_0.open" mean the
+ *     parameter of one part. The name "leaflet_angle" means this parameter of all parts, or the valve's own parameter if the
+ *     valve itself has it.
+ *   `n_values`: 3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others.
+ *   `values` (n_values), within the parameter's range.
  * Two parameters change the whole valve:
- * - "opening", 0 to 1, moves the valve from a closed to an open state. One set of parameters describes both states.
- *   The default is 1 (open) for the mitral valve, and 0 for others. The aortic valve at opening 0 is the paper's
- *   closed state, which leaves a hole. A valve from patches has only opening 0 until riis_valve_set_open_state. To
- *   move a valve, set "opening" and call riis_surface_update.
+ * - "opening", 0 to 1, moves the valve from a closed to an open state. One set of parameters describes both states. The default
+ *   is 1 (open) for the mitral valve, and 0 for other valves. The aortic valve at opening 0 is the paper's closed state, which
+ *   leaves a hole. A valve from patches has only opening 0 until riis_valve_set_open_state. To move a valve, set "opening" and
+ *   call riis_surface_update.
  * - "skirt_length" gives any valve except "bileaflet" a skirt. The skirt is a strip from the attachment outwards, and
  *   closes the gap to the wall (docs/theory/skirt.md). The length is 0 (the default), or 1e-4 to 10 times
  *   the mean distance of the attachment from its axis. The skirt_length of an open state is ignored.
@@ -53,34 +54,34 @@ RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, 
 RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values,
                                     double *values);
 
-/* Sizes by a surgeon's names, and sizes that follow from other sizes (docs/theory/sizes.md). Three names
- * stand for parameters. A kind that lacks such a size refuses the name and says why:
- *   annulus           diameter: 2 root_radius (kinds with cusps), 2 radius (bileaflet)
- *   stj               diameter at the commissures: 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius
- *                     (coapting, bicuspid, quadricuspid)
- *   effective_height  height of the free edges above the annulus: leaflet_height (aortic, trileaflet). The other
- *                     kinds with cusps have it as a parameter, for the middle of the edges
+/* Sizes by a surgeon's names, and sizes that follow from other sizes (docs/theory/sizes.md). Three names stand for parameters. A
+ * kind that lacks such a size refuses the name, and says why. The names are:
+ *   `annulus`: the diameter of the annulus, 2 root_radius (kinds with cusps) or 2 radius (bileaflet).
+ *   `stj`: the diameter at the commissures, 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius (coapting, bicuspid,
+ *     quadricuspid).
+ *   `effective_height`: the height of the free edges above the annulus, leaflet_height (aortic, trileaflet). The other kinds with
+ *     cusps have it as a parameter, for the middle of the edges.
  * Some parameters have a rule: until they are set, they follow from other parameters. The order of calls does not matter.
  * riis_valve_get gives the present values of such parameters. Copies and open states remember which parameters were set. */
 
-/* Returns a parameter to the value by its rule, or to its default if it has no rule.
- *   name  as in riis_valve_set
+/* Returns a parameter to the value that its rule gives, or to its default if it has no rule.
+ *   `name`: as in riis_valve_set.
  * Errors: RIIS_INVALID_PARAMETER for another name. */
 RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);
 /* Says whether a parameter was set.
- *   name    as in riis_valve_get
- *   is_set  1, or 0 if the parameter has its default or follows its rule
+ *   `name`: as in riis_valve_get.
+ *   `is_set`: 1, or 0 if the parameter has its default or follows its rule.
  * Errors: RIIS_INVALID_PARAMETER, also for a name that means all cusps. */
 RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t *is_set);
 
 /* Gives the valve a second state. At opening 0 the valve then has its own state, and at opening 1 the state of the valve `open`.
- *   open  a valve of the same kind, which is copied. The opening, leaflet ids and open state of the second valve are ignored. Two
- *         valves from patches must have the same curves, sides and degrees (1 may stand for 2). Two bileaflet valves must both
- *         have a ring, or both lack it
+ *   `open`: a valve of the same kind, which is copied. The opening, leaflet ids and open state of the second valve are ignored.
+ *     Two valves from patches must have the same curves, sides and degrees (degree 1 may stand for degree 2). Two bileaflet
+ *     valves must both have a ring, or both lack it.
  * A second call replaces the open state. No call removes an open state. Control points are blended linearly between the states
  * (docs/theory/openings.md). A bileaflet valve blends lengths and angles instead. The middle of a coapting cusp's free edge hangs
- * as deep as the edge's length requires. All kinds but aortic and bileaflet take the closed shape from their own parameters, and
- * the open shape from the parameters of `open`.
+ * as deep as the edge's length requires. All kinds except aortic and bileaflet take the closed shape from their own parameters,
+ * and the open shape from the parameters of `open`.
  * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
 
@@ -105,7 +106,7 @@ typedef struct riis_patches {
 RIIS_API riis_status riis_patches_init(riis_patches *patches, int64_t struct_size); /* the defaults */
 
 /* Makes a valve from copies of the patches. The valve's parameters are "opening" and "skirt_length". A skirt continues each side
- * v = 0 that belongs to only one patch. patch_id is the patch's number, from 0.
+ * v = 0 that belongs to only one patch. The patch_id of a triangle is the number of its patch, from 0.
  * Errors: RIIS_INVALID_PARAMETER naming the curve or patch and its value, such as sides that do not meet. */
 RIIS_API riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve);
 
@@ -126,13 +127,13 @@ typedef struct riis_parameter {
 /* Gives the number of the valve's parameters. */
 RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters);
 /* Gives the description of a parameter.
- *   parameter_id  0 to n_parameters - 1 */
+ *   `parameter_id`: 0 to n_parameters - 1. */
 RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id,
                                               riis_parameter *parameter, int64_t struct_size);
 
 /* The curves and patches of a valve at its opening, after a warp and before placement. If n_pieces equals n_curves, these arrays
  * also fit into riis_patches, and make the same shape there. Trileaflet and aortic valves and valves from patches have as many
- * pieces as curves, unless a warp has landmarks on their curves (riis_valve_set_warp). */
+ * pieces as curves. Only a warp with landmarks on the curves adds pieces (riis_valve_set_warp). */
 typedef struct riis_valve_patches {
   int64_t n_curves;           /* curves; each is a side of a patch */
   int64_t n_pieces;           /* Bezier pieces of all curves. Sides of mitral and bileaflet patches may have several */
@@ -145,12 +146,13 @@ typedef struct riis_valve_patches {
   const int32_t *leaflet_id;  /* (n_patches): as in riis_triangles */
   const int32_t *patch_id;    /* (n_patches): as in riis_triangles */
   const int32_t *attached;    /* (n_patches): the side that is attached, 0 to 3 in the order of curve_id, or -1 */
-  const double *bulge;        /* (n_patches): 0 for a Coons patch. Otherwise the line at each u is an arc from v = 0 to
-                                 v = 1. W is the width and T is the unit tangent of the side v = 0. The middle control
-                                 point lies bulge |W| unit(W x T) beside the middle of the straight line */
+  const double *bulge;        /* (n_patches): 0 for a Coons patch. With another number, the line at each u is an arc from v = 0 to
+                                 v = 1. W is the vector from v = 0 to v = 1 at this u, and T is the unit tangent of the side v =
+                                 0. The arc's middle control point lies bulge |W| unit(W x T) beside the middle of the straight
+                                 line */
 } riis_valve_patches;
 /* Gives the curves and patches of a valve at its opening. The arrays are valid until the next call that may change the
- * valve. On a side, u or v of a point is the point's share of the side's length. All normals S_u x S_v have the directions that
+ * valve. Along a side, u or v is the share of the side's length up to the point. All normals S_u x S_v have the directions that
  * riis_surface_create describes. A mitral patch has a bulge, so a Coons patch of its sides differs from it.
  * Errors: RIIS_INVALID_PARAMETER as riis_surface_create. */
 RIIS_API riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patches *patches, int64_t struct_size);

@@ -32,7 +32,7 @@ class ArrayView {
   std::int64_t size_;
 };
 
-// Views a std::vector, a std::array or an array of C. Do not use the view after the container has moved its elements.
+// Makes a view of a std::vector, a std::array or a C array. Do not use the view after the container has moved its elements.
 template <class Container>
 constexpr auto view(Container &container) {
   return ArrayView<std::remove_pointer_t<decltype(std::data(container))>>(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The band around a surface, with an offset: all rules by which the band steps aside (docs/theory/marks.md, "Offset").
-// In: a node's distance and height. Out: the half thickness that marks the node, and its distance from the middle of the band.
+// The band around a surface, with all rules for a band with an offset (docs/theory/marks.md, "Offset"). A node's distance and
+// height determine the half thickness that marks the node, and the node's distance from the middle of the band.
 #pragma once
 
 #include <cmath>
@@ -25,13 +25,13 @@ struct Band {
   // Returns a distance up to which all nodes are in the band.
   double sure_distance() const { return (1 - std::abs(offset)) * half_thickness; }
 
-  // Returns the least half thickness that marks a node. Off the rim, it is h / (1 + offset) for h >= 0, and -h / (1 - offset)
-  // below. At a rim, this distance is the root e of (1 - offset^2) e^2 + 2 offset h e - d^2 = 0, also for h = d and h = -d.
+  // Returns the least half thickness that marks a node. Off the rim, it is h / (1 + offset) for h >= 0, and -h / (1 - offset) for
+  // h < 0. At a rim, this half thickness is the root e of (1 - offset^2) e^2 + 2 offset h e - d^2 = 0, also for h = d and h = -d.
   double marking_thickness(double distance, double height) const {
     if (!steps_aside() || !(distance > 0)) return distance;
     const double cosine = height / distance, along = offset * cosine;
     const double root = std::sqrt(1 - offset * offset * ((1 - cosine) * (1 + cosine)));
-    // No branch subtracts numbers of one sign. Off the rim the root is 1.
+    // Neither formula subtracts numbers of the same sign, so no digits are lost. For a node off the rim, the root is 1.
     const double made =
         root == 1 || along >= 0 ? distance / (along + root) : distance * (root - along) / ((1 - offset) * (1 + offset));
     double least = distance / reach_of(1);
@@ -39,8 +39,8 @@ struct Band {
     return made < least ? least : made;
   }
   bool holds(double distance, double height) const {
-    // The sign of the equation at the half thickness decides, without a root. Only near the edge of the band, rounding could
-    // decide otherwise.
+    // The sign of the equation at the half thickness decides without a root. Only near the edge of the band could rounding change
+    // this decision.
     constexpr double near_edge = 1e-6;
     const double e = half_thickness,
                  over = ((1 - offset) * (1 + offset) * e + 2 * offset * height) * e - distance * distance;
@@ -50,7 +50,7 @@ struct Band {
 
   // Returns the signed distance of a node from the middle of the band, for a node off the rim.
   double height_over_middle(double height) const { return height - offset * half_thickness; }
-  // Returns the distance of a node from the middle of the band. At a rim, it is the distance from p + offset half_thickness n.
+  // Returns the distance of a node from the middle of the band. At a rim, this is the distance from p + offset half_thickness n.
   double distance_from_middle(double distance, double height) const {
     if (!steps_aside()) return distance;
     const double over = height_over_middle(height), beside_sq = (distance - height) * (distance + height);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lengths of the edges in the band. The library measures its caller's mesh, the program the pieces of a mesh.
+// The lengths of the edges in the band. The library measures its caller's mesh, and the program measures the pieces of a mesh.
 #pragma once
 
 #include <riis/riis.h>

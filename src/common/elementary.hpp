@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sines, cosines and arc tangents whose bits depend on the argument alone. A C library takes other code for these functions on
-// other processors, and the last bits differ. The functions of this file have only sums, products, quotients and roots, which
-// IEEE 754 rounds in one way. Arguments are finite. Errors are in units of 2^-53 = 1.1e-16, and test_elementary checks them.
+// Sines, cosines and arc tangents whose bits depend on the argument alone. A C library may use different code for these functions
+// on different processors, so that the last bits differ. The functions of this file consist only of sums, products, quotients and
+// roots, which IEEE 754 rounds in one way. Arguments are finite. Errors are in units of 2^-53 = 1.1e-16, and test_elementary
+// checks them.
 //
 // The polynomials are in the square of the argument. The polynomials interpolate the functions at Chebyshev points, except the
-// one of sine_of_pi. The polynomial of sine_of_pi is a fit by least squares, whose third coefficient is five units lower in its
-// last place. So no value exceeds 1.
+// polynomial of sine_of_pi. The polynomial of sine_of_pi is a least-squares fit. The third coefficient of this fit is five units
+// lower in its last place, so that no value exceeds 1.
 #pragma once
 
 #include <cmath>
@@ -38,7 +39,7 @@ inline SineCosine of_small(double x) {
   constexpr double cosine[] = {0.041666666666666664,    -0.0013888888888887398, 2.480158729876456e-05,
                                -2.7557317271145144e-07, 2.087614614655861e-09,  -1.1382623647474604e-11};
   const double square = x * x, half = 0.5 * square, rest = 1 - half;
-  // The second part holds the rounding error of 1 - x^2/2.
+  // The cosine is 1 - x^2/2, plus the rounding error of this difference, plus the terms of higher degree.
   return {x + x * square * polynomial(sine, square),
           rest + (((1 - rest) - half) + square * square * polynomial(cosine, square))};
 }
@@ -59,7 +60,7 @@ inline SineCosine turned_by_quarters(SineCosine of, double quarters) {
 }  // namespace elementary
 
 // Returns sin(pi u) for |u| <= 1/2, with an error of 3.5 units. The sine is exact at 0 and at both ends of this range, and never
-// beyond 1.
+// larger than 1 in magnitude.
 inline double sine_of_pi(double u) {
   constexpr double in_squares[] = {3.141592653589793,     -5.167712780049953,      2.5501640398765839,
                                    -0.5992645293034821,   0.08214588638811002,     -0.0073704292175835835,
@@ -73,7 +74,7 @@ inline double cosine_of_pi(double t) { return sine_of_pi(0.5 - t); }
 // Returns sine and cosine of an angle in radians, with errors of 2 units. Beyond 1e6 the error grows with the angle.
 inline SineCosine sine_cosine(double radians) {
   using elementary::half_pi;
-  // Three parts of pi/2. A number of quarters below 2^20 times one of the first two parts is exact.
+  // pi/2 in three parts. If the number of quarters is below 2^20, its product with one of the first two parts is exact.
   constexpr double first = 0x1.921fb544p+0, second = 0x1.0b4611a6p-34, third = 0x1.3198a2e037073p-69;
   const double near = std::abs(radians) <= 1e6 ? radians : std::remainder(radians, 2 * pi);
   const double quarters = std::floor(near / half_pi + 0.5);
@@ -99,7 +100,7 @@ inline double arc_tangent(double y, double x) {
                                    -0.06664510525508936, 0.05858140904866328,  -0.050854078345894844,
                                    0.03923044778479309,  -0.019175404711104935};
   const double ax = std::abs(x), ay = std::abs(y), least = ay < ax ? ay : ax, largest = ay < ax ? ax : ay;
-  // Beyond pi/8 the angle is measured from pi/4. The quotient is therefore at most tan(pi/8).
+  // The angle is measured from the nearest multiple of pi/4, so the quotient is at most tan(pi/8).
   constexpr double tangent_of_eighth = 0.41421356237309503;
   const bool is_wide = least > tangent_of_eighth * largest;
   const double over = is_wide ? least - largest : least, under = is_wide ? least + largest : largest;
@@ -111,7 +112,7 @@ inline double arc_tangent(double y, double x) {
   return std::copysign(angle, y);
 }
 
-// Returns the angle from 0 to pi whose cosine is given, -1 to 1, with a relative error of 4 units.
+// Returns the angle from 0 to pi with the given cosine, with a relative error of 4 units. The cosine is from -1 to 1.
 inline double arc_cosine(double cosine) { return arc_tangent(std::sqrt((1 - cosine) * (1 + cosine)), cosine); }
 
 // Returns exp(x) - 1 for x <= 0, with a relative error of 7 units.
@@ -119,7 +120,7 @@ inline double exponential_minus_one(double x) {
   if (x < -50) return -1;
   int n_doublings = 0;
   for (; x < -0.25; x *= 0.5) ++n_doublings;
-  // Taylor's series of (exp(x) - 1) / x. The next term is below 1e-17.
+  // Taylor's series of (exp(x) - 1) / x. The first term that is left out is below 1e-17.
   constexpr double series[] = {1.0,          1.0 / 2,       1.0 / 6,        1.0 / 24,        1.0 / 120,       1.0 / 720,
                                1.0 / 5040.0, 1.0 / 40320.0, 1.0 / 362880.0, 1.0 / 3628800.0, 1.0 / 39916800.0};
   double value = x * elementary::polynomial(series, x);
@@ -127,9 +128,9 @@ inline double exponential_minus_one(double x) {
   return value;
 }
 
-// Returns the base to a power between 0 and 1, with a relative error of 60 units. The base is positive.
+// Returns the base raised to a power between 0 and 1, with a relative error of 60 units. The base is positive.
 inline double power_to_share(double base, double share) {
-  // Each binary digit of the share multiplies by a root.
+  // Each binary digit 1 of the share contributes one of the repeated square roots of the base as a factor.
   if (share >= 1) return base;
   double power = 1, root = base;
   for (int digit = 0; digit < 53 && share > 0; ++digit) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the opening at which a valve first has a passage. The library searches in its caller's mesh, the program also in pieces.
+// Finds the opening at which a valve first has a passage. The library searches in its caller's mesh, and the program also
+// searches in the pieces of a mesh.
 #pragma once
 
 #include <riis/riis.h>
@@ -8,7 +9,7 @@
 
 namespace riis {
 
-// `passage_at` returns the passage at an opening. Sets no seconds.
+// `passage_at` returns the passage at an opening. The seconds of the result are not set.
 template <class PassageAt>
 riis_first_passage first_passage(double tolerance, const PassageAt &passage_at) {
   constexpr int n_coarse = 8;

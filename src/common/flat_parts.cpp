@@ -15,17 +15,20 @@ namespace {
 
 // Distances from the plane, as shares of the wall's size: within a flat part, and within a part that the user points at.
 constexpr double flat_share = 5e-4, pointed_share = 5e-3;
-// The largest angle between a triangle of a flat part and the part's plane, in degrees. Triangles of little height lean more by
-// rounding.
+// The largest angle between a triangle of a flat part and the part's plane, in degrees. Triangles with little height may lean
+// more because of rounding.
 constexpr double most_lean = 25;
 // The least number of triangles of a flat part.
 constexpr std::int64_t least_triangles = 4;
-// The wall beside a flat part is measured up to this share of the radius of a disc with the part's area, in sectors.
+// The wall beside a flat part is measured in sectors. The sectors reach as far as `band_share` times the radius of a disc with
+// the part's area.
 constexpr double band_share = 0.5;
 constexpr std::size_t n_sectors = 12;
-// Flat parts that touch make each other unclear if their areas differ by less than this factor. Else only the small one is.
+// Two flat parts that touch are both unclear if their areas differ by a factor of less than `most_apart`. If the areas differ
+// more, only the smaller part is unclear.
 constexpr double most_apart = 10;
-// A small part is an end if its rim has at least this number of sides and the wall is as steep up to this share of the radius.
+// A small part is an end if its rim has at least `least_sides` sides, and if the wall stays as steep up to `wide_band_share` of
+// the radius.
 constexpr std::int64_t least_sides = 12;
 constexpr double wide_band_share = 1.5;
 
@@ -35,7 +38,7 @@ double degrees_between(const Vector3 &a, const Vector3 &b) {
   return 180 / pi * arc_tangent(norm(cross(a, b)), dot(a, b));
 }
 
-// Returns the mean and the least angle of the sectors to the normal.
+// Returns the mean and the least angle between the sectors and the normal.
 std::pair<double, double> angles_of(const Sectors &sums, const Vector3 &normal) {
   double n = 0, total = 0, smallest = 180;
   for (const Vector3 &sum : sums) {
@@ -98,7 +101,7 @@ std::vector<Part> Finder::find(std::vector<Part> parts) {
   for (const std::int64_t seed : seeds) {
     if (view(is_known)[seed] != 0 || view(areas_)[seed] == 0) continue;
     Part part = grown(seed, flat_share * size_);
-    // A triangle of a part is no seed of another part, but may belong to it.
+    // A triangle of a part does not become the seed of another part, but may belong to another part.
     for (const std::int64_t i : part.triangles) view(is_known)[i] = 1;
     if (!is_large(part)) continue;
     measure(part);
@@ -130,7 +133,8 @@ bool Finder::is_large(const Part &part) const {
   return part.area >= least_share * total_ && static_cast<std::int64_t>(part.triangles.size()) >= least_triangles;
 }
 
-// The sum of the area vectors follows the rim, and is exact for a flat part. A plane of least squares would follow the corners.
+// The sum of the area vectors depends only on the rim, and is exact for a flat part. A least-squares plane would depend on the
+// corners.
 void Finder::fit(Part &part) const {
   Vector3 area{}, centre{};
   part.area = 0;
@@ -149,7 +153,7 @@ bool Finder::is_in(const Plane &plane, std::int64_t triangle, double tolerance) 
   return dot(view(normals_)[triangle], plane.normal) >= least_cosine || is_thin(triangle);
 }
 
-// The normal of a triangle with so little height says nothing.
+// The normal of a triangle with so little height has no meaning.
 bool Finder::is_thin(std::int64_t triangle) const {
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k)

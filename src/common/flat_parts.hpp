@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The flat parts of a wall, at which vessels may have been cut. In: triangles whose neighbours face alike. Out: connected
-// triangles in one plane, and the angle of the wall beside them. riis patient chooses ends among the parts, and pictures leave
-// the parts out.
+// The flat parts of a wall, at which vessels may have been cut. A flat part consists of connected triangles in one plane. The
+// angle of the wall beside the part is also measured. riis patient chooses ends among the parts, and pictures leave the parts
+// out.
 #pragma once
 
 #include <cmath>
@@ -13,14 +13,15 @@
 
 namespace riis::flat_parts {
 
-// A flat part below this share of the whole area is noise.
+// A flat part with less than `least_share` of the whole area is noise.
 inline constexpr double least_share = 3e-4;
 // The angle between a flat part and the wall beside it, in degrees. A tube that is cut has a mean angle of 90, even if the cut is
-// oblique. A part between the limits may be a cut, or a flat place of the wall.
+// oblique. A part whose angle is between the limits for clear and unclear parts may be a cut, or a flat place of the wall.
 inline constexpr double clear_mean = 55, clear_least = 20, unclear_mean = 30;
-// Four pi times the area over the square of the perimeter: 1 for a disc, 0.6 for an ellipse thrice as long as wide.
+// Four pi times the area over the square of the perimeter: 1 for a disc, 0.6 for an ellipse three times as long as wide.
 inline constexpr double least_roundness = 0.25;
-// A flat part below this share of the largest end may be a facet of a coarse wall, or the end of a coronary artery.
+// A flat part with less than `small_share` of the largest end's area may be a facet of a coarse wall, or the end of a coronary
+// artery.
 inline constexpr double small_share = 0.05;
 
 // A plane through a point.
@@ -50,17 +51,18 @@ struct Part {
   double radius() const { return std::sqrt(area / pi); }
 };
 
-// Finds flat parts. The triangles must stay while this object is used, and neighbours must face alike. The surface may be open.
+// Finds flat parts. The triangles must not change while this object is used, and neighbours must face to the same side. The
+// surface may be open.
 class Finder {
  public:
-  // `faces_outwards` says that the triangles face outwards. In other cases the wall beside a part counts as behind the part.
+  // `faces_outwards` is true if the triangles face outwards. If it is false, the wall beside a part counts as behind the part.
   Finder(const Triangles &triangles, bool faces_outwards);
 
-  // Returns the flat parts that may be ends, the largest first. `parts` are known already, and are among them.
+  // Returns the flat parts that may be ends, the largest first. The result includes `parts`, which are already known.
   std::vector<Part> find(std::vector<Part> parts);
   // Returns the part that closed a hole.
   Part closed_hole(std::vector<std::int64_t> triangles);
-  // Returns the flat part at a triangle that the user points at.
+  // Returns the flat part at a triangle to which the user points.
   Part pointed_at(std::int64_t triangle);
 
   double size() const { return size_; }
@@ -68,12 +70,11 @@ class Finder {
 
  private:
   bool is_large(const Part &part) const;
-  // Returns the connected triangles in the plane around the seed. The plane follows the triangles.
+  // Returns the connected triangles in the plane around the seed, which is a triangle. The plane is fitted anew to the triangles.
   Part grown(std::int64_t seed, double tolerance);
   // Measures the rim and the angle to the wall beside it.
   void measure(Part &part);
-  // Adds a part, unless a larger part has most of its triangles. Removes smaller parts whose triangles are mostly in the new
-  // part.
+  // Adds a part if no larger part has most of its triangles. Removes smaller parts whose triangles are mostly in the new part.
   void add(Part part, std::vector<Part> &parts);
 
   void fit(Part &part) const;

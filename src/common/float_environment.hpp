@@ -15,7 +15,7 @@ class FloatEnvironment {
     std::fegetenv(&caller_);
     std::fesetenv(FE_DFL_ENV);
 #if defined(__aarch64__)
-    // The C library's default leaves "default NaN" as it is, with which operations lose the bits of a NaN.
+    // The C library's default environment does not reset the mode "default NaN", in which operations lose the bits of a NaN.
     constexpr std::uint64_t default_nan = std::uint64_t{1} << 25;
     std::uint64_t control;
     __asm__ volatile("mrs %0, fpcr" : "=r"(control));

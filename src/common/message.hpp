@@ -11,8 +11,8 @@
 
 namespace riis {
 
-// A number that a message shows with n_digits significant digits. A plain double has the fewest digits from which the same
-// double can be read.
+// A number that a message shows with n_digits significant digits. A plain double is shown with the fewest digits from which the
+// same double can be read.
 struct Rounded {
   double value;
   int n_digits;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the existing name that is nearest to a wrong name. The user probably meant this name. All the code is in this header,
-// because the library and the program both include it.
+// Finds the existing name that is nearest to a wrong name, which is probably the name that the user meant. All the code is in
+// this header, because the library and the program both include it.
 #pragma once
 
 #include <algorithm>
@@ -35,8 +35,7 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return rows[a.size() % 3][b.size()];
 }
 
-// Compares candidates, and keeps the nearest. Of several equally near candidates, it keeps the first. It ignores very different
-// names.
+// Compares candidates, and keeps the nearest. Among equally near candidates, it keeps the first. It ignores very different names.
 class NearestName {
  public:
   explicit NearestName(std::string_view name)
@@ -48,7 +47,7 @@ class NearestName {
     least_ = distance;
     nearest_ = candidate;
   }
-  // Returns a view of the nearest candidate, or "" if none is near.
+  // Returns a view of the nearest candidate, or "" if no candidate is near.
   std::string_view nearest() const { return nearest_; }
 
  private:

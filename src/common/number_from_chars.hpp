@@ -18,7 +18,8 @@
 
 namespace riis {
 
-// Finds the text of a number. Each function moves `at` behind the item that it finds, and returns whether there was one.
+// Finds the text of a number. Each function moves `at` to the end of the item that it finds, and returns whether it has found the
+// item.
 class NumberText {
  public:
   NumberText(const char *first, const char *last) : at(first), last_(last) {}
@@ -72,8 +73,8 @@ class NumberText {
   const char *last_;
 };
 
-// std::from_chars for a double, by strtod. strtod gets no more than the text of the number, because it would also accept blanks,
-// a plus sign, and hexadecimal digits.
+// Does the same as std::from_chars for a double, but by strtod. strtod gets no more than the text of the number, because it would
+// also accept blanks, a plus sign, and hexadecimal digits.
 inline std::from_chars_result double_from_chars(const char *first, const char *last, double &number) {
   NumberText text(first != last && *first == '-' ? first + 1 : first, last);
   const bool has_digits = text.has_digits();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joins numbers to disjoint sets, and numbers points by their places.
+// Joins numbers into disjoint sets, and gives points at the same place the same number.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace riis {
 
-// Sets of numbers from 0 to n - 1. At first each number is a set.
+// Sets of numbers from 0 to n - 1. At first each number is a set by itself.
 class DisjointSets {
  public:
   explicit DisjointSets(std::int64_t n) : parent_(static_cast<std::size_t>(n)) {

@@ -23,7 +23,7 @@ inline Vector3 unit_vector(const Vector3 &a) {
   const double length = norm(a);
   return length > 0 ? 1 / length * a : Vector3{};
 }
-// Returns the vector, turned about an axis of any length other than 0 (Rodrigues' formula).
+// Returns the vector, turned about an axis of any length above 0 (Rodrigues' formula).
 inline Vector3 turned(const Vector3 &vector, const Vector3 &axis, double degrees) {
   const Vector3 unit = unit_vector(axis);
   const auto [sine, cosine] = sine_cosine_degrees(degrees);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the arguments of riis_find_by_area, and makes the surfaces whose areas measures/area_search.hpp inverts.
+// Checks the arguments of riis_find_by_area, and makes the surfaces for the search (measures/area_search.hpp).
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -41,12 +41,12 @@ Sought sought_by(const std::string &name) {
   return name == "opening" ? Sought::opening : name == "scale" ? Sought::scale : Sought::parameter;
 }
 
-// The range to search, and the value that a found value shall be near.
+// The range to search, and the value to which a found value shall be near.
 struct Values {
   double from, to, near;
 };
 
-// Makes surfaces of a valve at one value after the other. This class calls the public functions, whose messages refuse bad input.
+// Makes surfaces of a valve at one value after the other. AreaTrials calls the public functions, whose messages refuse bad input.
 class AreaTrials {
  public:
   AreaTrials(const riis::Valve &valve, const char *name, const riis_area_search &search)
@@ -73,7 +73,8 @@ class AreaTrials {
 
   bool seeks_opening() const { return sought_ == Sought::opening; }
 
-  // Samples of the opening have equal distances, as in the tables of openings. Sizes differ by factors.
+  // Samples of the opening have equal distances, as in the tables of openings. Neighbouring samples of a size differ by a
+  // constant factor.
   bool grows(const Values &values) const { return !seeks_opening() && values.from > 0; }
 
   // Returns the area at a value, or nothing for a value that makes no valve or no orifice. After the samples, such a value
@@ -111,7 +112,8 @@ class AreaTrials {
  private:
   const char *words() const { return search_.area == RIIS_AREA_EFFECTIVE ? "effective area" : "area"; }
 
-  // Returns the caller's range. A usual end, limited to the possible values, replaces an end that the caller left out.
+  // Returns the caller's range. If the caller left out an end of the range, the usual end is taken, limited to the possible
+  // values.
   Values checked(const Values &usual, const std::array<double, 2> &range) const {
     const double from = std::isnan(search_.from) ? std::clamp(usual.from, range[0], range[1]) : search_.from;
     const double to = std::isnan(search_.to) ? std::clamp(usual.to, range[0], range[1]) : search_.to;
@@ -218,7 +220,7 @@ riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t
     points.reserve(static_cast<std::size_t>(n_areas));
     for (std::int64_t i = 0; i < n_areas; ++i) {
       auto point = found.find(areas[i], searched.near, whole.tolerance);
-      // Closed leaflets leave slits, which no measurement sees.
+      // Slits remain between closed leaflets, so the area 0 stands for the least area.
       if (!point && areas[i] == 0 && trials.seeks_opening()) point = found.least();
       if (!point) trials.fail_out_of_reach(i, areas[i], found, searched);
       points.push_back(*point);

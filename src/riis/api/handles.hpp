@@ -61,7 +61,7 @@ riis_status create_handle(AnyHandle **handle, const char *argument) noexcept {
   });
 }
 
-// The body of a destroy function. A handle of another kind is not destroyed: to lose its memory is better than to free it as the
+// The body of a destroy function. A handle of another kind is not destroyed: losing its memory is better than freeing it as the
 // wrong type.
 template <class AnyHandle>
 void destroy_handle(AnyHandle **handle, const char *argument) noexcept {

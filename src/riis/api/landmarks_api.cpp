@@ -17,7 +17,7 @@ using riis::require_handle;
 namespace {
 
 constexpr std::int64_t most_landmarks = 10000;
-// How much repeated readings of a landmark scatter, in centimetres.
+// The standard deviation of repeated readings of a landmark, in centimetres.
 constexpr double usual_noise = 0.03;
 
 const riis_landmarks default_landmarks{

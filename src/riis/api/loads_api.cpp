@@ -27,7 +27,7 @@ const riis_loads default_loads{sizeof(riis_loads),
                                0,
                                0};
 
-// Checks the numbers (3, n_leaflets) of the leaflets.
+// Checks a vector of three numbers for each leaflet.
 const double *checked_vectors(const double *vectors, const char *name, std::int64_t n_leaflets) {
   require(vectors, name);
   for (std::int64_t i = 0; i < 3 * n_leaflets; ++i)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the arguments of riis_mark_*, riis_marks_*, riis_leaks_* and riis_find_*. The work is in marking/.
+// Checks the arguments of riis_mark_*, riis_marks_*, riis_leaks_* and riis_find_*. The work is in pipeline/, marks/, obstacle/
+// and seal/.
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -62,8 +63,8 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
   return set;
 }
 
-// Returns the arrays of a list, with NULL for an empty one. The array of a field stays NULL if the marking needed the field only
-// to compute K.
+// Returns the arrays of a list, with NULL for an empty array. The array of a field stays NULL if the marking needed the field
+// only to compute K.
 riis_mark_list arrays_of(const riis::ListedNodes &list, const riis::WantedData &data) {
   const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
   const auto field = [&](std::int32_t which, const auto &values) {
@@ -135,7 +136,7 @@ riis_flow_arrays checked_flow(const riis_flow_arrays *flow, const riis::Marks &m
   return whole;
 }
 
-// Checks the numbers of a reaction. The reaction's leaflets and edges are checked later, against the marks.
+// Checks the numbers of a reaction. The reaction's leaflets and edges are compared with the marks later.
 riis_reaction checked_reaction(const riis_reaction *reaction) {
   const riis_reaction whole = riis::completed(require(reaction, "reaction"), "reaction", default_reaction);
   for (int c = 0; c < 3; ++c)
@@ -176,7 +177,7 @@ const riis::Surface &require_handles(const riis_surface *surface, const riis_mes
   return content;
 }
 
-// Returns the checked resistance of the options, or nothing if they have none.
+// Returns the checked resistance of the options, or nothing if the options have no resistance.
 std::optional<riis::Resistance> resistance_of(const riis::SearchRequest &request, const riis_mark_options &options) {
   if (!options.resistance) return std::nullopt;
   const riis::Resistance checked =

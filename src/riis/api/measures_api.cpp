@@ -38,7 +38,7 @@ riis_resistance resistance_for(const riis_resistance *resistance, const riis::Su
   return whole;
 }
 
-// `wall` is null, or bounds the orifice.
+// `wall` bounds the orifice. Without a wall, the pointer is null.
 riis_orifice orifice_of(const riis::Surface &surface, const riis::Surface *wall, const riis_resistance &resistance) {
   const double c = riis::rim_reach(surface, resistance.rim);
   const double eps = resistance.half_thickness;
@@ -70,7 +70,7 @@ void write_orifice(const riis::Surface &surface, const riis::Surface *wall, cons
   riis::write_struct(orifice, struct_size, "orifice", orifice_of(surface, wall, whole));
 }
 
-// Tries openings of a valve in a mesh. This class calls the public functions, whose messages refuse bad input.
+// Tries openings of a valve in a mesh. PassageTrials calls the public functions, whose messages refuse bad input.
 class PassageTrials {
  public:
   PassageTrials(const riis_valve *valve, const riis_mesh *mesh, const riis_passage_ends *ends,

@@ -27,7 +27,7 @@ void check_n_nodes(std::int64_t n, const char *name) {
   if (n > riis::max_nodes) riis::fail(RIIS_LIMIT_EXCEEDED, name, " is ", n, "; it must be at most ", riis::max_nodes);
 }
 
-// Checks the nodes and returns their box, which is empty if there are none.
+// Checks the nodes and returns their box, which is empty without nodes.
 riis::Bounds check_nodes(const riis::StridedPoints &nodes) {
   check_n_nodes(nodes.n, "n_nodes");
   if (nodes.n == 0) return {};
@@ -86,7 +86,7 @@ std::unique_ptr<const riis::Grid> checked_grid(const riis_grid *given) {
   return std::make_unique<const riis::Grid>(std::move(axes), whole.first, stride, n_numbers);
 }
 
-// Refuses an edge of a number that has no node.
+// Refuses an edge at a number that has no node.
 void check_rows_of_grid(const riis::Adjacency &rows, const riis::MeshNodes &nodes) {
   for (std::int64_t i = 0; i < rows.n_rows; ++i)
     rows.for_each_neighbor(i, [&](std::int64_t j) {

@@ -72,7 +72,7 @@ constexpr std::int64_t first_size_of(const riis_coaptation *) { return 24; }
 constexpr std::int64_t first_size_of(const riis_gap *) { return 64; }
 constexpr std::int64_t first_size_of(const riis_direction *) { return 24; }
 
-// Refuses a struct of a wrong size. A right size is a multiple of 8, from the first release's size to the size of the library's
+// Refuses a struct of a wrong size. A correct size is a multiple of 8, from the first release's size to the size of the library's
 // own struct.
 template <class Struct>
 void check_struct_size(std::int64_t size, const char *name) {
@@ -126,7 +126,7 @@ void write_struct(Struct *out, std::int64_t size, const char *name, const Struct
   copy_bytes(out, &value, size);
 }
 
-// Writes an output, unless the caller left it out by passing null.
+// Writes an output if the caller's pointer is not null.
 template <class T>
 void put(T *to, T value) {
   if (to) *to = value;

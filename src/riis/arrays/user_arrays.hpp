@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns the caller's arrays of vertices and faces into triangles.
-// In: arrays as in riis_surface_arrays, which this file checks completely. Out: triangles with the caller's ids.
+// This file checks the arrays of riis_surface_arrays completely. The triangles have the caller's ids.
 #pragma once
 
 #include <riis/riis.h>
@@ -14,7 +14,7 @@
 
 namespace riis {
 
-// The skirt of the caller's faces, as the caller gave it, and the edges from which it leads.
+// The skirt of the caller's faces, as the caller gave it, and the edges at which it begins.
 struct UserSkirt {
   double length = 0;                   // before placement; 0: no skirt
   std::vector<std::uint8_t> attached;  // (n_vertices), or empty
@@ -41,22 +41,23 @@ UserFaces faces_from_arrays(const riis_surface_arrays &arrays, UserFaces memory 
 TriangleSet triangles_from_arrays(const UserFaces &faces, const riis_surface_arrays &arrays, const Placement &placement,
                                   bool skip_zero_area, bool flip_normals, TriangleSet memory = {});
 
-// The motion of a surface from frames at given times. The faces stay the same, and only the vertices move.
-// In: frames, a time. Out: positions and velocities of the vertices at that time.
+// The motion of a surface from frames at given times. The faces stay the same, and only the vertices move. The frames give the
+// positions and velocities of the vertices at any time.
 
 class Keyframes {
  public:
-  // Copies all arrays. Fails as triangles_from_arrays does with the faces and the first frame's vertices. A face without area is
-  // not refused here, but only when a surface is made. Messages about bad coordinates name the frame.
+  // Copies all arrays. Fails as triangles_from_arrays does for the faces and the first frame's vertices. A face without area is
+  // refused later, when a surface is made. Messages about bad coordinates name the frame.
   Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arrays &frames);
   Keyframes(Keyframes &&) = default;  // moving a vector leaves its elements, such as the times, at their address
 
   // Writes positions and velocities (3, n_vertices). For dt == 0 the velocity is the derivative of the interpolation. At a linear
-  // key the velocity is the derivative after the key. At other times the velocity is the mean from time - dt to time.
+  // key the velocity is the derivative after the key. For another dt the velocity is the mean from time - dt to time.
   void at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
   const UserFaces &faces() const { return faces_; }
-  // Lets the edges of the skirt be found in the first frame, whose vertices first_frame returns.
+  // Returns the faces, so that the edges of the skirt can be found in the first frame. first_frame returns the vertices of this
+  // frame.
   UserFaces &faces() { return faces_; }
   riis_surface_arrays first_frame() const;
 

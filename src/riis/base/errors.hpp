@@ -23,7 +23,7 @@ template <class... Parts>
   throw Error{status, Message(parts...)};
 }
 
-// Returns the calling thread's last error, or "" if it has none.
+// Returns the calling thread's last error, or "" if no call of this thread has failed.
 const char *recorded_error() noexcept;
 
 // Records the message of the exception that is being handled, and returns its status.
@@ -48,8 +48,8 @@ T *require(T *pointer, const char *argument) {
   return pointer;
 }
 
-// Refuses NaN and numbers outside of [least, most]. `owner` is the argument with the field that has the number, or "" if
-// the number itself is an argument.
+// Refuses NaN and numbers outside of [least, most]. If the number is a field of an argument, `owner` is this argument. If the
+// number itself is an argument, `owner` is "".
 inline void check_range(const char *owner, const char *name, double value, double least, double most) {
   if (!(value >= least && value <= most))
     fail(RIIS_INVALID_ARGUMENT, owner, *owner ? "." : "", name, " is ", value, "; it must be from ", least, " to ",

@@ -29,7 +29,7 @@ Sink current_sink() noexcept {
 bool is_logging() noexcept { return current_sink().function != nullptr; }
 
 void log_message(std::int32_t level, const Message &message) noexcept {
-  // Calls the function without holding the lock, so that it may take long or set another function.
+  // The function is called without the lock, because it may take long or set another function.
   const Sink to = current_sink();
   if (to.function) to.function(to.user_data, level, message.text());
 }

@@ -22,7 +22,7 @@ class MadeOnce {
     }
     return value_;
   }
-  // The next get() makes the value again, from the old one. No other thread may use the value meanwhile.
+  // The next get() makes the value again, from the old value. No other thread may use the value meanwhile.
   T &forget() {
     is_made_.store(false, std::memory_order_relaxed);
     return value_;

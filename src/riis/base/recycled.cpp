@@ -44,7 +44,7 @@ constexpr std::size_t largest_block = std::size_t{1} << largest_class;
 // another thread took. A thread with an empty pool therefore looks into the other pools before the system is asked.
 constexpr unsigned n_pools = 16;
 
-// A lock for a few instructions, which two threads seldom want at once. A mutex would take half of the time that an array's
+// A lock for a few instructions, which two threads seldom need at once. A mutex would take half of the time that an array's
 // memory costs.
 class ShortLock {
  public:
@@ -61,7 +61,7 @@ struct alignas(64) Pool {
   ShortLock in_use;
   std::array<Block *, largest_class - smallest_class + 1> kept{};
 
-  // Returns a kept block of this size class, or null if there is none.
+  // Returns a kept block of this size class, or null if no such block is kept.
   Block *take(std::size_t size) {
     const std::lock_guard<ShortLock> lock(in_use);
     Block *first = kept[size];
@@ -114,8 +114,8 @@ void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
   if (n_bytes <= largest_block) {
     Pool &to = pools[own_pool()];
     const std::lock_guard<ShortLock> lock(to.in_use);
-    // n_keepers counts the objects that keep memory. The last keeper lowers this count first and then empties the pools under
-    // this lock. If the count is above 0 here, the pool will still be emptied, and the block may be kept.
+    // n_keepers counts the objects that keep memory. The last keeper first lowers n_keepers to 0, and then empties the pools
+    // under their locks. If n_keepers is above 0 here, the pool will be emptied later, and the block may be kept.
     if (n_keepers.load(std::memory_order_acquire) > 0) {
       Block *&first = to.kept[static_cast<std::size_t>(size_class(n_bytes) - smallest_class)];
       first = new (memory) Block{first};

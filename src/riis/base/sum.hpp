@@ -6,7 +6,7 @@
 namespace riis {
 
 // Adds numbers by Neumaier's method (1974), which also adds up the rounding errors. For any number of nodes, the total of the
-// leaflets' sums therefore differs from the surface's sum by a few units in the last place.
+// leaflets' sums therefore differs from the surface's sum by only a few units in the last place.
 class Sum {
  public:
   void add(double x) {

@@ -36,7 +36,8 @@ Two root(Two a) {
 #endif
 }
 
-// Computes |B'(t)| from the coefficients of B' in powers of t. This speed is computed in the innermost loop of all arc lengths.
+// Computes |B'(t)| from the coefficients of B' in powers of t. The speed |B'(t)| is computed in the innermost loop of all arc
+// lengths.
 struct Speed {
   explicit Speed(const Bezier &curve) {
     const auto &q = curve.control;
@@ -46,7 +47,7 @@ struct Speed {
     quadratic = curve.degree == 3 ? 3.0 * ((q[3] - q[0]) - 3.0 * (q[2] - q[1])) : Vec3{0, 0, 0};
   }
   double operator()(double t) const { return length(constant + t * (linear + t * quadratic)); }
-  // Computes |B'(t)| for two parameters at once, with the same bits as one at a time.
+  // Computes |B'(t)| for two parameters at once, with the same bits as for one parameter at a time.
   Two operator()(Two t) const {
     const Two x = constant.x + t * (linear.x + t * quadratic.x), y = constant.y + t * (linear.y + t * quadratic.y),
               z = constant.z + t * (linear.z + t * quadratic.z);
@@ -95,8 +96,8 @@ double length_tolerance(const Bezier &curve) {
 }
 
 double length_between(const Speed &speed, double tolerance, double t0, double t1) {
-  // The largest number of halvings is 40. At a cusp (|B'| = 0) each halving only halves the error, so 40 leave an error of about
-  // 1e-12 of the length.
+  // The largest number of halvings is 40. At a cusp (|B'| = 0) each halving only halves the error, so 40 halvings leave an error
+  // of about 1e-12 of the length.
   return adaptive_length(speed, t0, t1, quadrature(speed, t0, t1), tolerance, 40);
 }
 
@@ -116,15 +117,16 @@ double first_guess(const Speed &speed, double share) {
   return t;
 }
 
-// Integrates the speed over a range of t shorter than 1/1000. In such a short range the rule with 2 points is exact to rounding.
+// Integrates the speed over a range of t shorter than 1/1000. In a range this short, the rule with 2 points is exact up to
+// rounding.
 double short_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double node = 0.57735026918962576451;
   const double middle = 0.5 * (t0 + t1), half = 0.5 * (t1 - t0);
   return half * (speed(middle - half * node) + speed(middle + half * node));
 }
 
-// Integrates the speed in steps of t of at most 1/12. In such steps the rule with 8 points is exact to rounding, unless the speed
-// is nearly 0 somewhere.
+// Integrates the speed in steps of t of at most 1/12. In steps this short, the rule with 8 points is exact up to rounding if the
+// speed is nowhere nearly 0.
 double stepwise_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double longest = 1.0 / 12;
   if (t1 - t0 <= longest) return quadrature(speed, t0, t1);
@@ -141,8 +143,8 @@ struct SpeedOnPart {
 };
 
 // Finds the parameters of ascending lengths from the start of the part, each from the previous parameter. Returns false if the
-// lengths do not add up to the length of the part. The speed is then too far from a polynomial, as at a cusp, and one quadrature
-// for each step is not enough.
+// lengths do not add up to the length of the part. This happens where the speed is not nearly a polynomial, such as at a cusp,
+// because one quadrature for each step is then not accurate enough.
 bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t n, double *t) {
   const Speed &speed = part.speed;
   const double close_enough = 1e-14 * part.whole_length;
@@ -159,7 +161,7 @@ bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t
                                              : stepwise_quadrature(speed, next, closer);
       next = closer;
     }
-    // Near a cusp, Newton's method may not have converged yet. In this case the fast method gives up.
+    // Near a cusp, Newton's method may not have converged yet. The fast method then gives up.
     if (!(std::abs(made - wanted) <= 1e-13 * part.whole_length)) return false;
     at = t[k] = next;
     at_length += made;
@@ -201,7 +203,7 @@ double arc_length(const Bezier &curve, double t0, double t1) {
   return length_between(Speed(curve), length_tolerance(curve), t0, t1);
 }
 
-// Every point has its own variable. In an array, the compiler would store points and load them again at once.
+// Every point has its own variable. With an array, the compiler would store the points and load them again immediately.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t) {
   const auto &q = curve.control;
   const Vec3 a = mix(q[0], q[1], t), b = mix(q[1], q[2], t), ab = mix(a, b, t);
@@ -217,9 +219,9 @@ double flatness(const Bezier &curve) {
   return largest;
 }
 
-// Bounds the curvature |B' x B''| / |B'|^3. The bound is infinite if the curve may turn on the spot. B' and B'' are Bézier
-// curves with these control points. Products of these points bound the numerator. The least component of B' along the chord,
-// taken over its control points, bounds the denominator from below.
+// Bounds the curvature |B' x B''| / |B'|^3. The bound is infinite if the derivative may be 0 somewhere. B' and B'' are Bézier
+// curves with the control points `first` and `second`. Products of these control points bound the numerator. The least component
+// of B' along the chord, taken over its control points, bounds the denominator from below.
 template <std::size_t n, std::size_t m>
 static double rough_curvature(const Vec3 (&first)[n], const Vec3 (&second)[m], Vec3 chord) {
   double least_along = std::numeric_limits<double>::infinity(), largest_sq = 0;
@@ -259,8 +261,8 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // Bounds each quarter of the curve separately. The bound from control points is loose if they vary much. Within a quarter the
-  // control points vary little.
+  // Bounds each quarter of the curve separately. The bound from control points is loose if the control points vary much, but the
+  // control points of a quarter vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);

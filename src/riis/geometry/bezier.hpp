@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Quadratic and cubic Bézier curves in space (paper, 3.2 "Curves").
-// In: control points. Out: points, derivatives, lengths, halves, bounds.
+// This file computes points, derivatives, lengths, parts and bounds of the curves.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ struct Bezier {
   Vec3 last() const { return view(control)[degree]; }
 };
 
-// Returns B(t) for t in [0,1]. At t = 0 and t = 1 it is exactly the end point.
+// Returns B(t) for t in [0,1]. At t = 0 and t = 1 the result is exactly the end point.
 Vec3 evaluate(const Bezier &curve, double t);
 
 // Returns the first three derivatives by t.
@@ -66,12 +66,12 @@ void parameters_at_lengths(const Bezier &curve, double curve_length, const Vecto
 bool divide_part(const Bezier &curve, double curve_length, double from, double to, double length,
                  std::array<double, 7> &t);
 
-// Returns kappa, the largest distance of an inner control point from the segment between the first and the last. The paper uses
-// the distance from the line through both points. The paper's distance is 0/0 for a closed curve, and misses control points
-// beyond the ends.
+// Returns kappa, the largest distance of an inner control point from the segment between the first and the last control point.
+// The paper uses the distance from the line through both points. The paper's distance is 0/0 for a closed curve, and misses
+// control points beyond the ends.
 double flatness(const Bezier &curve);
 
-// Bounds the curvature everywhere on the curve. The bound is infinite if the curve may turn on the spot.
+// Bounds the curvature everywhere on the curve. The bound is infinite if the derivative may be 0 somewhere.
 double largest_curvature(const Bezier &curve);
 // Bounds the curvature from parameter t0 to t1, t0 < t1. Compared with largest_curvature, this bound is looser and takes a tenth
 // of the time.

@@ -17,8 +17,8 @@
 namespace riis {
 namespace {
 
-// Ball arithmetic: bounds a vector or a number on a range by a middle value and the largest distance from it.
-// In: ranges. Out: ranges that hold every value. Rounding of the bounds is ignored, because it is far smaller than the bounds.
+// Ball arithmetic: bounds a vector or a number on a range by a middle value and the largest distance from it. Each operation
+// gives a range that holds every possible value. Rounding of the bounds is ignored, because it is far smaller than the bounds.
 
 // All numbers within `radius` of `middle`.
 struct Interval {
@@ -64,8 +64,8 @@ inline Interval square(const Ball &a) {
 // Inverts positive numbers.
 inline Interval inverse(double least, double largest) { return Interval::between(1 / largest, 1 / least); }
 
-// Returns the part of a that is perpendicular to unit vectors. Across two unit vectors, the projections differ by the sine
-// of the angle between the vectors, which is at most their distance.
+// Returns the part of a that is perpendicular to the unit vectors of a ball. For two unit vectors, the projections differ by the
+// sine of the angle between these vectors, which is at most their distance.
 inline Ball across(const Ball &a, const Ball &unit) {
   return {a.middle - dot(a.middle, unit.middle) * unit.middle, a.radius + length(a.middle) * unit.radius};
 }
@@ -123,12 +123,13 @@ Along along(const Ball &tangent, double least, double largest, const Ball &secon
           speed};
 }
 
-// Returns the tangent over a whole span, or nothing if the span may stand still inside. The speed is 0 if the curve is a point.
+// Returns the tangent over a whole span, or nothing if B' may be 0 inside the span. The speed is 0 if the curve is a point.
 std::optional<Along> along_span(const Bezier &span, double speed) {
   if (!(speed > 0)) return Along{};
   const Derivatives d(span);
   const bool is_cubic = d.n == 3;
-  // In the middle, B' is this vector. From the middle, B'' changes B' for half of the range of t, to either side.
+  // `middle` is B' in the middle of the span. From the middle to either end, the change of B' is the integral of B'' over half of
+  // the range of t.
   const Vec3 middle = is_cubic ? 0.25 * (d.first[0] + 2 * d.first[1] + d.first[2]) : 0.5 * (d.first[0] + d.first[1]);
   const double size = length(middle);
   if (!(size > 0)) return std::nullopt;
@@ -229,8 +230,8 @@ Bulge::Place Bulge::place(double u) const {
 OffsetBounds bound_offset(const ArcRange &range, double factor) {
   const Vec3 start = range.edge.front().first() - range.base.front().first();
   const Vec3 end = range.edge.back().last() - range.base.back().last();
-  // No point of a curve moves farther than the length of its part of the curve. The distance of W from its nearer end value is
-  // therefore at most half the sum of the two parts' lengths.
+  // On the range, a point of a curve moves by at most the length of the curve's part. The distance of W from its nearer end value
+  // is therefore at most half the sum of the two parts' lengths.
   const double w_ends = std::max(length(start), length(end));
   const double w_far = w_ends + 0.5 * range.du * (range.base_length + range.edge_length);
   const OffsetBounds unknown{infinity, 2 * std::abs(factor) * w_far};
@@ -262,7 +263,7 @@ OffsetBounds bound_offset(const ArcRange &range, double factor) {
       const OffsetDerivatives offset(w, b, e, factor);
       second = std::max(second, offset.has_direction() ? offset.largest_second() : infinity);
     }
-  // Neither |O| nor the length of its linear interpolation exceeds |factor| |W|.
+  // Both |O| and the length of its linear interpolation are at most |factor| |W|.
   return {second, 2 * std::abs(factor) * std::min(w_ends + off_line, w_far)};
 }
 
@@ -271,7 +272,7 @@ double Bulge::linear_error(const Place &from, const Place &to, double enough) co
   const Vector<Bezier> edge = edge_.length() > 0 ? edge_.spans_between(from.on_edge, to.on_edge) : edge_.spans();
   const OffsetBounds bounds = bound_offset({base, edge, base_.length(), edge_.length(), to.u - from.u}, factor_);
   // If the bound on |O''| is too large, O is evaluated at a few points, and the bound is used only between neighbouring points.
-  // With eight parts, the bound then contributes 64 times less.
+  // With eight parts, the bound then contributes only 1/64 as much.
   double error = error_between(from.u, to.u, 1, bounds.second);
   if (!(error <= enough)) error = sampled_error(from, to) + error_between(from.u, to.u, 8, bounds.second);
   return error <= bounds.largest ? error : bounds.largest;  // an error that is NaN also gives way to this bound

@@ -22,7 +22,7 @@ double smallest_step(const Vector<double> &t) {
 }
 
 // Bounds the distance between a side and its curve, for each pair of neighbouring grid lines. The bound is the error of the
-// side's segment there, plus the shift of shared lines along the side.
+// side's segment between the two lines, plus the shift of shared lines along the side.
 Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &side, double GridLine::*t) {
   Vector<double> errors(lines.size() - 1, 0.0);
   if (!(side.length > 0)) return errors;
@@ -72,8 +72,8 @@ class ArcRefinement {
   }
 
  private:
-  // Returns the place at which a range is cut. A cut at a joint removes a kink, so joints come first, except joints too near an
-  // end. Without such a joint, the cut is in the middle.
+  // Returns the place at which a range is cut. A cut at a joint removes a kink, so the cut is at a joint that is not too near an
+  // end, if there is one. If there is none, the cut is in the middle.
   double cut(double from, double to) const {
     for (const double joint : bulge_.joints())
       if (joint > 0.875 * from + 0.125 * to && joint < 0.125 * from + 0.875 * to) return joint;
@@ -106,7 +106,7 @@ Vector<double> middles(const Vector<GridLine> &lines) {
 
 Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance) {
   const Vector<double> t0 = own_parameters(side0), t1 = own_parameters(side1);
-  // The tolerance is so small that no two vertices of one side can match the same vertex of the other.
+  // The tolerance is so small that no two vertices of one side can match the same vertex of the other side.
   const double tolerance = std::min(merge_tolerance, 0.49 * std::min(smallest_step(t0), smallest_step(t1)));
   Vector<GridLine> lines;
   lines.reserve(t0.size() + t1.size());
@@ -178,8 +178,8 @@ QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines) {
     sides_on_lines.u1.push_back(evaluate(*sides.side_u1, line.t1));
   }
   grid.points = coons_combination(grid.u, grid.v, sides_on_lines);
-  // The errors of four side points make the error of a point of the patch. The weights of these errors follow from the points'
-  // positions.
+  // The error of a point of the patch is a weighted sum of the errors of four side points. The weights follow from the point's
+  // position.
   const Vector<double> error_v0 = errors_between(u_lines, *sides.side_v0, &GridLine::t0);
   const Vector<double> error_v1 = errors_between(u_lines, *sides.side_v1, &GridLine::t1);
   const Vector<double> error_u0 = errors_between(v_lines, *sides.side_u0, &GridLine::t0);

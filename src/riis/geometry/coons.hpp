@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns patches into grids of quads (paper, 3.3 "Surface structure", and the appendix, "Leaflet surfaces").
-// In: boundary polylines that meet at their ends. Out: grid points at the union of their parameters.
+// Turns patches into grids of quads (paper, 3.3 "Surface structure", and the appendix, "Leaflet surfaces"). Boundary polylines
+// that meet at their ends give grid points at the union of the polylines' parameters.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ struct PatchSides {
   const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
 };
 
-// A line of the grid. Two vertices on opposite sides whose parameters nearly agree share a line, so no sliver quads arise.
-// Neither vertex moves. Neighbouring patches fit without cracks, because each vertex of a shared curve keeps its place.
+// A line of the grid. Two vertices on opposite sides whose parameters nearly agree share a line, so no sliver quads arise. Both
+// vertices keep their places. Neighbouring patches therefore fit without cracks.
 struct GridLine {
   double t0, t1;                                // the line's parameters on the first and the second of its two sides
   double middle;                                // the mean of both, which is the line's u (or v) in the grid
@@ -29,7 +29,7 @@ struct GridLine {
 // contributes no parameters.
 Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance);
 
-// The lines that a grid was made from.
+// The lines from which a grid was made.
 struct GridLines {
   Vector<GridLine> u, v;
   bool move_with_joints = false;  // whether the lines u of a planned patch of arcs move with the joints of its base
@@ -54,12 +54,13 @@ struct SideVectors {
   Vector<Vec3> u0, u1;  // vectors at the ends of the lines v; the first and the last, at corners, are not read
 };
 
-// Returns the Coons combination of vectors on the sides, which may be points or displacements. The order is that of
+// Returns the Coons combination of vectors on the sides, which may be points or displacements. The result has the order of
 // QuadGrid::points.
 Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v, const SideVectors &sides);
 
 // Makes the grid of the Coons patch. The patch is bilinear inside every quad, so the grid represents it exactly. Lines are
-// merged if this moves no point along a side by more than max_merge_shift. Writes the lines to `lines` unless it is null.
+// merged if this moves no point along a side by more than max_merge_shift. Writes the lines to `lines` if this pointer is not
+// null.
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLines *lines = nullptr);
 // Makes the grid on given lines, whose ends are vertices of the sides.
 QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
@@ -88,7 +89,8 @@ ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset
 // Makes the grid with n_rows rows of equal height h. The distance of an arc from its chords is at most |O| h^2 / 2.
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);
 
-// A linear function is at0 at 0 and at1 at 1. Returns the larger of the function's values at `from` and `to`.
+// A linear function has the value at0 at 0 and the value at1 at 1. Returns the larger of the function's values at `from` and
+// `to`.
 double larger_mix(double at0, double at1, double from, double to);
 // Returns the largest value of 2 v (1-v) between two values of v.
 double largest_arc_weight(double from, double to);

@@ -12,10 +12,10 @@
 namespace riis {
 namespace {
 
-// A curve has at most 2^20 parts. A request with more parts than this would make more triangles than the library can hold.
+// A curve has at most 2^20 parts, because more parts would make more triangles than the library can hold.
 constexpr int max_depth = 20;
-// The velocity does not halve parts narrower than this. If a curve nearly turns on the spot, such halving would not
-// end.
+// The velocity halves only parts that are wider than `narrowest_for_velocity`. If a curve's derivative is nearly 0 somewhere,
+// such halving would not end.
 constexpr double narrowest_for_velocity = 1.0 / 32;
 
 // Collects the chords of parts. Each part is within max_error of its chord.
@@ -72,9 +72,9 @@ class Flattening {
     return bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
   }
 
-  // Compares points of the part and of the chord. Each pair has equal shares of the part's and the chord's own lengths. The
-  // distance of two such points is at most length^2 / 8 times the largest curvature, as for linear interpolation. Joints do not
-  // matter, because the direction is continuous there. If the curve may turn on the spot, the distance is at most the length.
+  // Compares the point of the part with the point of the chord at each share of their lengths. The distance of two such points is
+  // at most length^2 / 8 times the largest curvature, as for linear interpolation. Joints do not matter, because the direction is
+  // continuous there. If the curve's derivative may be 0, the distance is at most the length.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {
@@ -239,8 +239,8 @@ VelocityBend::VelocityBend(const Curve &curve, const Vector<Bezier> &velocity) {
     const double speed_rate = dot(at.tangent, first_rate), inverse = 1 / at.speed;
     const Vec3 tangent_rate = inverse * (first_rate - speed_rate * at.tangent);
     const double along = dot(at.tangent, at.second);
-    // The curvature vector and its rate of change. The vector times the squared length of the curve is the second derivative by
-    // the share.
+    // The curvature vector and its rate of change. The curvature vector times the squared length of the curve is the second
+    // derivative of the point by the share.
     const Vec3 curvature = inverse * inverse * (at.second - along * at.tangent);
     const Vec3 curvature_rate = inverse * inverse *
                                     (second_rate - along * tangent_rate -

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Curves of one or several Bézier spans, parametrised by the share of the length.
-// In: Bézier spans. Out: points and parts of the curve by share, and polylines that approximate the curve.
+// This file finds points and parts of a curve by share, and makes polylines that approximate a curve.
 #pragma once
 
 #include <array>
@@ -21,8 +21,9 @@ struct PointOnSpan {
   double t;
 };
 
-// Every span but the first begins at the end of the previous span, and in the same direction. At a joint, the curve's curvature
-// may therefore jump, but not its direction. (A curve with corners is several curves, and its patch is several patches.)
+// Each span begins at the end of the previous span, and in the direction in which the previous span ends. At a joint, the
+// curvature may therefore jump, but the direction does not. (A curve with corners is stored as several curves, and its patch as
+// several patches.)
 class Curve {
  public:
   Curve(const Bezier &span);  // NOLINT(google-explicit-constructor): a single span is a curve
@@ -66,7 +67,7 @@ class Curve {
 
   Curve reversed() const;
 
-  // Returns the same curve with its ends moved onto the ends of neighbouring curves. The moves must be within rounding.
+  // Returns the same curve with its ends moved onto the ends of neighbouring curves. The ends may move by rounding errors only.
   Curve through(Vec3 first, Vec3 last) const;
 
  private:
@@ -74,7 +75,7 @@ class Curve {
   Vector<double> ends_;  // the length from the start of the curve to the end of each span
 };
 
-// Turns the successive spans around.
+// Reverses the direction of the successive spans.
 void reverse(Vector<Bezier> &spans);
 
 // Returns whether both curves have exactly the same control points.
@@ -122,7 +123,7 @@ struct Flattened {
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
 
 // Points of a curve at many shares of its length, found in one pass.
-// In: a curve, and ascending shares. Out: points, tangents, and bounds for the parts between them.
+// For a curve and ascending shares, this class has points, tangents, and bounds for the parts between the points.
 class CurvePoints {
  public:
   // Finds the points at these shares, which ascend from 0 to 1. If is_reversed, the shares count from the curve's last point.
@@ -156,7 +157,7 @@ class CurvePoints {
 };
 
 // Polylines parametrised by length (paper, 3.2.2 "Polyline").
-// In: points or a curve. Out: C(t) for t in [0,1], where t is the share of the length.
+// A polyline is made from points or from a curve. The polyline gives C(t) for t in [0,1], where t is the share of the length.
 struct Polyline {
   Vector<Vec3> points;    // at least 1
   Vector<double> t;       // t of every point, ascending from 0 to 1; a single 0 if the length is 0
@@ -172,8 +173,8 @@ Polyline make_polyline(const Vector<Vec3> &points);
 // share of the curve's length, not of the polyline's length as in the paper. For any tolerance, the vertex is therefore the
 // curve's point at its t.
 Polyline make_polyline(const Curve &curve, double max_error);
-// Makes the polyline of a curve that moves. On each segment, the estimated distance of the velocity from linear is at most
-// max_bend. `velocity` has the velocities of the spans' control points.
+// Makes the polyline of a curve that moves. On each segment, the estimated distance of the velocity from a linear function is at
+// most max_bend. `velocity` has the velocities of the spans' control points.
 Polyline make_polyline(const Curve &curve, double max_error, const Vector<Bezier> &velocity, double max_bend);
 
 // Returns the same polyline in the opposite direction.

@@ -18,11 +18,11 @@ struct PointOnTriangle {
 };
 
 // The triangle must have an area (has_zero_area in triangulate/triangle_set.hpp). The result is the best of four candidates: the
-// clamped points of the three edges, and the foot of the perpendicular if it is inside. Each candidate lies on the triangle to
-// rounding. A wrong answer to "inside" therefore costs only rounding, and never gives too small a distance.
+// clamped points of the three edges, and the foot of the perpendicular if it is inside. Up to rounding, each candidate lies on
+// the triangle. A wrong decision about "inside" therefore adds only a rounding error, and never makes the distance too small.
 PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c);
 
-// Of several triangles, the closest has the smallest square and, among equals, the lowest position.
+// The closest of several triangles has the smallest square. Among triangles with equal squares, it has the lowest position.
 struct ClosestTriangle {
   double distance_sq;
   std::int64_t triangle;  // position in the set, -1 for none

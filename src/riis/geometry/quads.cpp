@@ -17,8 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Bounds the distance between a quad and its triangles at a level of subdivision. The bound is refined no further than `enough`
 // requires.
 double split_error_at(const Quad &quad, int level, double enough) {
-  // Below this level, all parts are checked, because their number is small. From this level on, the bound only uses that each
-  // level divides the twist by exactly 4.
+  // Below the level `few`, all parts of the quad are checked, because their number is small. From the level `few` on, the bound
+  // only uses that each level divides the twist by exactly 4.
   constexpr int few = 5;
   const double at_equal_uv = std::ldexp(quad_flatness(quad), -2 * level);
   if (level >= few || (at_equal_uv <= enough && enough < infinity)) return at_equal_uv;
@@ -34,8 +34,8 @@ double split_error_at(const Quad &quad, int level, double enough) {
   return std::min(largest, at_equal_uv);
 }
 
-// A level of subdivision, which is the number of halvings of a quad's sides, and a bound on the distance from the triangles to
-// the smooth patch.
+// A level of subdivision and its error. The level says how often the sides of a quad are halved, and the error bounds the
+// distance from the triangles to the smooth patch.
 struct Level {
   int level;
   double error;
@@ -72,8 +72,8 @@ Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double m
   if (!(error <= left)) {
     double shortest = 0;
     const Quad merged = without_shortest_edge(quad, shortest);
-    // The quad and the merged quad, and also their triangles, are at most half the shortest edge apart. The sum therefore
-    // includes the whole edge.
+    // The quad and the merged quad, and also their triangles, are at most half the shortest edge apart. The error of the merged
+    // quad therefore gets the whole length of the edge added.
     error = std::min(split_error_at(quad, level, infinity), split_error_at(merged, level, infinity) + shortest);
   }
   return {level, grid.error(i, j) + error};
@@ -93,8 +93,8 @@ void count(const Level &level, LevelledGrid &made) {
   if (n > 1) made.n_vertices += (n + 1) * (n + 1);
 }
 
-// Counts the triangles with two equal corners. Most lie along a collapsed side of the patch, so only quads at the sides are
-// counted.
+// Counts the triangles with two equal corners. Most such triangles lie along a collapsed side of the patch, so only quads at the
+// sides are counted.
 void count_collapsed(LevelledGrid &made) {
   const QuadGrid &grid = made.grid;
   const std::size_t n_u = grid.u.size() - 1, n_v = grid.v.size() - 1;

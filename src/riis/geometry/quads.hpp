@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quads of grids, and the number of halvings before quads are split into triangles (docs/theory/triangles.md). In: grids, the
-// allowed error. Out: the level of each quad, and a bound on the error of its triangles.
+// Quads of grids, and the number of halvings before quads are split into triangles (docs/theory/triangles.md). This file finds
+// the level of each quad, and a bound on the error of the quad's triangles.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +39,7 @@ void for_each_quad(const QuadGrid &grid, const Visit &visit) {
     for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) visit(i, j);
 }
 
-// A limit on the number of halvings. No quad that the library accepts needs as many.
+// A limit on the number of halvings. No quad that the library accepts needs so many halvings.
 inline constexpr int most_halvings = 13;
 
 // The quads of a patch, and their levels of subdivision in the order of for_each_quad.

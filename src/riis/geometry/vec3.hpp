@@ -46,7 +46,7 @@ struct Bounds {
     upper = {std::max(upper.x, other.upper.x), std::max(upper.y, other.upper.y), std::max(upper.z, other.upper.z)};
   }
 
-  // Coordinates are halved before they are added, so that the sum of two large ones does not overflow.
+  // Coordinates are halved before they are added, so that the sum of two large coordinates does not overflow.
   Vec3 middle() const { return 0.5 * lower + 0.5 * upper; }
   Vec3 half_extent() const { return 0.5 * upper - 0.5 * lower; }
 

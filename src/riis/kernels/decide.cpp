@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computations in double precision for eight triangles at a time. The decision kernel repeats geometry/point_triangle.cpp
 // operation by operation, so every lane has the same bits. The file also makes the triangles' frames for the filter. This file is
-// compiled for each instruction set and never contracted.
+// compiled for each instruction set, and never with contracted multiplications and additions.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 
@@ -72,7 +72,8 @@ RIIS_INLINE Doubles root(Doubles a) {
 // on the instruction set, so no result for a caller may depend on these bits.
 RIIS_INLINE Doubles inverse_root(Doubles a) {
 #if defined(__AVX512F__)
-  // Newton's method doubles the 14 right bits of the estimate twice. This method takes less time than a root and a division.
+  // The estimate has 14 correct bits, and two steps of Newton's method double this number twice. Two steps of Newton's method
+  // take less time than a root and a division.
   count(&Counts::operations, Doubles::n);
   Doubles r{{(DoubleRegister)_mm512_rsqrt14_pd((__m512d)a.part[0])}};
   const Doubles half = Doubles::all(0.5) * a;
@@ -220,7 +221,7 @@ void differentiate(const PointsAndTriangles &pairs, const PointsOnTriangles &loc
     (weight * unit.y).store(weighted[k][1]);
     (weight * unit.z).store(weighted[k][2]);
   }
-  // To gather the rates of eight points costs more than to compute one point at a time.
+  // This loop computes one point at a time, because gathering the rates of eight points would take longer.
   for (int32_t lane = 0; lane < n_points; ++lane) {
     const int64_t a = 3 * vertex[lane][0], b = 3 * vertex[lane][1], c = 3 * vertex[lane][2];
     const auto part = [&](int k, const double *rate) RIIS_LAMBDA {
@@ -329,7 +330,7 @@ void frame_group(const PlainFrame &frame, const double *corners, const int32_t *
 
 typedef float HalfRegister __attribute__((vector_size(register_bytes / 2)));
 
-// Widens to double precision. GCC's own conversion takes two halves, and puts them together.
+// Converts numbers to double precision. GCC's own conversion would convert two halves and join them.
 RIIS_INLINE DoubleRegister widened(HalfRegister x) {
 #if defined(__AVX512F__)
   return (DoubleRegister)_mm512_cvtps_pd((__m256)x);
@@ -353,8 +354,8 @@ RIIS_INLINE void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
   put(v.z, to[2] + from);
 }
 
-// Stores an axis in single precision, and the origin at which the coordinate of `middle` is zero. The origin belongs to
-// the rounded axis, so the axis's rounding only matters in proportion to the distance from `middle`.
+// Stores an axis in single precision, with the origin that gives `middle` the coordinate zero. The origin is computed for the
+// rounded axis, so the effect of the rounding is proportional to the distance from `middle`.
 RIIS_INLINE void put_axis(Doubles3 axis, Doubles3 middle, float (*to)[triangles_per_group], float *origin, int from) {
   put(axis, to, from);
   const auto rounded = [](Doubles x) RIIS_LAMBDA {
@@ -380,8 +381,8 @@ RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
 
 constexpr int halves = triangles_per_group / Doubles::n;
 
-// Moves a lower bound outwards by more than a number can change when it is rounded to single precision. The result thus also
-// bounds numbers that were rounded to single precision.
+// Lowers a lower bound by more than rounding to single precision can change a number. The result is therefore also a lower bound
+// of rounded numbers.
 RIIS_INLINE float round_down(double x) {
   const double unit = (x < 0 ? -x : x) * 0x1p-22 + 0x1p-120;
   return static_cast<float>(x - unit);
@@ -452,8 +453,8 @@ struct Axes {
 };
 
 // Chooses the axes of eight groups: one across a group's triangles, one along its first edge, and one at right angles to both.
-// Any three axes at right angles would be correct, but these give a small box. `across` is the sum of the triangles' normals,
-// each as long as twice the triangle's area.
+// Any three axes at right angles would be correct, but these axes give a small box. `across` is the sum of the triangles'
+// normals, each as long as twice the triangle's area.
 RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
   // Divides by the largest component, so that the squares do not underflow for small triangles.
@@ -467,7 +468,7 @@ RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles::Mask has_edge = normalize(along);
   const Doubles::Mask steep = magnitude(across.x) < Doubles::all(0.6);
   along = choose(has_edge, along, {choose(steep, one, zero), choose(steep, zero, one), zero});
-  // Removes the part along `across` that rounding has left. This remaining part is large if the edge runs nearly along `across`.
+  // Removes the part along `across` that rounding has left. The removed part is large if the edge runs nearly along `across`.
   for (int i = 0; i < 2; ++i) {
     along = take_across_away(along);
     normalize(along);
@@ -501,7 +502,7 @@ RIIS_INLINE void bound_group(const float (*rounded)[triangles_per_group], GroupB
   }
   float end[12];
   for (int i = 0; i < 3; ++i) least_lanes(ends[i], end + 4 * i);
-  // The error of a product is at most 9 units of rounding, since coordinates are at most 1.
+  // The error of a product is at most 9 units of rounding, because coordinates are at most 1.
   constexpr double products = 0x1p-20;
   for (int i = 0; i < 3; ++i) {
     bounds.lower[i] = round_down(end[2 * i]);

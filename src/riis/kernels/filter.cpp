@@ -27,8 +27,9 @@ struct ToGroup {
   Floats distance_sq, height;
 };
 
-// Measures a point. Every distance is the distance to some point of the triangle, to rounding. A point counts as inside only if
-// it is inside by a margin. A point closer to an edge gets its distance to this edge, which is wrong by at most the margin.
+// Measures a point. Up to rounding, every result is the distance to some point of the triangle. A point counts as inside the
+// triangle only if all edges are farther than a margin. A point closer to an edge gets its distance to this edge, which is wrong
+// by at most the margin.
 RIIS_INLINE ToGroup measure_to_group(const TriangleGroup &group, Floats3 p, Floats margin) {
   const auto along = [&](const float(*axis)[16], const float *origin) RIIS_LAMBDA {
     const Floats3 unit = load(axis);
@@ -88,7 +89,8 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
   return found != 0;
 }
 
-// Along an axis, a box extends from its middle by the sum of its half sides, each times its component of the axis.
+// Along an axis, a box extends from its middle by the sum of its half sides, each multiplied by the axis's component along this
+// side.
 template <bool is_one_sided>
 RIIS_INLINE bool near_rotated_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates,
                                     int32_t n_candidates, uint16_t *near) {
@@ -137,7 +139,7 @@ bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *c
 }
 
 int32_t select(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to) {
-  // Of the selected numbers, no more are written than were read. A whole register therefore stays within the first n places.
+  // The loop never writes more numbers than it has read, so a write of a whole register stays within the first n places.
   int32_t n_selected = 0, k = 0;
   for (; k + 16 <= n; k += 16) {
     const uint32_t lanes = lanes_with_bit(marks + k, bit);
@@ -177,9 +179,9 @@ void nearest_groups(const FilterTask &task, const Boxes &boxes, const int32_t *c
   for (int i = 0; i < 16; ++i) nearest[i] = static_cast<int32_t>(positions[i]);
 }
 
-// Take the square of the distance of a place from a box, minus the square of its distance from a point. This difference is a
-// concave function of the place. The difference is also a sum over the axes. Its least value in another box is therefore the sum,
-// over the axes, of the lesser value at the two ends.
+// Let f be the square of a place's distance from a box, minus the square of the place's distance from a point. f is a concave
+// function of the place, and a sum over the axes. The least f in another box is therefore a sum over the axes. Along each axis,
+// the least value is at one of the two ends of the box.
 void competing_groups(const FilterTask &task, const Boxes &boxes, const PointsOfBoxes &points,
                       const int32_t *candidates, int32_t n_candidates, uint16_t *competes) {
   const Floats zero = Floats::all(0), tolerance = Floats::load(points.tolerance);
@@ -218,8 +220,8 @@ RIIS_INLINE int32_t first_node_of(const LeafTask &leaf) { return leaf.position *
 RIIS_INLINE uint32_t leaf_of(int32_t node) { return static_cast<uint32_t>(node) / nodes_per_leaf; }
 
 // Takes a leaf to the surface's frame. For every group and every node, computes the square of a lower bound on their distance.
-// Lists each node that may be within reach, with the group that has the least bound. For one side, a node counts only if a group
-// within reach keeps the node.
+// Lists each node that may be within reach, with the group that has the least bound. If only one side of the surface counts, a
+// node is listed only if a group within reach keeps the node.
 template <bool is_one_sided>
 RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask &cluster, float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf), n_before = cluster.n_listed;
@@ -280,8 +282,8 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask 
   leaf.may_be_near = cluster.n_listed > n_before;
 }
 
-// Lists nodes of a leaf with each group, except the first, that may be as near as the best triangle so far. Begins with the group
-// cluster.next_group. Returns false if the list is full before the last group.
+// Lists nodes of a leaf. Each node is listed with every group, except its first group, that may be as near as the best triangle
+// so far. The list begins with the group cluster.next_group. Returns false if the list is full before the last group.
 RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf);
   Floats limit[halves], first_group[halves];
@@ -308,7 +310,7 @@ RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const f
   return k == leaf.n_groups;
 }
 
-// Returns a bit for each triangle of a group, unless it leaves the point out of a band that steps aside.
+// Returns a bit for each triangle of a group that keeps the point in a band with an offset.
 RIIS_INLINE uint32_t bits_in_band(const OneSide &one_side, int32_t group, const ToGroup &to) {
   if (one_side.end_of_band[group] == __builtin_inff()) return 0xffff;
   const Floats depth = Floats::all(one_side.behind) * to.height;
@@ -317,7 +319,8 @@ RIIS_INLINE uint32_t bits_in_band(const OneSide &one_side, int32_t group, const 
   return bits_at_most(excess, Floats::all(0));
 }
 
-// Computes the distances of the listed nodes from `from` on. Meanwhile, requests the last n_lines lines ahead.
+// Computes the distances of the listed nodes, beginning with the node `from`. Also prefetches the last n_lines lines of
+// LinesAhead.
 template <bool is_one_sided>
 RIIS_INLINE void compare(const FilterTask &task, ClusterTask &cluster, int32_t from, int32_t n_lines) {
   constexpr int n = 4;
@@ -382,7 +385,7 @@ void begin_cluster(const FilterTask &task, ClusterTask &cluster) {
 }
 
 // Leaves a node out if all its possible closest triangles leave the node out of the band. All groups near the node must be in the
-// list, so only the first n_leaves leaves count.
+// list, so only the first n_leaves leaves are judged.
 RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   uint32_t stays[leaves_per_cluster] = {};
   for (int32_t i = 0; i < cluster.n_listed; ++i) {
@@ -402,8 +405,8 @@ RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   }
 }
 
-// Compares the nodes with their first groups, unless an earlier call has done so. After that, lists other groups for as many
-// nodes as there is room for, and compares nodes and groups.
+// Compares the nodes with their first groups if no earlier call has done so. After that, lists other groups for as many nodes as
+// there is room for, and compares the nodes with these groups.
 template <bool is_one_sided>
 RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
   const bool is_first = cluster.next_leaf < 0;

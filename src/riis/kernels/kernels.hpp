@@ -3,10 +3,10 @@
 // chosen at run time. This header has only plain data and declarations, because the compiler would compile a function body here
 // for several instruction sets under one name.
 //
-// filter_*: single precision, only to dismiss pairs that cannot matter. Results are accurate to filter_error
-// (docs/theory/clusters.md). Coordinates are in the surface's frame: relative to its middle, and scaled by a power of two so
-// that its half extent is from 1/2 to 1.
-// decide, locate: double precision, with exactly the bits of the decision kernel (geometry/point_triangle.hpp).
+// FilterKernels compute in single precision, only to dismiss pairs that cannot matter. Results are accurate to filter_error
+// (docs/theory/clusters.md). Coordinates are in the surface's frame: relative to the surface's middle, and scaled by a power of
+// two that makes the surface's half extent 1/2 to 1.
+// DecisionKernels compute in double precision, with exactly the bits of the decision kernel (geometry/point_triangle.hpp).
 #pragma once
 
 #include <stdint.h>
@@ -34,12 +34,12 @@ struct alignas(64) TriangleGroup {
 };
 constexpr float beyond_limits = 0x1p40f;  // its square is finite, and farther than any limit of a filter
 
-// The coordinates of a group's corners: x, y and z of the first corners, then of the second, then of the third.
+// The coordinates of a group's corners: x, y and z of the first corners, then of the second corners, then of the third corners.
 struct alignas(64) GroupCorners {
   double xyz[9][triangles_per_group];
 };
 
-// Takes a coordinate x to (x - centre) * scale. The frame is the surface's or the mesh's.
+// The frame of the surface or of the mesh. The frame takes a coordinate x to (x - centre) * scale.
 struct PlainFrame {
   double centre[3], scale;
 };
@@ -73,19 +73,19 @@ struct FilterLimits {
   float margin;     // how far inside a triangle a point must be to count as inside
 };
 
-// The band that steps aside leaves out nodes far behind the surface, on the side away from the offset. All numbers are in the
+// A band with an offset leaves out nodes far behind the surface, on the side away from the offset. All numbers are in the
 // surface's frame (docs/theory/clusters.md, "One side").
 struct OneSide {
   float behind;       // 1 or -1: this times a node's height over a triangle is the node's depth behind the triangle
   float twice_shift;  // twice the distance of the band's middle from the surface
   float least_depth;  // a node with less depth may be in front of the triangle
   float least_sum;    // a node is out of the band if the square of its distance + twice_shift * depth exceeds this
-  // For each group, the place along its first axis, times `behind`, beyond which the whole group leaves a node out. This place is
-  // infinity if the group leaves no node out. The pointer is null if nodes on both sides are wanted.
+  // For each group, a place along the group's first axis, multiplied by `behind`. Beyond this place the whole group leaves a node
+  // out. The place is infinite if the group leaves no node out. The pointer is null if nodes on both sides are wanted.
   const float *end_of_band = nullptr;
 };
 
-// The filter's input for a whole search. x * ratio + shift takes the mesh's frame to the surface's frame.
+// The filter's input for a whole search. A coordinate x in the mesh's frame is x * ratio + shift in the surface's frame.
 struct FilterTask {
   float ratio, shift[3];
   FilterLimits limits;
@@ -94,7 +94,8 @@ struct FilterTask {
   OneSide one_side;
 };
 
-// A point of the surface for each of 16 boxes. A group competes with the point if it may be nearer to some place in the box.
+// A point of the surface for each of 16 boxes. A group competes with the point if the group may be nearer to some place in the
+// box.
 struct alignas(64) PointsOfBoxes {
   float xyz[3][16];
   float tolerance[16];  // the most by which the computed squares of two equal distances from a place in the box differ
@@ -112,15 +113,15 @@ struct LeafTask {
   uint32_t found;    // after the last call of filter_cluster, a bit for each node that had pairs in any call
 };
 
-// Cache lines for the decision. The filter requests some of these lines after every few distances. Requests for all lines at once
-// would fill the processor's queue, and other loads would wait.
+// Cache lines that the decision will read. The filter prefetches some of these lines after every few distances. Prefetching all
+// lines at once would fill the processor's queue, and other loads would wait.
 struct LinesAhead {
   int32_t n;
   const char *line[256];
 };
 
 // Leaves of one cluster, which are filtered together. The filter lists nodes with groups, and computes the distances of the whole
-// list. Nodes and pairs may be too many for the list and for the caller's arrays. The filter then continues in another call.
+// list. If the nodes or pairs do not fit into the list or the caller's arrays, the filter continues in another call.
 constexpr int32_t most_listed = 2 * nodes_per_cluster;
 struct ClusterTask {
   int32_t n_leaves;
@@ -129,7 +130,7 @@ struct ClusterTask {
   LinesAhead ahead;     // filter_cluster empties it
   bool is_done;         // the last call of filter_cluster sets this
 
-  // The next members belong to the filter. The arrays have room for whole registers. A node is given by its position in the
+  // Only the filter uses the following members. The arrays have room for whole registers. A node is given by its position in the
   // cluster.
   int32_t next_leaf, next_group;
   int32_t n_listed, next_listed;
@@ -144,8 +145,8 @@ struct ClusterTask {
   float first_group[nodes_per_cluster];  // the group that the node was compared with first
 };
 
-// Pairs of a node, given by its position in the cluster, and a triangle. The arrays must have room for 16 more pairs than
-// they contain.
+// Pairs of a node and a triangle. A node is given by its position in the cluster. The arrays must have room for 16 more pairs
+// than they contain.
 struct PairArrays {
   int32_t *node, *triangle;
 };
@@ -182,13 +183,13 @@ struct alignas(64) PlacedBy {
   double of_image[3][4], offset_of_image[4], rotation[3][4], translation[4], scale;
 };
 
-// Sources of functions |r|^3 with their weights, coordinate by coordinate. n is a multiple of 8. Lanes without a source have the
-// weight 0.
+// The sources of functions |r|^3, stored coordinate by coordinate, and the functions' weights. n is a multiple of 8. Lanes
+// without a source have the weight 0.
 struct CubeSources {
   const double *source[3], *weight[3];
   int64_t n;
 };
-// The sum of weight |y - source|^3 at a point y, and a third of its derivatives by the coordinates of y.
+// The sum of all terms weight |y - source|^3 at a point y, and a third of the sum's derivatives by the coordinates of y.
 struct CubeSums {
   double value[3], third_along[3][3];
 };
@@ -197,18 +198,19 @@ struct CubeSums {
 constexpr int32_t keys_at_once = 2 * nodes_per_leaf;
 
 struct FilterKernels {
-  // For each candidate group, writes a bit for each box within its reach. Returns false if no box is within any reach.
+  // For each candidate group, writes a bit for each box within the group's reach. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
-  // Clears the bits of boxes beyond the reach of a group's box along its own axes. For one side, clears all bits of a box that
-  // all groups leave out. Returns false if no box is left. `near` comes from near_boxes, so lanes without a box have no bits.
+  // Clears the bits of boxes beyond the reach of the box that a group has along its own axes. If only one side of the surface
+  // counts, also clears all bits of a box that all groups leave out. Returns false if no box is left. `near` comes from
+  // near_boxes, so lanes without a box have no bits.
   bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          uint16_t *near);
-  // Copies each numbers[k] of n whose marks[k] has the given bit, without gaps, and returns their number. `to` must have room
-  // for n numbers.
+  // Copies, without gaps, each of n numbers whose entry in `marks` has the given bit. Returns the number of copied numbers. `to`
+  // must have room for n numbers.
   int32_t (*select)(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to);
-  // For each of 16 boxes, finds the candidate group, n_candidates > 0, whose corner is nearest to the middle of the box. Writes
-  // the position of that group among the candidates.
+  // For each of 16 boxes, finds the candidate group whose corner is nearest to the middle of the box, and writes the group's
+  // position among the candidates. n_candidates is above 0.
   void (*nearest_groups)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          int32_t *nearest);
   // For each candidate group, writes a bit for each box in which the group may be nearer than the box's point.
@@ -217,53 +219,54 @@ struct FilterKernels {
   // Compares the nodes of a cluster with the boxes of groups.
   void (*begin_cluster)(const FilterTask &task, ClusterTask &cluster);
   // Compares the nodes with the triangles of groups that may be near. Writes at most `room` pairs of a node and a triangle, and
-  // returns their number. For every node within the limit, its closest triangles are among the pairs. Each call goes on where
-  // the previous call stopped, until is_done is true. To go on, room for triangles_per_group pairs is enough.
+  // returns their number. The pairs include the closest triangles of every node within the limit. Each call goes on where the
+  // previous call stopped, until is_done is true. Room for triangles_per_group pairs is enough for a call to make progress.
   int32_t (*filter_cluster)(const FilterTask &task, ClusterTask &cluster, const PairArrays &pairs, int32_t room);
   // Computes the squares of the distances of a point to the triangles of a group, in single precision. The point is in the
   // surface's frame.
   void (*group_distances)(const TriangleGroup &group, const float *point, float margin, float *distance_sq);
-  // For each key, counts the lesser keys among the first n, n <= keys_at_once. If no two keys are equal, the count is the
-  // key's position in ascending order. The arrays `key` and `n_less` are aligned to 64 bytes and have room for keys_at_once.
+  // For each key, counts the lesser keys among the first n keys, where n is at most keys_at_once. If no two keys are equal, the
+  // count is the key's position in ascending order. The arrays `key` and `n_less` are aligned to 64 bytes and have room for
+  // keys_at_once.
   void (*rank)(const int32_t *key, int32_t n, int32_t *n_less);
 };
 
 struct DecisionKernels {
-  // Copies the corners of n triangles, n > 0, given by the ids of their vertices, 9 doubles for each triangle. Also finds the
-  // least and the greatest coordinates.
+  // Copies the corners of n triangles, 9 doubles for each triangle, and finds the least and the greatest coordinates. Triangles
+  // are given by the ids of their vertices, and n is above 0.
   void (*take_corners)(const double *vertices, const int64_t *vertex_id, int64_t n, double *corners, double *lower,
                        double *upper);
   // Checks up to eight triangles, given by the ids of their vertices. Returns false if a triangle may have no area, now or after
   // its corners move by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 + |ac|^2)^2 + shift^2
   // (|ab|^2 + |ac|^2).
   bool (*have_area)(const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
-  // Places n points (3, n). The results have the bits of place(placement, place(image, p)).
+  // Places n points (3, n). The results have the same bits as place(placement, place(image, p)).
   void (*place_points)(const PlacedBy &by, const double *points, int64_t n, double *placed);
-  // Measures up to eight triangles, given by the ids of their vertices. The normals have the bits of triangle_normal.
+  // Measures up to eight triangles, given by the ids of their vertices. The normals have the same bits as triangle_normal.
   void (*measure_triangles)(const double *vertices, const int64_t *vertex_id, int32_t n, TriangleMeasures &measures);
   // Takes the corners of up to 16 triangles to the surface's frame. The triangles are given by index.
   void (*frame_group)(const PlainFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
                       GroupCorners &framed);
   // Takes the nodes of a leaf (3, nodes_per_leaf) to the mesh's frame, in single precision, and finds the leaf's box. A
-  // coordinate far outside becomes 2 or -2, and NaN becomes -2.
+  // coordinate far outside the frame becomes 2 or -2, and NaN becomes -2.
   void (*frame_leaf)(const PlainFrame &frame, const double *xyz, Leaf &leaf, float *lower, float *upper);
   // Makes the frames and the bounds of up to eight groups of triangles from their corners in the surface's frame. Each
   // bounds[k].n must be set.
   void (*make_groups)(const GroupCorners *corners, int32_t n, TriangleGroup *groups, GroupBounds *bounds);
-  // Computes the squares of the distances of n pairs of a point (x, y, z) and a triangle (9 doubles), both given by index.
-  // May write up to 7 squares more than n.
+  // Computes the squares of the distances of n pairs of a point and a triangle, which are given by index. A triangle has 9
+  // doubles. The function may write up to 7 squares more than n.
   void (*decide)(int32_t n, const int32_t *point, const int32_t *triangle, const double *points, const double *corners,
                  double *distance_sq);
-  // Finds the closest points themselves. The closest points have the bits of closest_point_on_triangle.
+  // Finds the closest points of the pairs, with the same bits as closest_point_on_triangle.
   void (*locate)(const PointsAndTriangles &pairs, PointsOnTriangles &located);
   // Interpolates the numbers of three vertices by the weights of each located point. `vertex` has the ids of each pair's three
   // vertices.
   void (*mix_at_vertices)(const VertexNumbers *numbers, const int64_t *const *vertex, const PointsOnTriangles &located,
                           VertexNumbers *mixed);
-  // Computes the derivatives of the distances of the first n_points points, n_points > 0, when the triangles' vertices move.
-  // The search has computed the distances, so no root is computed again. `vertex` has the ids of each pair's three
-  // vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of a point follow each other.
-  // A derivative at distance 0 is 0.
+  // Computes how fast the distances of the first n_points points change when the triangles' vertices move. n_points is above 0.
+  // The search passes the distances that it has computed, so that no root is computed again. `vertex` has the ids of each pair's
+  // three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of a point follow each other. A
+  // derivative at distance 0 is 0.
   void (*differentiate)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                         const double (&distance)[pairs_at_once], const int64_t *const *vertex,
                         const double *const *rates, int64_t n_directions, int32_t n_points, double *derivatives);
@@ -271,7 +274,7 @@ struct DecisionKernels {
   // normal.
   void (*find_sides)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                      const double (&normal)[3][pairs_at_once], int32_t *side);
-  // Sums cubes of distances. The first function does not change the derivatives. All instruction sets give the same bits.
+  // Sums cubes of distances. Only sum_cubes_with_derivatives writes the derivatives. All instruction sets give the same bits.
   void (*sum_cubes)(const CubeSources &sources, const double *at, CubeSums &sums);
   void (*sum_cubes_with_derivatives)(const CubeSources &sources, const double *at, CubeSums &sums);
 };

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes with sixteen floats or eight doubles at once, in the registers of the instruction set that the including file is
-// compiled for. Everything has internal linkage. Files for different instruction sets must not share a function, because the
-// linker could take it from the wrong file. This file also includes no header whose inline functions the compiler may emit as
-// separate functions.
+// This file computes with sixteen floats or eight doubles at once. The code uses the registers of the instruction set for which
+// the including file is compiled. Everything has internal linkage. Files for different instruction sets must not share a
+// function, because the linker could take it from the wrong file. This file also includes no header whose inline functions the
+// compiler may emit as separate functions.
 #pragma once
 
-// RIIS_PORTABLE_LANES selects the code for processors without SSE2 or NEON. Tests run that code on other processors.
+// RIIS_PORTABLE_LANES selects the code for processors without SSE2 or NEON. Tests also run this code on processors with SSE2 or
+// NEON.
 #if defined(__SSE2__) && !defined(RIIS_PORTABLE_LANES)
 #define RIIS_SSE2
 #include <immintrin.h>
@@ -18,8 +19,8 @@
 namespace riis {
 
 // Counts the operations of kernels that are compiled with RIIS_COUNT_OPERATIONS. Only ./run bench roofline links such kernels.
-// In all other kernels, counting compiles to nothing. `operations` counts arithmetic instructions and comparisons in one lane.
-// A multiply-add counts as one. `pairs` counts the pairs of a node and a triangle whose distance the filter computed.
+// In all other kernels, counting compiles to nothing. `operations` counts arithmetic instructions and comparisons in one lane. A
+// multiply-add counts as one operation. `pairs` counts the pairs of a node and a triangle whose distance the filter computed.
 struct Counts {
   int64_t operations, pairs;
 };
@@ -61,8 +62,8 @@ struct ComparisonOf<DoubleRegister> {
   typedef LongRegister type;
 };
 
-// Returns a < b ? a : b. If a is NaN, b is therefore returned. NEON differs for a NaN in b alone, and for two zeros of different
-// signs. No result depends on this difference: where b is NaN, a is NaN too, and nothing reads the sign of a zero.
+// Returns a < b ? a : b. If `a` is NaN, the result is therefore b. NEON differs for a NaN in b alone, and for two zeros of
+// different signs. No result depends on this difference: where b is NaN, a is NaN too, and nothing reads the sign of a zero.
 RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_min_ps((__m512)a, (__m512)b);
@@ -167,8 +168,8 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = x - Register{};
     return lanes;
   }
-  // load and store need memory aligned to 64 bytes. Each register is moved as a whole. GCC copies longer memory in pieces of
-  // another size. A register that is read from two such pieces has to wait until both are written.
+  // load and store need memory aligned to 64 bytes. Both functions move each register as a whole. GCC would copy longer memory in
+  // pieces of another size, and a register that is read from two such pieces has to wait until both pieces are written.
   static RIIS_INLINE Lanes load(const Scalar *from) {
     Lanes lanes;
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const InMemory *>(from)[i];
@@ -179,7 +180,7 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const Unaligned *>(from)[i];
     return lanes;
   }
-  // Fills a register with numbers. The number of each lane comes from its own address.
+  // Fills a register with numbers. Each lane has an address from which its number is read.
   static RIIS_INLINE Register gather_register(const Scalar *const *f, int64_t offset) {
     if constexpr (per_register == 8)
       return Register{f[0][offset], f[1][offset], f[2][offset], f[3][offset],
@@ -204,7 +205,7 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) reinterpret_cast<InMemory *>(to)[i] = part[i];
   }
 
-// The body of a function that computes each register of its result from the registers i of its arguments.
+// The body of a function that works register by register: register i of the result comes from the registers i of the arguments.
 #define RIIS_LANEWISE(Result, expression)                       \
   Result r;                                                     \
   for (int i = 0; i < n_registers; ++i) r.part[i] = expression; \
@@ -263,9 +264,9 @@ RIIS_INLINE Row high_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 
 template <int n, class Address>
 RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
 #if defined(__AVX2__)
-  // For each lane, a row has the three numbers of a point and the next number. No number follows the last point, so its row
-  // begins with the number before the point. A single point has no number before it either, so a mask leaves out the fourth
-  // number.
+  // A load takes four numbers: the three numbers of a point and the next number. The array ends after the last point, so the last
+  // load begins with the number before that point. A single point has no number before it, so a mask leaves out the fourth number
+  // of the load.
   constexpr int last = n - 1;
   const auto load = [](const double *from, int k) __attribute__((always_inline)) {
     if constexpr (n == 1) return _mm256_maskload_pd(from, _mm256_setr_epi64x(-1, -1, -1, 0));
@@ -317,12 +318,13 @@ RIIS_INLINE Mask opposite(Mask a) {
 }
 
 #if defined(RIIS_NEON)
-// Takes 0 or -1 in each of eight lanes, and returns one bit for each. NEON has no instruction for this. Each lane therefore keeps
-// a bit of its own, and the sum of the lanes has all bits.
+// Takes 0 or -1 in each of eight lanes, and returns one bit for each. NEON has no instruction for this conversion. Each lane
+// therefore keeps a bit of its own, and the sum of the lanes has all bits.
 RIIS_INLINE uint32_t bits(uint16x8_t mask) {
   return vaddvq_u16(vandq_u16(mask, uint16x8_t{1, 2, 4, 8, 16, 32, 64, 128}));
 }
-// The same for sixteen lanes. A byte of each lane suffices. The bytes of lanes i and i + 8 become neighbours.
+// Takes 0 or -1 in each of sixteen lanes, and returns one bit for each. A byte of each lane suffices. The bytes of lanes i and i
+// + 8 become neighbours.
 RIIS_INLINE uint32_t bits(uint16x8_t first, uint16x8_t last) {
   const uint8x16_t bytes = vtrn1q_u8(vreinterpretq_u8_u16(first), vreinterpretq_u8_u16(last));
   const uint16x8_t own_bits = {0x0101, 0x0202, 0x0404, 0x0808, 0x1010, 0x2020, 0x4040, 0x8080};
@@ -381,7 +383,7 @@ RIIS_INLINE uint32_t bits_at_most(Floats a, Floats b) {
 #endif
 }
 
-// Returns one bit for each lane, set if a and b differ.
+// Returns one bit for each lane. The bit is set if a and b differ there.
 RIIS_INLINE uint32_t bits_different(Floats a, Floats b) {
 #if defined(__AVX512F__)
   return _mm512_cmp_ps_mask((__m512)a.part[0], (__m512)b.part[0], _CMP_NEQ_UQ);
@@ -390,7 +392,7 @@ RIIS_INLINE uint32_t bits_different(Floats a, Floats b) {
 #endif
 }
 
-// Returns the distance of x from the interval -half..half, perhaps with a minus sign.
+// Returns the distance of x from the interval -half..half. The result may have a minus sign.
 RIIS_INLINE Floats beyond(Floats x, Floats half) {
 #if defined(__AVX512DQ__)
   // One instruction limits the magnitude of x and keeps the sign of x.
@@ -426,7 +428,7 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #endif
 }
 
-// Takes 16 integers, and returns one bit for each. The bit is set if the integer has the given bit.
+// Takes 16 integers, and returns one bit for each: the integer's bit number `bit`.
 RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
 #if defined(RIIS_SSE2)
   // The bit becomes the sign, which survives the packing to bytes.
@@ -445,7 +447,7 @@ RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
 }
 
 #if defined(__AVX2__) && !defined(__AVX512F__)
-// For each set of eight lanes, the numbers of these lanes in ascending order. The rest is 0.
+// For each set of lanes among eight lanes, the numbers of the lanes in the set, in ascending order. Unused entries are 0.
 struct LanesOfSets {
   alignas(64) uint8_t lane[256][8] = {};
   constexpr LanesOfSets() {
@@ -481,11 +483,11 @@ RIIS_INLINE void fill(int32_t x, int32_t *to) {
 
 RIIS_INLINE bool any(Doubles::Mask mask) { return bits(mask) != 0; }
 
-// Writes the least lane of each of four Floats.
+// Writes the least number in the lanes of each of four Floats.
 RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
   count(&Counts::operations, 4 * (Floats::n - 1));
 #if defined(__AVX512F__)
-  // Each step compares two quarters of a register, or two lanes of a quarter, and keeps the lesser.
+  // Each step compares two quarters of a register, or two lanes of a quarter, and keeps the lesser numbers.
   constexpr int first_half = 0x44, last_half = 0xee, even = 0x88, odd = 0xdd, neighbours = 0xb1, pairs = 0x4e;
   const auto halves = [&](int i) __attribute__((always_inline)) {
     const __m512 a = (__m512)of[i].part[0], b = (__m512)of[i + 1].part[0];
@@ -507,7 +509,7 @@ RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
     m[i] = (__m128)least(least(of[i].part[0], of[i].part[1]), least(of[i].part[2], of[i].part[3]));
 #endif
   }
-  // Combines neighbouring halves twice. Each step keeps the lesser of two lanes.
+  // Combines neighbouring halves twice, and keeps the lesser number of two lanes each time.
   const __m128 first = _mm_min_ps(_mm_unpacklo_ps(m[0], m[1]), _mm_unpackhi_ps(m[0], m[1]));
   const __m128 last = _mm_min_ps(_mm_unpacklo_ps(m[2], m[3]), _mm_unpackhi_ps(m[2], m[3]));
   _mm_storeu_ps(least_lane, _mm_min_ps(_mm_movelh_ps(first, last), _mm_movehl_ps(last, first)));

@@ -48,7 +48,7 @@ Vec3 nearest_on(const std::array<Bezier, n> &curve, Vec3 p) {
       if (least >= 0 && dot(d, d) >= least) continue;
       least = dot(d, d), span = &tried, t = at;
     }
-  // Newton's method on the derivative of the squared distance, kept within the span.
+  // Applies Newton's method to the derivative of the squared distance, within the span.
   const auto index = static_cast<std::size_t>(span - curve.data());
   const auto refined = [&](const Bezier &on, double from, double &squared) {
     double at = from;
@@ -108,7 +108,7 @@ Vec3 area_of(const Landmarks &landmarks, const std::vector<std::size_t> &ring) {
   return area;
 }
 
-// The points of an annulus, which were checked.
+// The checked points of an annulus.
 struct Outline {
   std::vector<std::size_t> ring;
   Vec3 middle, normal;
@@ -123,7 +123,7 @@ Outline outline_of(const Landmarks &landmarks) {
   return {ring, landmarks.mean_of(ring), unit(area_of(landmarks, ring)), spread.deviation[0]};
 }
 
-// The points of an annulus in the directions of a valve, and their extent.
+// The points of an annulus in the coordinates of a valve, and their extent.
 struct TurnedOutline {
   std::vector<Vec3> points;
   Vec3 lower{0, 0, 0}, upper{0, 0, 0};  // z is not used
@@ -150,7 +150,8 @@ Vec3 checked_forward(const Landmarks &landmarks, const Outline &outline, std::si
   return forward;
 }
 
-// The direction towards the atrium, by the flow or the commissures. The vector is 0 if the landmarks show no direction.
+// Returns the direction towards the atrium, which the flow or the commissures show. The vector is 0 if the landmarks show no
+// direction.
 Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   const auto medial = landmarks.with_role(RIIS_LANDMARK_POSTEROMEDIAL),
              lateral = landmarks.with_role(RIIS_LANDMARK_ANTEROLATERAL);
@@ -166,7 +167,7 @@ Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   return by_commissures;
 }
 
-// Returns words for a landmark that contradicts the others.
+// Returns words about a landmark that contradicts the other landmarks.
 std::string advice_for(const LandmarkFit &fit, const Landmarks &landmarks) {
   const auto worst = std::max_element(fit.residuals.begin(), fit.residuals.end());
   return std::string("the worst residual is ") + Message(rounded(landmarks.scale * *worst, 3)).text() + " at " +
@@ -195,7 +196,8 @@ Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
 class MitralModel : public LandmarkModel {
  public:
   enum Size { ap, alpm, position, it, indent, anterior, posterior, share };
-  // Trigones behind the anterior horn are only points of the annulus, because the valve has its trigones before the horn.
+  // Trigones behind the anterior horn are only points of the annulus, because the trigones of a modelled valve lie in front of
+  // the horn.
   MitralModel(const Landmarks &landmarks, Vec3 shift, bool has_trigones_behind) : shift_(shift) {
     for (const Landmark &landmark : landmarks.list) {
       const bool is_only_of_annulus = has_trigones_behind && landmark.role == RIIS_LANDMARK_TRIGONE;
@@ -259,7 +261,7 @@ void check_side(const LandmarkModel &fitted, const Landmarks &landmarks) {
        rounded(landmarks.scale * error, 3), "; this must be ", sure, " errors or more");
 }
 
-// The horns' distance that the landmarks show, seen along the annulus' normal.
+// The distance between the horns that the landmarks show, seen along the annulus' normal.
 struct ShownDepth {
   double depth;
   bool has_posterior_horn;  // or the depth goes to the annulus point that is farthest from the anterior horn
@@ -273,8 +275,8 @@ struct HornHeights {
   double depth;             // between both ends
 };
 
-// Returns the cause of a fit that contradicts the landmarks. An annulus whose one horn rises while the other falls looks turned.
-// The fitted valve then leans, and the largest residual may be at a right landmark.
+// Returns the cause of a fit that contradicts the landmarks. An annulus looks turned if one horn rises and the other horn falls.
+// The fitted valve then leans, and the largest residual may be at a correct landmark.
 std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 normal, const HornHeights &heights) {
   const double degrees = lean_of(fit, normal);
   const double by_heights =
@@ -292,7 +294,7 @@ std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 no
       .text();
 }
 
-// Refuses a fitted valve whose depth is not the annulus'.
+// Refuses a fitted valve whose depth differs from the depth of the annulus.
 void check_depth(const LandmarkModel &fitted, const Landmarks &landmarks, const ShownDepth &shown,
                  const std::string &advice) {
   const FittedSize &ap = fitted.sizes[MitralModel::ap];
@@ -384,7 +386,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   model->sizes.push_back({"anterior_ratio", share, 1.5 * depth, 0.05, 0.95, share, 0.1});
   model->sizes.back().held = !has_commissures;
   model->radius = 0.5 * depth;
-  // The horns' heights above the sides and a turn of the valve about x move the annulus alike.
+  // A change of the horns' heights and a turn of the valve about x move the annulus in the same way.
   model->differences = {{MitralModel::anterior, MitralModel::posterior, 0.05 * depth}};
 
   const Vec3 origin_there{0.5 * (lower.x + upper.x), lower.y + 0.5 * depth, low_z};
@@ -392,7 +394,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   made.n_as_annulus = are_behind ? static_cast<std::int32_t>(trigones.size()) : 0;
   made.starts.push_back({rotation, middle + rotation * (origin_there - by)});
   if (!is_side_known) {
-    // The points of the annulus alone do not tell the atrium's side from the ventricle's. In a healthy annulus, however, the
+    // The points of the annulus alone do not tell the atrium's side from the ventricle's side. In a healthy annulus, however, the
     // horns are nearer to the atrium than the sides.
     const bool is_turned = horn_there.z + posterior_z < 2 * low_z;
     if (is_turned) {
@@ -403,7 +405,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
         made.models[0]->sizes[horn_size].value *= -1;
     }
   }
-  // A few points with noise can hold the fit at a wrong lean.
+  // A few noisy points can hold the fit at a wrong inclination.
   const Pose upright = made.starts[0];
   for (const double lean : {-10.0, 10.0})
     made.starts.push_back({upright.rotation * rotation_about({1, 0, 0}, lean), upright.translation});
@@ -440,7 +442,8 @@ constexpr SaddleKind tricuspid{"tricuspid",    "AP_diameter",    "SL_diameter",
 constexpr SaddleKind mitral_coapting{"mitral_coapting", "ALPM_diameter", "AP_diameter",
                                      "anterior_ratio",  nullptr,         FlatSide::at_positive_y};
 
-// Where each landmark is on the annulus, in laps from the middle of the flat side. Without laps, the landmark may be anywhere.
+// The place of each landmark on the annulus, in laps from the middle of the flat side. A landmark without a value may be
+// anywhere.
 using Laps = std::vector<std::optional<LinearValue>>;
 
 class SaddleModel : public LandmarkModel {
@@ -474,7 +477,7 @@ class SaddleModel : public LandmarkModel {
   Vec3 shift_;
 };
 
-// `forward` is the direction of y, and `up` that of z.
+// `forward` is the direction of y, and `up` is the direction of z.
 KindOfLandmarks saddle_landmarks(const Valve &valve, const SaddleKind &names, const Landmarks &landmarks,
                                  const Outline &outline, Vec3 forward, Vec3 up, const Laps &laps) {
   const Rotation rotation = rotation_to(cross(forward, up), up);

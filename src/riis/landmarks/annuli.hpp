@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that landmarks along an annulus and along a housing have in common.
+// These checks serve landmarks along an annulus and landmarks along a housing.
 #pragma once
 
 #include "geometry/vec3.hpp"
@@ -7,7 +7,7 @@
 
 namespace riis {
 
-// Two points of an annulus are in one place if they are at most this share of their spread apart.
+// Two points of an annulus are in one place if their distance is at most `one_place` times the points' spread.
 inline constexpr double one_place = 1e-3;
 
 // Returns the cosine of the angle between the flow and a normal. Refuses a flow that is nearly perpendicular to the normal.

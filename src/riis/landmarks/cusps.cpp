@@ -16,7 +16,7 @@
 namespace riis {
 namespace {
 
-// This limit leaves room for the other landmarks, as a warp has at most 1000 landmarks.
+// The limit of 900 leaves room for other landmarks, because a warp has at most 1000 landmarks.
 constexpr std::size_t most_along_attachment = 900;
 // Three cusps are in the order of leaflet ids, which is counter-clockwise about the valve's axis z.
 constexpr std::size_t n_of_three = 3;
@@ -120,8 +120,8 @@ class CuspModel : public LandmarkModel {
   void add(std::size_t landmark, const std::vector<Vec3> &local, Vec3 place, std::vector<Offset> &out) const {
     out.push_back({landmark, local[landmark] - shift_ - place});
   }
-  // The closed cusps meet at x on the x axis; only two cusps have an x other than 0. The height of this point varies between
-  // people so much that it says little about the sizes.
+  // The closed cusps meet at x on the x axis. Only in valves with two cusps does x differ from 0. The height of the meeting point
+  // varies so much between people that it says little about the sizes.
   void add_coaptation(const std::vector<Vec3> &local, double x, std::vector<Offset> &out) const {
     for (const std::size_t i : coaptation_) {
       const Vec3 p = local[i] - shift_;
@@ -136,7 +136,8 @@ class CuspModel : public LandmarkModel {
   std::vector<std::size_t> coaptation_;
 };
 
-// Returns the directions of the cusps' middles in degrees. The cusps follow each other by half of both sectors.
+// Returns the directions of the cusps' middles in degrees. From the middle of one cusp to the middle of the next, the direction
+// grows by half of both sectors.
 std::vector<double> middles_of(const std::vector<double> &sectors) {
   std::vector<double> middles{0};
   for (std::size_t cusp = 1; cusp < sectors.size(); ++cusp)
@@ -165,8 +166,8 @@ class CirclesModel : public CuspModel {
   }
 };
 
-// The cusps of the paper's valve. Two neighbours end at the same angle but at different radii, so a commissure lies between two
-// ends.
+// The cusps of the paper's valve. At a commissure, two neighbouring cusps end at the same angle but at different radii, so the
+// commissure lies between the two ends.
 class AorticModel : public CuspModel {
  public:
   using CuspModel::CuspModel;
@@ -206,7 +207,7 @@ FittedSize length_size(const std::string &name, double start, double grown, doub
 
 // `at` has the directions of the cusps' middles.
 Pose start_of(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift, const std::vector<double> &at) {
-  // The mean of the nadirs' directions, each turned back to the direction of cusp 0.
+  // The mean of the nadirs' directions, after each direction was turned back to cusp 0.
   const Rotation to = rotation_to(landmarks.at(axes.order.nadir[0]) - axes.middle, axes.axis), back = transposed(to);
   double x = 0, y = 0;
   for (std::size_t cusp = 0; cusp < at.size(); ++cusp) {
@@ -234,7 +235,7 @@ std::vector<double> shown_sectors(const Landmarks &landmarks, const CuspAxes &ax
   return shown;
 }
 
-// The sizes of cusps on circles: which of them the caller holds, and the template's.
+// The sizes of cusps on circles: which sizes the caller holds, and the template's sizes.
 class CircleSizes {
  public:
   CircleSizes(const Valve &valve, const CuspsOnCircles &names, const Landmarks &landmarks, const CuspAxes &axes,
@@ -251,8 +252,8 @@ class CircleSizes {
     for (double &sector : own_) sector *= 360 / sum;
   }
 
-  // If all sectors are held, they stay the template's. If some are held, sectors take part in the fit. If none is held, the
-  // landmarks decide.
+  // If all sectors are held, they stay as in the template. If some sectors are held, sectors take part in the fit. If no sector
+  // is held, the landmarks decide.
   std::vector<bool> fits_sectors() const {
     if (!has_sectors()) return {false};
     const std::size_t n_held = count_held([](std::size_t cusp) { return of_cusp(cusp, "sector"); });
@@ -305,7 +306,7 @@ class CircleSizes {
     return has_sectors() ? value_of(valve_, height_of_commissure(cusp)) / value_of(valve_, names_.height) : 1;
   }
 
-  // One size is the height of all commissures, in the template's proportions.
+  // A single size gives the heights of all commissures, in the template's proportions.
   template <class Add>
   void add_height(CirclesModel &model, const Add &add) const {
     const std::size_t size = add(names_.height, axes_.height);
@@ -360,7 +361,7 @@ void set_proportion(const Valve &own, Valve &valve, const std::string &name, dou
   valve.set(name, 1, std::array{value_of(own, name) / own_measure * measure}.data());
 }
 
-// Sizes that follow from others by a rule of the valve keep that rule.
+// Sizes that follow from other sizes by a rule of the valve keep that rule.
 void finish_trileaflet(const Valve &own, Valve &valve) {
   const auto middle_radius = [](const Valve &of) {
     return 0.5 * (value_of(of, "root_radius") + value_of(of, "leaflet_radius_out"));

@@ -12,16 +12,16 @@
 namespace riis {
 namespace {
 
-// Landmarks determine a size whose standard error, at the stated noise, moves the valve by at most this share of the valve's
-// radius. Residuals do not count here. A patient who differs from the model has large residuals, but the best sizes are still
-// well defined.
+// Landmarks determine a size if its standard error, at the stated noise, moves the valve by at most `determined_share` of the
+// valve's radius. Residuals do not count here. A patient who differs from the model has large residuals, but the best sizes are
+// still well defined.
 constexpr double determined_share = 1.0 / 15;
 
-// More sizes lower the residuals of noise alone. The decrease of the sum of squares by these unknowns has chi-squared's
-// distribution, with a degree of freedom for each unknown. The decrease counts if it exceeds the mean by this many standard
-// deviations.
+// Additional sizes also lower residuals that are only noise. The sum of squares then decreases by a number with a chi-squared
+// distribution, which has one degree of freedom for each additional unknown. The decrease counts if it exceeds the mean by
+// `surely_more` standard deviations.
 constexpr double surely_more = 3;
-// Residuals below this share of the stated noise show landmarks without noise.
+// Residuals below `exact_share` of the stated noise show that the landmarks have no noise.
 constexpr double exact_share = 0.01;
 // Rounding of exact landmarks, as a share of the valve's radius.
 constexpr double rounding_share = 1e-9;
@@ -154,8 +154,8 @@ double seen_noise(const LandmarkModel &model, double squares, std::size_t n_unkn
   return n > n_unknowns ? std::sqrt(squares / static_cast<double>(n - n_unknowns)) : 0;
 }
 
-// Writes the values and standard errors of parameters that follow from the fitted sizes. `covariance` is that of the problem's
-// unknowns at a noise of 1.
+// Writes the values and standard errors of parameters that follow from the fitted sizes. `covariance` is the covariance of the
+// problem's unknowns at a noise of 1.
 void derive(LandmarkModel &model, const Problem &problem, const std::vector<double> &covariance, double noise) {
   const std::size_t n = problem.n_unknowns();
   const std::vector<std::size_t> &free = problem.free_sizes();
@@ -199,7 +199,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
     problem.has_differences = true;
     std::vector<double> x = problem.start();
     const double cost = problem.minimize(x).cost;
-    // A later start that lowers the sum of squares by less than the noise found the same minimum, but for rounding.
+    // If a later start lowers the sum of squares by less than the noise, it has found the same minimum up to rounding.
     if (!(cost < least - landmarks.noise * landmarks.noise)) continue;
     least = cost;
     best = problem.pose_at(x);
@@ -223,7 +223,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   const std::vector<double> start = x;
   Minimum minimum = problem.minimize(x);
   // The fit does not converge if the sum of squares hardly depends on some size. The landmarks do not determine such a
-  // size, so the weakest size is also drawn to its expected value.
+  // size, so the least determined size is also drawn to its expected value.
   while (!minimum.converged) {
     std::size_t weakest = problem.free_sizes().size();
     for (std::size_t k = 0; k < problem.free_sizes().size(); ++k)

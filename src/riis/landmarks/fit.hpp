@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fits a valve's sizes and its pose to landmarks by least squares.
-// In: a model, which gives the place of each landmark on the valve. Out: sizes, pose, offsets, and a mark for each size
-// that the landmarks determine.
+// A model gives the place of each landmark on the valve. The fit finds sizes, pose and offsets, and marks each size that the
+// landmarks determine.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@
 
 namespace riis {
 
-// Small dense least squares (Levenberg 1944, Marquardt 1963) and symmetric eigenvalues (Jacobi 1846).
-// In: a function that gives residuals. Out: the unknowns for which the sum of their squares is least, and the covariance there.
+// Small dense least squares (Levenberg 1944, Marquardt 1963) and symmetric eigenvalues (Jacobi 1846). For a function that gives
+// residuals, this part finds the unknowns with the least sum of squared residuals, and their covariance.
 
 // Computes the residuals for the unknowns x. The number of residuals is the same in each call.
 using Residuals = std::function<void(const std::vector<double> &x, std::vector<double> &residuals)>;
@@ -28,7 +28,7 @@ struct Minimum {
   double cost;  // the sum of squares
 };
 
-// Changes x until the sum of squares is least. All unknowns have one unit, and `size` is a length in this unit over which
+// Changes x until the sum of squares is least. All unknowns have the same unit, and `size` is a length in this unit over which
 // the residuals are smooth. Derivatives are central differences. The unknowns stay between their bounds.
 struct Bounded {
   std::vector<double> lower, upper;
@@ -50,8 +50,8 @@ struct Eigen {
 };
 Eigen symmetric_eigen(std::vector<double> a, std::size_t n);
 
-// Returns the inverse of J^T J. If the residuals do not depend on some combination of unknowns, the diagonal entries of
-// its unknowns are infinite. The other entries in the rows and columns of these unknowns are then 0.
+// Returns the inverse of J^T J. If the residuals do not depend on some combination of unknowns, the diagonal entries of the
+// unknowns in this combination are infinite. The other entries in the rows and columns of these unknowns are then 0.
 std::vector<double> covariance(const std::vector<double> &normal_matrix, std::size_t n);
 
 // A size of the valve that the fit adapts to the landmarks.
@@ -96,7 +96,7 @@ class LandmarkModel {
   virtual ~LandmarkModel() = default;
   std::vector<FittedSize> sizes;
   std::vector<DerivedSize> derived;
-  // Two sizes whose difference is always drawn to its expected value, because landmarks hardly show it.
+  // Two sizes whose difference the fit always draws to its expected value, because landmarks hardly show the difference.
   struct Difference {
     std::size_t first, second;
     double spread;
@@ -104,7 +104,7 @@ class LandmarkModel {
   std::vector<Difference> differences;
   double radius = 0;  // radius of the valve, for steps and thresholds
 
-  // An offset of a landmark from its place on the valve. Several offsets of one landmark share its weight.
+  // An offset of a landmark from its place on the valve. Several offsets of one landmark share the landmark's weight.
   struct Offset {
     std::size_t landmark;
     Vec3 vector;
@@ -117,7 +117,7 @@ class LandmarkModel {
   virtual std::size_t n_equations() const = 0;
 };
 
-// x -> rotation * x + translation, from the valve's frame to the landmarks.
+// The map x -> rotation * x + translation from the valve's frame to the frame of the landmarks.
 struct Pose {
   Rotation rotation;
   Vec3 translation;
@@ -135,11 +135,11 @@ struct LandmarkFit {
   std::size_t n_unknowns;  // sizes that are not held, and the pose
 };
 
-// Changes the model's sizes. Fits from each of the poses with the model's values, and keeps the better result.
+// Changes the model's sizes. Fits from each of the poses with the model's values, and keeps the best result.
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts);
 
-// Returns whether the general model misses the landmarks by less than the simple one only by chance. The sizes of the simple
-// model are some of the general model's.
+// Returns whether the general model fits the landmarks better than the simple model only by chance. The sizes of the simple model
+// are among the sizes of the general model.
 bool is_as_good(const LandmarkFit &simple, const LandmarkFit &general, const LandmarkModel &general_model,
                 const Landmarks &landmarks);
 
@@ -153,7 +153,7 @@ inline Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
 
 // The landmarks of each kind of valve: which landmarks are needed, where they lie on the valve, and which sizes they determine.
 
-// Returns a parameter's value in the template. The template is the valve whose proportions the fit begins with.
+// Returns a parameter's value in the template. The fit begins with the proportions of the template.
 double value_of(const Valve &valve, const std::string &name);
 Vec3 vector_of(const Valve &valve, const char *name);
 
@@ -161,14 +161,15 @@ Vec3 vector_of(const Valve &valve, const char *name);
 using IsHeld = std::function<bool(const std::string &name)>;
 
 struct KindOfLandmarks {
-  // Models with ever more sizes. The first that the landmarks do not contradict counts, or the last.
+  // Models with more and more sizes. The first model that agrees with the landmarks counts, or the last model if no model agrees.
   std::vector<std::unique_ptr<LandmarkModel>> models;
   std::vector<Pose> starts;
   const char *size_name;  // the parameter that stands for the valve's size
-  // Sets parameters that are not lengths, and lengths that do not grow with the valve's size. The lengths and the model's sizes
-  // have been set. `own` is the template valve. NULL: there is nothing to set.
+  // Sets parameters that are not lengths, and lengths that do not grow with the valve's size. All other lengths and the model's
+  // sizes have already been set. `own` is the template valve. The pointer is NULL if there is nothing to set.
   void (*finish)(const Valve &own, Valve &valve) = nullptr;
-  // Refuses a fit that leaves something undetermined or that contradicts the landmarks. Empty: no fit is refused.
+  // Refuses a fit that leaves something undetermined or that contradicts the landmarks. If the function is empty, no fit is
+  // refused.
   std::function<void(const LandmarkModel &fitted, const LandmarkFit &fit, const Landmarks &landmarks)> check{};
   std::int32_t n_as_annulus = 0;  // trigones that count as points of the annulus
 };

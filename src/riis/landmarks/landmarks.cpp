@@ -31,10 +31,10 @@ std::string unit_in_brackets(double scale) {
   return "";
 }
 
-// Landmarks that are at most this far apart are in one place, in centimetres.
+// Two landmarks are in one place if their distance is at most `same_place`, in centimetres.
 constexpr double same_place = 1e-4;
 
-// Returns whether a valve that has landmark a where it is also meets landmark b, which is in the same place.
+// Landmarks a and b are in the same place. Returns whether landmark a demands all that landmark b demands of a valve.
 bool implies(const Landmark &a, const Landmark &b) {
   const auto is_one_of = [&](std::initializer_list<std::int32_t> roles) {
     return std::find(roles.begin(), roles.end(), a.role) != roles.end();

@@ -19,7 +19,8 @@ struct Landmark {
   Vec3 point;                               // in centimetres, relative to the mean of all landmarks
   std::int32_t role;                        // RIIS_LANDMARK_*
   std::array<std::int32_t, 2> leaflet_ids;  // -1: not given
-  // The landmark in the same place that demands all that this one demands. For example, the annulus passes through its horns.
+  // A landmark in the same place that already demands all that this landmark demands. For example, a horn demands all that a
+  // point of the annulus demands.
   std::optional<std::size_t> repeated = std::nullopt;
 };
 
@@ -32,14 +33,15 @@ struct Landmarks {
   Vec3 flow;       // unit vector, or 0 if unknown
 
   bool has_flow() const { return !(flow == Vec3{0, 0, 0}); }
-  // Returns the numbers of the landmarks that have this role, in ascending order. Leaves out those that repeat one of this role.
+  // Returns the numbers of the landmarks that have this role, in ascending order. Leaves out landmarks that repeat another
+  // landmark of this role.
   std::vector<std::size_t> with_role(std::int32_t role) const;
   std::size_t count(std::int32_t role) const { return with_role(role).size(); }
   Vec3 at(std::size_t i) const { return list[i].point; }
   Vec3 mean_of(const std::vector<std::size_t> &numbers) const;
 };
 
-// Finds the landmarks that repeat others.
+// Finds the landmarks that repeat other landmarks.
 void find_repeated(std::vector<Landmark> &list);
 
 // Returns the name of a role, such as "nadir".
@@ -70,8 +72,8 @@ struct Spread {
 };
 Spread spread_of(const Landmarks &landmarks, const std::vector<std::size_t> &numbers);
 
-// Sets a valve's sizes from a patient's landmarks, and finds its placement (docs/theory/landmarks.md).
-// In: landmarks, and a valve whose proportions are the template. Out: the valve of the patient, its placement and the residuals.
+// Sets a valve's sizes from a patient's landmarks, and finds its placement (docs/theory/landmarks.md). A valve gives the
+// template's proportions. The result is the patient's valve, its placement and the residuals.
 
 struct PlacedValve {
   Valve valve;

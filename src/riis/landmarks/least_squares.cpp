@@ -10,13 +10,13 @@
 namespace riis {
 namespace {
 
-// The step of central differences, as a share of `size`. This step balances two errors: the error of the differences, step^2, and
+// The step of central differences, as a share of `size`. The step balances two errors: the error of the differences, step^2, and
 // rounding, 1e-16 / step.
 constexpr double difference_step = 1e-5;
-// The iteration ends if a step is shorter than this share of `size`.
+// The iteration ends if a step is shorter than `negligible_step` times `size`.
 constexpr double negligible_step = 1e-13;
-// The iteration also ends if the sum of squares falls by less than this share of itself. The unknowns are then within a
-// thousandth of their standard errors from their final values. If residuals can vanish, the sum falls much faster, until
+// The iteration also ends if the sum of squares falls by less than `negligible_decrease` times itself. The unknowns are then
+// within a thousandth of their standard errors from their final values. If residuals can vanish, the sum falls much faster, until
 // only rounding is left.
 constexpr double negligible_decrease = 1e-9;
 constexpr int most_iterations = 400;
@@ -102,7 +102,8 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
       gradient[i] = std::inner_product(columns[i].begin(), columns[i].end(), r.begin(), 0.0);
       largest = std::max(largest, matrix[i * n + i]);
     }
-    // This step leaves out an unknown that would leave its bounds, so that this unknown does not change the other steps.
+    // An unknown that this step would move beyond its bounds is left out of the step, so that it does not change the steps of the
+    // other unknowns.
     for (std::size_t i = 0; i < n; ++i) {
       const bool rests = gradient[i] > 0 ? x[i] <= bounds.lower[i] : x[i] >= bounds.upper[i];
       if (!rests) continue;
@@ -182,8 +183,8 @@ Eigen symmetric_eigen(std::vector<double> a, std::size_t n) {
 
 std::vector<double> covariance(const std::vector<double> &normal_matrix, std::size_t n) {
   const Eigen eigen = symmetric_eigen(normal_matrix, n);
-  // Smaller eigenvalues than this count as 0. Eigenvalues are squares of the singular values of J, whose derivatives are right to
-  // about 1e-10 of the largest.
+  // Eigenvalues below this limit count as 0. Eigenvalues are squares of the singular values of J, whose entries are accurate to
+  // about 1e-10 of the largest entry.
   const double least = 1e-12 * (n == 0 ? 0 : eigen.values.back());
   constexpr double small_share = 1e-8;
   std::vector<double> matrix(n * n);

@@ -47,7 +47,8 @@ std::vector<std::size_t> rotated(std::vector<std::size_t> numbers, std::size_t b
 }
 Order rotated(const Order &order, std::size_t by) { return {rotated(order.nadir, by), rotated(order.commissure, by)}; }
 
-// Returns the order for the opposite turn about the axis. Each commissure then follows its other leaflet.
+// Returns the order for the opposite turn about the axis. In this order, each commissure follows the leaflet that it preceded in
+// the given order.
 Order mirrored(Order order) {
   if (!order.nadir.empty()) std::reverse(order.nadir.begin() + 1, order.nadir.end());
   std::reverse(order.commissure.begin(), order.commissure.end());
@@ -131,7 +132,7 @@ bool names_fit(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 
   return false;
 }
 
-// The names determine which of the possible turns about the axis it is.
+// The names determine which of the possible orders about the axis is right.
 Order order_around(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle) {
   const Order turn = turn_of(landmarks, axis, middle);
   const std::size_t n = leaflets.n();

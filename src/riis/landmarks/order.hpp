@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Landmarks around the axis of a valve: which of its leaflets a nadir belongs to, and between which leaflets a commissure lies.
-// In: landmarks, some of which name their leaflets. Out: the landmarks in the order of the leaflets.
+// From the order of landmarks around a valve's axis, finds the leaflet of each nadir and the two leaflets beside each commissure.
+// Some landmarks may name their leaflets. The result is the landmarks in the order of the leaflets.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ namespace riis {
 struct LeafletsAround {
   std::vector<std::string> names;  // in the order of leaflet ids
   const char *seen_along_flow;     // the direction from leaflet to leaflet: "clockwise" if blood flows along +z
-  // The end of a message that refuses landmarks without names, or null if the leaflets need none. Without names, leaflet 0 is at
-  // the first nadir.
+  // The end of a message that refuses landmarks without names, or null if the leaflets need no names. Without names, leaflet 0 is
+  // at the first nadir.
   const char *why_names;
 
   std::size_t n() const { return names.size(); }

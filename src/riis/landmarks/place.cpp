@@ -90,7 +90,7 @@ std::pair<Vec3, double> axis_and_angle(const Rotation &r) {
   const double angle = arc_tangent(sine, trace - 1) * (180 / pi);
   if (sine > 1e-6) return {unit(twice), angle};
   if (trace > 1) return {{0, 0, 1}, 0};
-  // The angle is half a turn. For half a turn, each column of R + 1 that is not 0 has the direction of the axis.
+  // Here the angle is 180 degrees. For this angle, each column of R + 1 that is not 0 has the direction of the axis.
   const Vec3 columns[3] = {{r.row_x.x + 1, r.row_y.x, r.row_z.x},
                            {r.row_x.y, r.row_y.y + 1, r.row_z.y},
                            {r.row_x.z, r.row_y.z, r.row_z.z + 1}};
@@ -135,8 +135,8 @@ struct OnAttachment {
   Vec3 point, tangent;
 };
 
-// Returns the point of the attachment that the map takes nearest to `wanted`. Only a named cusp counts. Returns nothing for a
-// cusp without an attachment, or without a finite distance.
+// Returns the point of the attachment that the map takes nearest to `wanted`. If the landmark names a cusp, only this cusp
+// counts. Returns nothing for a cusp without an attachment, or without a finite distance.
 std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, const WarpMap &map, Vec3 wanted,
                                        std::int32_t leaflet_id) {
   double least = std::numeric_limits<double>::infinity(), at = 0;
@@ -162,7 +162,7 @@ std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, cons
   return OnAttachment{place(nearest->image, found.point), place(turn_of(nearest->image), found.tangent)};
 }
 
-// Two landmarks are in one place if they are at most this share of the valve's radius apart.
+// Two landmarks are in one place if their distance is at most `one_place_share` of the valve's radius.
 constexpr double one_place_share = 0.02;
 
 // Landmarks in separate places, as a warp needs them.
@@ -190,7 +190,7 @@ struct WarpPairs {
 };
 
 // Slides the places along the attachment, so that the warp that meets all landmarks bends least (F. L. Bookstein 1997).
-// Neighbours then neither crowd nor thin out, and the warp has no folds between neighbours.
+// Neighbouring places then keep suitable distances, and the warp has no folds between them.
 void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                             const std::vector<Vec3> &local, double radius, std::vector<Vec3> &places) {
   constexpr int most_slides = 8;
@@ -240,7 +240,7 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
   }
 }
 
-// Moves equal places of different landmarks apart, such as beside a commissure that is off the valve's commissure.
+// Separates equal places of different landmarks. Equal places occur beside a commissure that differs from the valve's commissure.
 void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                      const std::vector<std::size_t> &along, const std::vector<Vec3> &local, double radius,
                      std::vector<Vec3> &places) {
@@ -260,9 +260,9 @@ void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landm
     }
 }
 
-// Finds the places of the landmarks along the attachment. At first the smoothed warp of all landmarks takes each place as near to
-// its landmark as any point of the attachment. Then the places slide. `places` has the places of the other landmarks. `local` has
-// the landmarks in the valve's frame.
+// Finds the places of the landmarks along the attachment. A place is at first the point of the attachment that the smoothed warp
+// of all landmarks takes nearest to the landmark. Then the places slide. `places` has the places of the other landmarks. `local`
+// has the landmarks in the valve's frame.
 void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const std::vector<Vec3> &local, double radius,
                          std::vector<Vec3> &places) {
   std::vector<std::size_t> along = landmarks.with_role(RIIS_LANDMARK_ATTACHMENT);
@@ -300,8 +300,8 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
     }
 }
 
-// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because other sizes
-// follow from these.
+// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because the other sizes
+// follow from the sizes of the landmarks.
 void check_sizes(const Valve &valve, const LandmarkModel &model) {
   try {
     valve.make_patches();
@@ -318,7 +318,7 @@ void check_sizes(const Valve &valve, const LandmarkModel &model) {
   }
 }
 
-// Fits the models. Returns the number of the first that the landmarks do not contradict, and its fit.
+// Fits the models. Returns the number of the first model that the landmarks do not contradict, and the fit of this model.
 std::pair<std::size_t, LandmarkFit> fit_models(const KindOfLandmarks &of_kind, const Landmarks &landmarks) {
   const std::size_t last = of_kind.models.size() - 1;
   LandmarkFit general = fit(*of_kind.models[last], landmarks, of_kind.starts);
@@ -354,13 +354,13 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
 
   PlacedValve placed{valve, landmarks.scale, {0, 0, 1}, 0, {0, 0, 0}, {}, {}, 0, fitted.rotation_error, 0, {}, {}};
   placed.n_as_annulus = of_kind.n_as_annulus;
-  // First all lengths grow with the valve. After that, the fitted sizes take their values. Last come the parameters that depend
-  // on several sizes.
+  // First all lengths grow with the valve. After that, the fitted sizes take their values. Parameters that depend on several
+  // sizes are set last.
   double size_now = value_of(valve, of_kind.size_name);
   for (const FittedSize &size : model.sizes)
     if (size.name == of_kind.size_name) size_now = size.value;
   const double grown = size_now / value_of(valve, of_kind.size_name);
-  // Lengths that follow from others by a rule of the valve grow with those lengths.
+  // Lengths that follow from other lengths by a rule of the valve grow with those lengths.
   for (std::size_t i = 0; i < specs.size(); ++i) {
     std::array<double, 3> values = valve.values()[i];
     if (!grows(specs[i], values) || (specs[i].rule.text && !valve.is_set(specs[i].name))) continue;

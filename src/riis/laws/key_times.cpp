@@ -11,14 +11,14 @@ namespace riis {
 namespace {
 
 constexpr double largest_time = 1e30, infinity = std::numeric_limits<double>::infinity();
-// A relative tolerance. With this tolerance, times such as 0.1 and 0.8 are a period of 0.7 apart although rounding changes the
-// last bit.
+// A relative tolerance. With this tolerance, the times 0.1 and 0.8 count as one period of 0.7 apart, although rounding changes
+// the last bit.
 constexpr double rounding = 1e-9;
 constexpr std::int64_t max_keys = 1'000'000;
 
-// Returns the derivative of the monotone cubic at a key. This derivative is the weighted harmonic mean of the slopes before and
-// after the key (F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5(2), 1984). The derivative is 0 if the slopes differ in
-// sign, or if the key has no neighbour on one side.
+// Returns the derivative of the monotone cubic at a key. The derivative at a key is the weighted harmonic mean of the slopes
+// before and after the key (F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5(2), 1984). The derivative is 0 if the slopes
+// differ in sign, or if the key has no neighbour on one side.
 double tangent(double slope_before, double slope_behind, double width_before, double width_behind) {
   if (!(slope_before * slope_behind > 0) || width_before == infinity || width_behind == infinity) return 0;
   const double w_before = 2 * width_behind + width_before, w_behind = width_behind + 2 * width_before;
@@ -50,8 +50,8 @@ KeyTimes::KeyTimes(const char *name, std::int64_t n_keys, const double *time, do
   is_closed_ = period > 0 && n_keys > 1 && time[n_keys - 1] - time[0] >= (1 - rounding) * period;
 }
 
-// Both here and in the caller's time, the addition of periods rounds. Without a tolerance, rounding could put the time of a key
-// just before the key, where the rate is different.
+// Adding periods rounds, both here and in the caller's time. Without a tolerance, rounding could put the time of a key just
+// before the key, where the rate is different.
 double KeyTimes::from_key(std::int64_t i, double time) const {
   const auto if_at = [&](double key) {
     const double difference = time - key, key_lost = difference - time;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interpolates between keys in time, once or periodically. The interpolation serves openings (laws/opening_laws.hpp) and the
 // vertices of keyframes (arrays/user_arrays.hpp).
-// In: times of keys, a period. Out: the keys around a time, and the values and rates between them.
+// This file finds the keys around a time, and the values and rates between these keys.
 #pragma once
 
 #include <riis/riis.h>
@@ -21,20 +21,21 @@ class KeyTimes {
   // RIIS_INVALID_ARGUMENT. The message names the field or key, and its value.
   KeyTimes(const char *name, std::int64_t n_keys, const double *time, double period, std::int32_t interpolation);
 
-  // Returns whether the last key is exactly one period after the first. The values of these two keys must then be equal.
+  // Returns whether the last key is exactly one period after the first key. If it is, the values of the first and the last key
+  // must be equal.
   bool is_closed() const { return is_closed_; }
 
-  // The keys around a time and the times between these keys. These keys and times determine the value. A key is a position in the
-  // arrays, so a time one period later has the same keys.
+  // The keys around a time and the times between these keys. The value at the time follows from these keys and these times
+  // between keys. A key is a position in the arrays, so a time one period later has the same keys.
   struct KeysAround {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, after it
     std::array<double, 3> width;      // the time from each of these keys to the next key; infinite without a next key
     double since;                     // time since the interval's first end
     bool is_at_rest;                  // true before the first key and after the last; key[1] then gives the value
   };
-  // A time counts as a key if, apart from whole periods, it is within 8 units of rounding of that key. The key then becomes the
-  // first end of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for
-  // a time that is not finite. `name` is the time's name in the message.
+  // A time counts as a key if it differs from the key by at most 8 units of rounding, apart from whole periods. The key then
+  // becomes the first end of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with
+  // RIIS_INVALID_ARGUMENT for a time that is not finite. `name` is the time's name in the message.
   KeysAround around(double time, const char *name = "time") const;
 
   // Returns the value and the rate at the time, from the values at these four keys.

@@ -19,9 +19,9 @@ constexpr double degree = pi / 180;
 
 void check_time(double time) { check_range("", "time", time, -largest_number, largest_number); }
 
-// Rises from 0 at x = 0 to 1 at x = 1. The ramp's first two derivatives are 0 at both ends, so neither the valve's velocity nor
-// its acceleration jumps. Just below x = 1 the polynomial may round to more than 1. The result is limited to 1, because no valve
-// accepts an opening above 1.
+// Rises from 0 at x = 0 to 1 at x = 1. The ramp's first two derivatives are 0 at both ends, so the valve's velocity and
+// acceleration do not jump. Just below x = 1 the polynomial may round to more than 1. The result is limited to 1, because no
+// valve accepts an opening above 1.
 double ramp(double x) { return x <= 0 ? 0 : x >= 1 ? 1 : std::min(1.0, x * x * x * (10 + x * (-15 + 6 * x))); }
 double ramp_rate(double x) { return x <= 0 || x >= 1 ? 0 : 30 * x * x * (1 - x) * (1 - x); }
 
@@ -146,7 +146,8 @@ struct AngleState {
 AngleState operator+(AngleState a, AngleState b) { return {a.angle + b.angle, a.rate + b.rate}; }
 AngleState operator*(double s, AngleState a) { return {s * a.angle, s * a.rate}; }
 
-// The law of Korakianitis and Shi. The drive is a pressure difference and a flow, both linear in time during a step.
+// The law of Korakianitis and Shi. A pressure difference and a flow drive the valve. Pressure difference and flow are linear in
+// time during a step.
 class AngleLaw {
  public:
   struct Drive {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Laws of opening: pure functions from time, pressure and flow to a valve's opening. The solver keeps the state, so a restarted
 // run continues with the same bits.
-// In: laws, and the previous state. Out: the opening now and its rate.
+// Each law gives the present opening and its rate. Some laws need the previous state.
 #pragma once
 
 #include <riis/riis.h>

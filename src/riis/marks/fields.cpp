@@ -34,9 +34,9 @@ void for_each_array(const FieldSet &fields, const Visit &visit) {
   if (has(field_height) && has(RIIS_FIELD_GRADIENT)) visit(&NodeFields::height_gradient, fields.n_directions);
 }
 
-// The mean of the velocities of the leaflets that tie at a node. A leaflet's velocity is the mean over its tied points. The
-// constructor takes the velocity at the closest triangle. Afterwards the caller adds the tied points of the other leaflets,
-// leaflet by leaflet.
+// The mean of the velocities of the leaflets that are equally near to a node. A leaflet's velocity is the mean over its tied
+// points. The constructor takes the velocity at the closest triangle. After the constructor, the caller adds the tied points of
+// the other leaflets, leaflet by leaflet.
 class MeanOfLeaflets {
  public:
   MeanOfLeaflets(std::int32_t closest_leaflet, Vec3 velocity) : closest_leaflet_(closest_leaflet) {
@@ -101,7 +101,7 @@ class TriangleFields {
   }
 
   void write(const Range &range) const {
-    // The nodes of a list lie far apart in memory. The coordinates of such nodes are therefore fetched while earlier nodes are
+    // The nodes of a list lie far apart in memory. The coordinates of later nodes are therefore fetched while earlier nodes are
     // computed.
     constexpr std::int64_t ahead = 4 * pairs_at_once;
     for (std::int64_t first = range.begin; first < range.end; first += pairs_at_once) {
@@ -112,7 +112,7 @@ class TriangleFields {
   }
 
   // Replaces the velocity of each node with ties by the mean over all leaflets that are equally near. A leaflet's velocity is
-  // the mean over its tied points. A node belongs to the range that contains its first tie.
+  // the mean over its tied points. `range` is a range of ties: a node belongs to the range that contains the node's first tie.
   void take_means(const Range &range) const {
     const std::int64_t begin = next_node(range.begin), end = next_node(range.end);
     MeanOfLeaflets mean(-1, {0, 0, 0});
@@ -188,7 +188,8 @@ class TriangleFields {
     for (std::int64_t lane = 0; has(RIIS_FIELD_GRADIENT) && lane < n; ++lane)
       for (std::int64_t k = 0; k < n_directions(); ++k) {
         const std::int64_t at = n_directions() * (first + lane) + k;
-        // At an edge or a vertex the normal is the way from the closest point, unless rounding decides the direction of this way.
+        // At an edge or a vertex, the normal is the direction from the closest point to the node, if rounding does not decide
+        // this direction.
         const bool has_way = (eight.on.at_border >> lane & 1) != 0 && !is_on_rim[lane] && distance[lane] > least_way_;
         view(made_.height_gradient)[at] = has_way ? (height[lane] > 0 ? 1 : -1) * view(made_.distance_gradient)[at]
                                                   : height_rate(eight, lane, k, is_on_rim[lane] != 0);
@@ -213,7 +214,7 @@ class TriangleFields {
 
   std::int64_t n_directions() const { return view(rates_).size(); }
 
-  // Writes the velocities and (u,v). The weights interpolate these fields from the vertices.
+  // Writes the velocities and (u,v). Both fields are interpolated from the vertices by the barycentric weights.
   void write_mixed(const std::int64_t *triangle, const PointsOnTriangles &on, std::int64_t first,
                    std::int64_t n) const {
     const std::int64_t *vertex[pairs_at_once];
@@ -230,7 +231,8 @@ class TriangleFields {
     }
   }
 
-  // Returns the first position from `tie` on that begins the ties of a node, or the number of all ties at the end.
+  // Returns the first position from `tie` on at which the ties of a node begin. After the last node, returns the number of all
+  // ties.
   std::int64_t next_node(std::int64_t tie) const {
     while (tie > 0 && tie < ties_.size() && ties_[tie].point == ties_[tie - 1].point) ++tie;
     return tie;
@@ -284,7 +286,7 @@ struct TieOrder {
   }
 };
 
-// Stores the numbers that the fields need vertex by vertex, so that the fields of a node read few places in memory.
+// Stores, for each vertex, the numbers that the fields need, so that the fields of a node read few places in memory.
 void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threads, FieldScratch &scratch) {
   const bool has_velocity = fields & RIIS_FIELD_VELOCITY, has_uv = fields & RIIS_FIELD_UV;
   if (!has_velocity && !has_uv) return;
@@ -429,7 +431,7 @@ void make_fields(const SearchRequest &request, std::int32_t fields, const NodeLi
 
 namespace {
 
-// Copies n numbers, unless they stay in their places.
+// Copies n numbers if their place changes.
 template <class Array>
 void copy_range(const Array &from, const Range &range, Array &to, std::int64_t at) {
   if (from.data() + range.begin != to.data() + at)

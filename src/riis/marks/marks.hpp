@@ -21,8 +21,8 @@ namespace riis {
 
 // The arrays that a caller gets from a marking. The arrays have one entry for each node, in ascending order.
 
-// Makes room for n elements. A new reserve is 1.5 times the needed memory. Without this reserve, a moving valve would need new
-// memory at each new maximum of its number of nodes.
+// Makes room for n elements. If new memory is needed, reserves 1.5 times as much. Without this reserve, a moving valve would need
+// new memory at each new maximum of its number of nodes.
 template <class Array>
 void reserve_amply(Array &array, std::int64_t n) {
   const auto needed = static_cast<std::size_t>(n);
@@ -67,11 +67,11 @@ struct NodeList {
   }
 };
 
-// Fields. A field is a number or vector at a node's closest point. An example is the velocity, which a solver needs for its
-// force.
-// In: nodes within the limit, each with the closest triangle that the search found. Out: an array for each requested field.
+// Fields. A field is a number or vector at a node's closest point. An example of a field is the velocity, which a solver needs
+// for its force.
+// Each requested field becomes an array over the nodes within the limit, for the closest triangles that the search found.
 
-// A field of every marking with an offset, which no caller can request: NodeFields::height.
+// The field NodeFields::height, which every marking with an offset has, and which no caller can request.
 inline constexpr std::int32_t field_height = 1 << 30;
 
 // Fields, and the number of the surface's directions, which RIIS_FIELD_GRADIENT needs.
@@ -89,7 +89,7 @@ struct NodeFields {
   UnfilledVector<double> height_gradient;                       // (n_directions, n), with height and distance_gradient
   UnfilledVector<std::int32_t> side, rim, patch_id;             // (n)
 
-  // Reserves memory for n nodes. After that, resize(m) with m <= n does not throw.
+  // Reserves memory for n nodes. After this call, resize(m) with m <= n does not throw.
   void reserve(const FieldSet &fields, std::int64_t n);
   bool has_room(const FieldSet &fields, std::int64_t n) const;
   void resize(const FieldSet &fields, std::int64_t n);
@@ -127,11 +127,12 @@ void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields
                    NodeFields &made);
 
 // Merges the lists of several threads into lists in ascending order of nodes.
-// In: found nodes. Out: the nodes within the limit and, if the limit is wider than the half thickness, the marked nodes.
+// One list has the nodes within the limit. If the limit is wider than the half thickness, the marked nodes have a list of their
+// own.
 
 // A bin is a range of node numbers. The set holds nodes of one bin, with a bit for each number of the bin. The set gives each
-// node a rank: the number of lesser nodes in the set. A stretch is 64 words of bits. Only stretches with nodes are written and
-// read.
+// node a rank: the number of nodes with lower numbers in the set. A stretch is 64 words of bits. Only stretches with nodes are
+// written and read.
 class NodeRanks {
  public:
   // Makes room for bins of n_numbers. Only this function allocates memory.
@@ -140,7 +141,7 @@ class NodeRanks {
   void clear();
   // `node` is a number within the bin.
   void add(std::int64_t node);
-  // Call this after all nodes were added, and before the first call of rank.
+  // Call count() after all nodes were added, and before the first call of rank().
   void count();
   std::int64_t rank(std::int64_t node) const;
 
@@ -173,8 +174,8 @@ struct OrderScratch {
 OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, int n_threads,
                                    OrderScratch &scratch);
 
-// Fills the lists. Fills `marked` only if the limit is wider than the half thickness. `numbers` is that of the found nodes. Call
-// prepare_order with the same arguments before this function.
+// Fills the lists. Fills `marked` only if the limit is wider than the half thickness. `numbers` is the range of numbers of the
+// found nodes. Call prepare_order with the same arguments before this function.
 void put_in_order(const Surface &surface, bool limit_is_wider, const Range &numbers, int n_threads,
                   OrderScratch &scratch, NodeList &within, NodeList &marked);
 
@@ -202,7 +203,7 @@ struct ListedNodes {
 };
 
 struct Marks {
-  ListedNodes within;       // nodes within the distance limit, or in a band that steps aside
+  ListedNodes within;       // nodes within the distance limit, or in a band with an offset
   ListedNodes marked;       // used only if the limit is wider than the half thickness; otherwise `within` has them
   bool was_marked = false;  // false until the first marking
   WantedData data;          // the data of the last marking

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::int64_t bits_per_word = 64, words_per_stretch = 64;
 
-// All bins have equally many numbers, a power of two. One thread writes a bin's part of the result, so two threads write to few
-// cache lines. Many more bins would slow down the gathering.
+// All bins have equally many numbers, a power of two. A bin's part of the result is written by one thread, so two threads seldom
+// write to one cache line. Many more bins would slow down the gathering.
 class Bins {
  public:
   explicit Bins(std::int64_t n_nodes) {
@@ -36,8 +36,8 @@ static_assert(bits_per_word * words_per_stretch == 1 << 12);
 
 std::uint64_t bit_of(std::int64_t node) { return std::uint64_t{1} << node % bits_per_word; }
 
-// Counts bits without the popcount instruction. The compiler's built-in would call a function for processors that may lack this
-// instruction.
+// Counts bits without the popcount instruction. Because some processors lack this instruction, the compiler's built-in would call
+// a function.
 std::uint32_t n_bits(std::uint64_t x) {
   x -= x >> 1 & 0x5555555555555555;
   x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
@@ -78,7 +78,7 @@ class Ordering {
   void write(NodeList &within, NodeList &marked) {
     parallel_for(bins_.n(), n_threads_, [&](std::int64_t bin, int thread) {
       const OrderScratch::Counts &first = view(scratch_.first)[bin], &next = view(scratch_.first)[bin + 1];
-      // The next bin's part is requested now, because a thread writes it in random order.
+      // The next bin's part is prefetched now, because a thread writes it in random order.
       if (bin + 1 < bins_.n()) request({next.n_within, view(scratch_.first)[bin + 2].n_within}, within);
       if (next.n_within == first.n_within) return;
       NodeRanks &ranks = view(scratch_.ranks)[thread];
@@ -95,7 +95,7 @@ class Ordering {
     return n_within < few ? 1 : n_threads;
   }
 
-  // Requests a range of a result from memory, before it is written.
+  // Prefetches a range of a result before the range is written.
   template <class Number>
   static void request(const Range &range, const std::vector<Number> &numbers) {
     constexpr auto per_line = static_cast<std::int64_t>(64 / sizeof(Number));

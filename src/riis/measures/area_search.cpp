@@ -10,10 +10,10 @@
 namespace riis {
 namespace {
 
-// An interval of this length is not cut further. The length is a share of the size of its ends.
+// An interval is not cut further if its length is at most `shortest_interval` times the magnitude of its ends.
 constexpr double shortest_interval = 1e-13;
-// Golden sections make an interval this short, as a share of its length. The area is flat at an extreme, so its error is
-// the square of this share.
+// The golden-section search shortens an interval to `extreme_interval` times its length. The area is flat at an extreme, so the
+// relative error of the area is about the square of `extreme_interval`.
 constexpr double extreme_interval = 1e-6;
 
 }  // namespace
@@ -22,8 +22,8 @@ AreaSearch::AreaSearch(Area area, double from, double to, std::int32_t n_samples
   sample(from, to, n_samples, grows);
   if (points_.empty()) return;
   part();
-  // The samples miss the exact extremes, so an area near an extreme would be out of reach. The points move while extremes
-  // are added, so the places are noted before.
+  // Extremes are added, because the samples miss the exact extremes, and an area near an extreme would be out of reach. The
+  // places are noted first, because the points move while extremes are added.
   std::vector<double> places;
   for (const Part &one : parts_) places.push_back(points_[one.last].value);
   for (const double place : {least().value, most().value}) places.push_back(place);
@@ -92,7 +92,7 @@ void AreaSearch::add_extreme(std::size_t at) {
   is_after_refused_.insert(is_after_refused_.begin() + static_cast<std::ptrdiff_t>(place), 0);
 }
 
-// Finds the least and the largest area, and parts the points where the area turns or a value was refused.
+// Finds the least and the largest area, and divides the points where the area turns or a value was refused.
 void AreaSearch::part() {
   const auto has_less_area = [](const Point &a, const Point &b) { return a.area < b.area; };
   const auto begin = points_.begin(), end = points_.end();
@@ -124,7 +124,7 @@ void AreaSearch::part() {
     } else if (direction == 0) {
       direction = has_grown ? 1 : has_fallen ? -1 : 0;
     }
-    // Only the extreme in the present direction counts, so the opposite extreme starts from this value.
+    // The extreme in the opposite direction is sought anew from the extreme in the present direction on.
     if (direction > 0) low = high;
     if (direction < 0) high = low;
   }
@@ -147,7 +147,8 @@ std::optional<AreaSearch::Point> AreaSearch::in_part(const Part &part, double ar
   const auto take = [&](const Point &point) {
     if (!best || std::abs(point.value - near) < std::abs(best->value - near)) best = point;
   };
-  // Jumps may bring the area into several intervals, whose values differ by little. Only the nearest is searched.
+  // Because of jumps, several intervals may contain the area. The values of these intervals differ by little, so only the nearest
+  // interval is searched.
   std::size_t interval = part.last;
   for (std::size_t i = part.first; i <= part.last; ++i) {
     if (is_it(points_[i])) take(points_[i]);
@@ -166,8 +167,8 @@ std::optional<AreaSearch::Point> AreaSearch::in_part(const Part &part, double ar
   return best;
 }
 
-// False position, whose stale end counts half (M. Dowell, P. Jarratt, BIT 11, 1971). Every third step halves the interval, so
-// jumps cost no more steps than a bisection.
+// The method of false position, which halves the value at an end that does not move (M. Dowell, P. Jarratt, BIT 11, 1971). Every
+// third step halves the interval, so jumps cost no more steps than a bisection.
 AreaSearch::Point AreaSearch::between(Point a, Point b, double area, double tolerance) const {
   double weight_a = a.area - area, weight_b = b.area - area;
   Point best = std::abs(weight_a) < std::abs(weight_b) ? a : b;

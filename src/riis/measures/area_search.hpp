@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inverse of an area that depends on one number, such as a valve's orifice that depends on its opening. The area may jump by
-// a little, may grow in one part and fall in another, and has no derivative.
-// In: a function and a range. Out: numbers at which the area has given values.
+// Finds numbers at which an area has given values. The area depends on one number, as a valve's orifice depends on its opening.
+// The area may jump slightly, may grow in one part of its range and fall in another part, and has no derivative.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +13,10 @@ namespace riis {
 
 class AreaSearch {
  public:
-  // Returns the area at a value, or nothing if there is none. find() needs an area at each value.
+  // Returns the area at a value, or nothing if the value has no area. find() needs an area at each value.
   using Area = std::function<std::optional<double>(double value)>;
 
-  // A change by at most this share of the largest area may be a jump.
+  // A change by at most `largest_jump` times the largest area may be a jump.
   static constexpr double largest_jump = 1e-4;
 
   struct Point {
@@ -29,7 +28,7 @@ class AreaSearch {
   AreaSearch(Area area, double from, double to, std::int32_t n_samples, bool grows);
 
   bool has_area() const { return !points_.empty(); }
-  // The next functions need an area.
+  // All functions below need at least one value with an area.
   const Point &least() const { return points_[least_]; }
   const Point &most() const { return points_[most_]; }
   // Returns whether all areas are equal, apart from jumps.
@@ -45,7 +44,7 @@ class AreaSearch {
 
  private:
   // The points from `first` to `last`, over which the area only grows or only falls, apart from jumps. No value between these two
-  // was refused.
+  // points was refused.
   struct Part {
     std::size_t first, last;
   };

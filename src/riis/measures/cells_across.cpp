@@ -52,8 +52,8 @@ EdgeLengths<double> lengths_along(const Adjacency &adjacency, const MeshNodes &n
   return all;
 }
 
-// Visits only rows near the surface. The blocks of rows are those of points in the order of the numbers, so the sums have the
-// same bits.
+// Visits only rows near the surface. The blocks of rows are those of a mesh whose points are the grid's nodes in the order of
+// their numbers, so the sums have the same bits.
 EdgeLengths<double> lengths_along(const GridEdges &edges, const MeshNodes &nodes,
                                   const std::vector<std::int64_t> &marked, int) {
   std::vector<std::int64_t> rows = marked, others;

@@ -15,8 +15,8 @@
 namespace riis {
 namespace {
 
-// Measures how deep two triangles penetrate each other, and finds the segment that they have in common.
-// In: two triangles with an area, coordinates up to 1e60. Out: the penetration depth, the segment's middle and length.
+// Measures how deep two triangles penetrate each other, and finds the segment that they have in common. The triangles have an
+// area, and coordinates up to 1e60.
 
 using Triangle = std::array<Vec3, 3>;
 
@@ -26,8 +26,9 @@ struct CommonSegment {
 };
 
 // Finds the least overlap of two triangles over the directions that are passed to along(). A face of the Minkowski difference of
-// two triangles either has the normal of one triangle or is spanned by an edge of each. The least overlap over these normals is
-// the distance from the origin to the boundary of the difference. The distance to this boundary is the penetration depth.
+// two triangles either has the normal of one triangle or is spanned by one edge of each triangle. The least overlap over the
+// normals of these faces is the distance from the origin to the boundary of the difference. The distance from the origin to this
+// boundary is the penetration depth.
 class Overlap {
  public:
   Overlap(const Triangle &a, const Triangle &b, double limit) : a_(a), b_(b), limit_(limit) {}
@@ -56,8 +57,8 @@ Triangle moved(const Triangle &t, Vec3 origin) { return {t[0] - origin, t[1] - o
 
 std::array<Vec3, 3> edges_of(const Triangle &t) { return {t[1] - t[0], t[2] - t[1], t[0] - t[2]}; }
 
-// Returns whether t reaches beyond the limit on both sides of a plane. The corners of t are relative to a point of the plane, and
-// w is the plane's normal.
+// Returns whether the triangle t extends farther than the limit on both sides of a plane. The corners of t are relative to a
+// point of the plane, and w is the plane's normal.
 bool cuts_plane(const Triangle &t, Vec3 w, double limit) {
   const double x = dot(w, t[0]), y = dot(w, t[1]), z = dot(w, t[2]), least = limit * length(w);
   return std::max({x, y, z}) > least && -std::min({x, y, z}) > least;
@@ -66,12 +67,13 @@ bool cuts_plane(const Triangle &t, Vec3 w, double limit) {
 // Returns whether e and f are nearly parallel: their parallelogram is narrower than 1e-8 of an edge. w is their cross product.
 bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e) * dot(f, f); }
 
-// Returns the length of the shortest translation of one triangle after which the two only touch. Returns 0 if this length is at
-// most `limit`. Triangles that only touch, or that lie in one plane, have depth 0. The error is at most 2^-24 of the longest
+// Returns the length of the shortest translation of one triangle after which the two triangles only touch, or 0 if the length is
+// at most `limit`. Triangles that only touch, or that lie in one plane, have depth 0. The error is at most 2^-24 of the longest
 // edge plus 2^-48 of the largest coordinate.
 double penetration_depth(const Triangle &a, const Triangle &b, double limit) {
-  // Most pairs of triangles are dismissed here, because one triangle does not cut the plane of the other. Points are relative to
-  // a corner of the other triangle, so the height of its plane is exactly 0.
+  // Most pairs of triangles are dismissed here, because one triangle does not cut the plane of the other. The corners of each
+  // triangle are taken relative to a corner of the other triangle, so that the plane of the other triangle passes exactly through
+  // the origin.
   const Vec3 normal_a = cross(a[1] - a[0], a[2] - a[0]), normal_b = cross(b[1] - b[0], b[2] - b[0]);
   const Triangle b_from_a = moved(b, a[0]);
   if (!cuts_plane(b_from_a, normal_a, limit) || !cuts_plane(moved(a, b[0]), normal_b, limit)) return 0;
@@ -92,7 +94,7 @@ CommonSegment common_segment(const Triangle &a, const Triangle &b) {
   const Triangle from_b = moved(a, b[0]);
   std::array<double, 3> height{};
   for (std::size_t k = 0; k < 3; ++k) height[k] = dot(normal, from_b[k]);
-  // One corner of a is alone on its side of b's plane.
+  // One corner of the triangle a is alone on its side of b's plane.
   const auto is_below = [&](std::size_t k) { return height[k % 3] < 0; };
   std::size_t lone = 0;
   while (lone < 2 && (is_below(lone) == is_below(lone + 1) || is_below(lone) == is_below(lone + 2))) ++lone;
@@ -330,7 +332,7 @@ Crossings find_crossings(const TriangleSet &set, const TriangleGroups &groups, d
 }
 
 double depth_of_contacts(const Surface &surface) {
-  // A depth of this many half thicknesses cannot come from rounding.
+  // A depth of `beyond_rounding` half thicknesses cannot come from rounding.
   constexpr double beyond_rounding = 1e-3;
   const bool is_exact = surface.source() && surface.source()->kind->has_exact_contacts;
   return is_exact ? beyond_rounding * surface.half_thickness() : 2 * surface.triangles().error_bound;

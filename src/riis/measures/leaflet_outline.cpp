@@ -31,7 +31,8 @@ namespace {
 
 // ---- Boundary ----
 
-// Returns, for each triangle, the lowest triangle of its piece: a part of a leaflet that is connected by common vertices.
+// Returns, for each triangle, the lowest triangle of its piece. A piece is a part of a leaflet whose triangles are connected by
+// common vertices.
 std::vector<std::int64_t> pieces_of(const TriangleSet &set) {
   std::int64_t n_positions = 0;
   const auto position = distinct_positions(set, n_positions);
@@ -70,7 +71,7 @@ void measure_pieces(const TriangleSet &set, const std::vector<std::int64_t> &pie
   }
 }
 
-// Returns the place of each value among the distinct values, in order, and their number.
+// Returns the position of each value among the sorted distinct values, and the number of distinct values.
 template <class Value>
 std::pair<std::vector<std::int64_t>, std::int64_t> numbered(const std::vector<Value> &values) {
   std::map<Value, std::int64_t> number;
@@ -164,7 +165,7 @@ class FarthestEdges {
     for (const Turn &turn : turns) add(turn);
   }
 
-  // Returns the parts, or nothing if directions over half a turn have no edge.
+  // Returns the parts, or nothing if a range of directions of more than half a turn has no edge.
   std::vector<FarPart> parts() const {
     std::vector<FarPart> made;
     double gap = 0, widest = 0;
@@ -199,12 +200,12 @@ class FarthestEdges {
     return {cosine, sine};
   }
 
-  // Returns the angle between a direction and the next one.
+  // Returns the angle between a direction and the next direction.
   double width(std::size_t at) const {
     return at + 1 < angles_.size() ? angles_[at + 1] - angles_[at] : angles_[0] + 2 * pi - angles_[at];
   }
 
-  // Returns the share of the edge at which the ray in a direction meets it.
+  // Returns the share of the edge at which the ray in a direction meets the edge.
   double share_at(std::size_t edge, double angle) const {
     const auto &[a, b] = edges_[edge];
     if (arc_tangent(a[1], a[0]) == angle) return 0;
@@ -308,8 +309,8 @@ struct FoundView {
   double roundness;
 };
 
-// From a good first axis few turns suffice. More turns would do harm at a free edge that reaches as far out as the attachment,
-// because each turn may then change the farthest edge. Other first axes need many turns.
+// With a good first axis few turns suffice. More turns would do harm at a free edge that reaches as far out as the attachment,
+// because each turn may then change the farthest edge. A bad first axis needs many turns.
 constexpr int few_turns = 4, many_turns = 40;
 
 // Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline, at most n_turns
@@ -332,7 +333,7 @@ std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, 
   }
 }
 
-// The centroid of the edges, and the directions in which they spread, the least spread first. Each has the length 1.
+// The centroid of the edges, and the directions in which they spread, the least spread first. Each direction has the length 1.
 struct BoundarySpread {
   Vec3 centre;
   std::vector<Vec3> directions;
@@ -361,7 +362,8 @@ BoundarySpread spread_of(const LeafletBoundary &boundary) {
 }
 
 // Returns the view of triangles from arrays. The direction in which the boundary spreads least is the first axis. Another
-// direction counts only if it leads to a rounder outline. Triangles may be turned over, so their normals give only the side.
+// direction counts only if it leads to a rounder outline. Triangles may be turned over, so their normals determine only the side
+// of the axis.
 std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const BoundarySpread &spread) {
   constexpr double favour = 1.15;
   std::optional<FoundView> best;
@@ -376,9 +378,9 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const B
   return best;
 }
 
-// Returns the factor by which the pieces grow about their centroids until the first two neighbours meet. Beyond 1.05 the pieces
-// stand apart on purpose, so the factor falls back to 1 at 1.1. A part of the outline at less than 45 degrees to a ray from the
-// centre is the end of a piece, and not held.
+// Returns the factor by which the pieces grow about their centroids until the first two neighbours meet. If the factor is above
+// 1.05, the pieces are probably apart on purpose, so the factor falls back until it is 1 at 1.1. A part of the outline at less
+// than 45 degrees to a ray from the centre is the end of a piece, and is not attached.
 double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
   struct Held {
     std::int64_t piece;

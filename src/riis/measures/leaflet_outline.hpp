@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The outline of the leaflets, which bounds the orifice. It consists of the farthest edges round a centre, seen along an axis
-// that follows from these edges (docs/theory/measures.md, "Outline"). In: triangles, of a valve or from arrays. Out: a polygon in
-// a plane, and the axis along which it is seen.
+// The outline of the leaflets, which bounds the orifice. The outline consists of the farthest edges around a centre, seen along
+// an axis that follows from these edges (docs/theory/measures.md, "Outline"). From the triangles of a valve or of arrays, this
+// file finds a polygon in a plane, and the axis along which the polygon is seen.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace riis {
 // Projects points along an axis of length 1.
 class AlongAxis {
  public:
-  // The origin is projected to (0, 0). The first direction of the plane is the one nearest to `sideways`. If `sideways` is 0 or
-  // nearly along the axis, a coordinate axis takes its place.
+  // The origin is projected to (0, 0). The first direction of the plane is the direction nearest to `sideways`. If `sideways` is
+  // 0 or nearly along the axis, a coordinate axis takes its place.
   AlongAxis(Vec3 axis, Vec3 origin, Vec3 sideways);
 
   Vec3 axis() const { return axis_; }
@@ -67,8 +67,8 @@ struct ValveDirections {
   bool keeps_axis;      // the outline is seen along `axis`, and not along the vector area of its edges
 };
 
-// Returns the outline, with the axis on the side of the valve's axis. Triangles from arrays have no valve. The axis of such
-// triangles is on the side of the boundary's normal. Returns nothing if the edges do not surround a centre, or enclose no area.
+// Returns the outline, with the axis on the side of the valve's axis. Triangles from arrays have no valve, so their axis is on
+// the side of the boundary's normal. Returns nothing if the edges do not surround a centre, or enclose no area.
 std::optional<SeenOutline> outline_of_leaflets(const LeafletBoundary &boundary,
                                                const std::optional<ValveDirections> &valve);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measures of a surface and of its marks. Each part of this header has its own file of source.
+// The measures of a surface and of its marks. Each part of this header has its own source file.
 #pragma once
 
 #include <riis/riis.h>
@@ -23,13 +23,13 @@
 
 namespace riis {
 
-// The orifice of a valve: the part of an outline's area that no triangle covers, seen along the axis.
-// In: the triangles, and the valve if they come from one. Out: areas and a perimeter.
+// The orifice of a valve: the part of an outline's area that no triangle covers, seen along the axis. The triangles come from a
+// valve or from arrays. The results are areas and a perimeter.
 
 // The factor c of the effective area A - c eps P. The band around the rim narrows an orifice by the distance c eps. A wall
-// without thickness blocks the flow equally if its rim extends c eps farther into the orifice. Each number lies midway between
-// the c of two valves that docs/validation.md compares with walls in body-fitted meshes. The open bileaflet valve has 0.98
-// (round) and 0.95 (cut). The open trileaflet valve has 0.70 and 0.46.
+// without thickness blocks the flow as much as the band if its rim extends c eps farther into the orifice. Each number lies
+// midway between the c of two valves that docs/validation.md compares with walls in body-fitted meshes. For the open bileaflet
+// valve, c is 0.98 (round rim) and 0.95 (cut rim). For the open trileaflet valve, c is 0.70 and 0.46.
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
 
@@ -46,7 +46,8 @@ struct OrificeLimits {
 };
 
 // Returns the factor c of a surface's band. An offset widens an orifice, because the flow then passes nearer to the leaflet. The
-// zeros of c are fits to flows through trileaflet and mitral valves. A bileaflet valve has flow on both sides, so c stays.
+// offsets at which c is 0 were fitted to flows through trileaflet and mitral valves. A bileaflet valve has flow on both sides of
+// its leaflets, so c does not change.
 double rim_reach(const Surface &surface, std::int32_t rim);
 
 // Measures the orifice. `source` is null for triangles from arrays, whose outline is their longest boundary.
@@ -56,11 +57,11 @@ Orifice measure_orifice_in_wall(const TriangleSet &set, const SourceValve *sourc
                                 const OrificeLimits &limits);
 
 // Returns the area of the surface after each vertex has moved by `shift` along its unit normal. The triangles of one leaflet are
-// left out; -1 leaves out none.
+// left out; -1 leaves out no triangles.
 double moved_area(const Surface &surface, double shift, std::int32_t left_out);
 
 // The coaptation of leaflets: their parts within a distance of another leaflet.
-// In: triangles, free edges, a distance. Out: areas and lengths.
+// The results are areas and lengths.
 
 struct Contact {
   double area, edge;
@@ -73,7 +74,7 @@ std::map<std::int32_t, Contact> contacts_of(const TriangleSet &set, const std::v
                                             int n_threads);
 
 // Self-intersections of a surface: pairs of triangles that go through each other.
-// In: triangles and their groups. Out: the pairs in ascending order, with their depths and common segments.
+// The result has the pairs in ascending order, with their depths and common segments.
 
 struct Crossings {
   std::vector<std::int64_t> triangle;     // (2, n_pairs), positions in the set, the lower one first
@@ -89,8 +90,8 @@ Crossings find_crossings(const TriangleSet &set, const TriangleGroups &groups, d
 // Returns the depth up to which the triangles of touching leaflets may cross (docs/theory/crossings.md).
 double depth_of_contacts(const Surface &surface);
 
-// The gap between the attachment of a valve and a wall, along the direction in which a skirt leads.
-// In: points and directions, the triangles of the wall. Out: distances, and the lengths of a skirt that reaches the wall.
+// The gap between the attachment of a valve and a wall, along the direction in which a skirt leads. The results are distances,
+// and the lengths of a skirt that reaches the wall.
 
 // The triangles of a wall, and the scene that finds them.
 struct Wall {
@@ -99,7 +100,7 @@ struct Wall {
 };
 
 // Returns the distance from a point to the nearest place at which the line through it meets the wall. The distance is negative if
-// this place lies against the direction, which has length 1. Returns nothing if the line misses the wall.
+// this place lies opposite to `direction`, which has length 1. Returns nothing if the line misses the wall.
 std::optional<double> distance_along(const Wall &wall, Vec3 point, Vec3 direction);
 
 // The gap at each end of each edge of an attachment.
@@ -107,18 +108,18 @@ struct Gap {
   std::vector<double> distance;  // (2, n_edges); RIIS_FAR_DISTANCE where the line misses the wall
   riis_gap measures;
 };
-// Measures the gap. Fails with RIIS_INVALID_ARGUMENT if there are no edges, and if nothing tells which way is outwards.
+// Measures the gap. Fails with RIIS_INVALID_ARGUMENT if there are no edges, and if the outward direction is not determined.
 Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads);
 
 // Returns the lengths of a skirt that reaches the wall from a placed valve, whose patches have no skirt. Where the wall is
-// nearer than the shortest skirt's length, the skirt has that length. Fails with RIIS_INVALID_ARGUMENT if the wall is farther
-// than `longest`, in placed units.
+// nearer than the shortest skirt's length, the skirt has the shortest length. Fails with RIIS_INVALID_ARGUMENT if the wall is
+// farther than `longest`, in placed units.
 SkirtLengths lengths_to_wall(const PatchSet &set, const Placement &placement, const Wall &wall, double longest,
                              int n_threads);
 
 // Computes the volume that a surface sweeps. The volume is the integral of u . n over the surface and time, so motion along the
 // normals counts as positive.
-// In: a valve and two openings. Out: the volume of each leaflet.
+// The result has the volume of each leaflet of a valve between two openings.
 
 // Maps a leaflet_id to the volume that the leaflet sweeps. No placement is applied to the volumes.
 using SweptVolumes = std::map<std::int32_t, double>;
@@ -129,7 +130,7 @@ SweptVolumes swept_volumes(const Valve &valve, double opening_from, double openi
 
 // Estimates how many mesh edges fit across the band. Divides the band's thickness by the shortest, the mean and the longest of
 // the mesh edges with a marked node.
-// In: a marking, the mesh with its edges. Out: counts and lengths.
+// The results are counts and lengths.
 
 // Computes the number of mesh edges across the band. Fails with RIIS_INVALID_MESH if a coordinate is not finite or too large.
 riis_cells_across cells_across(const Marks &marks, const Mesh &mesh, int n_threads);

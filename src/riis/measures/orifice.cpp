@@ -37,7 +37,7 @@ Orifice measured(const TriangleSet &set, const SeenOutline &from, std::int32_t k
   const Cover cover = cover_of(vertices, set.skirt < 0 ? set.vertex_id : without_leaflet(set, set.skirt));
   const double whole = area_of(from.outline);
   const UncoveredAreas open = uncovered_areas(from.outline, cover, limits.reach);
-  // A closed valve leaves nothing but rounding between its triangles and its outline.
+  // In a closed valve, only rounding errors remain between the triangles and the outline.
   const auto above_rounding = [&](double area) { return area > 1e-12 * whole ? area : 0; };
   return {above_rounding(open.outside),
           whole,

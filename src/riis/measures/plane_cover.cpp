@@ -16,13 +16,13 @@
 namespace riis {
 namespace {
 
-// One end of an interval on a line. An edge passes through this end. `along` is the length of the edge between two lines
-// with spacing 1. The length is 0 if lines in the other direction measure the edge.
+// The end of an interval on a line, where an edge crosses the line. `along` is the length of the edge between two lines with
+// spacing 1. The length is 0 if lines in the other direction measure the edge.
 struct End {
   double x, along;
 };
 
-// One end of an interval where only areas are measured.
+// The end of an interval on a line, if only areas are measured.
 struct Place {
   double x;
 };
@@ -70,8 +70,8 @@ double length_along(double dx, double dy, bool counts_equal) {
   return std::sqrt(1 + slope * slope);
 }
 
-// Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. The order of a and b does
-// not change x, so two triangles with a common edge leave no gap.
+// Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. The order of the edge's ends
+// does not change x, so two triangles with a common edge leave no gap.
 template <class Visit>
 void for_each_cut(const ScanLines &lines, PlanePoint a, PlanePoint b, const Visit &visit) {
   if (b[1] < a[1]) std::swap(a, b);
@@ -107,8 +107,8 @@ SpansOfLines inside(const Outline &outline, const ScanLines &lines) {
   return spans;
 }
 
-// Collects the intervals of convex shapes on the lines. A convex shape meets a line in at most one interval. Only for areas,
-// intervals of successive shapes are joined if they meet, so there are fewer to sort.
+// Collects the intervals of convex shapes on the lines. A convex shape meets a line in at most one interval. If only areas are
+// measured, intervals of successive shapes are joined where they meet, so that fewer intervals are sorted.
 template <class AnEnd>
 class Covered {
  public:
@@ -167,7 +167,7 @@ class Covered {
     for (std::int64_t i = lines_.first_from(centre[1] - radius); i < end; ++i) {
       const double y = lines_.y(i) - centre[1];
       const double half = std::sqrt(std::max(0.0, (radius - y) * (radius + y)));
-      // A circle runs at right angles to its radius (half, y).
+      // The direction of a circle is at right angles to the radius, which is (half, y) here.
       AnEnd at = end_at(centre[0] - half, y, half);
       widen(i, at);
       at.x = centre[0] + half;
@@ -209,7 +209,7 @@ double total(const Spans &spans) {
   return sum;
 }
 
-// Sorts the spans, and joins those that meet.
+// Sorts the spans, and joins spans that meet.
 void join(Spans &spans) {
   std::sort(spans.begin(), spans.end(),
             [](const Interval<Place> &a, const Interval<Place> &b) { return a.begin.x < b.begin.x; });
@@ -223,7 +223,7 @@ void join(Spans &spans) {
   spans.resize(n);
 }
 
-// Measures the part of disjoint spans that no cover contains. The covers are joined.
+// Measures the part of the spans that no cover contains. The spans are disjoint. The covers must have been joined.
 double length_without(const Spans &spans, const Spans &covers) {
   double length = 0;
   for (const Interval<Place> &span : spans) {
@@ -238,10 +238,10 @@ double length_without(const Spans &spans, const Spans &covers) {
   return length;
 }
 
-// Measures the edges of the covers at the ends of the part of disjoint spans that no cover contains.
+// In disjoint spans, measures the edges of the covers at the ends of the uncovered part.
 double edge_without(const Spans &spans, std::vector<Interval<End>> covers) {
-  // Covers of folded leaflets may begin or end in one point. The order of such covers then says which edge counts, so the order
-  // is total.
+  // Covers of folded leaflets may begin or end in the same point. The order of these covers decides which edge counts, so covers
+  // are compared by all their members.
   std::sort(covers.begin(), covers.end(), [](const Interval<End> &a, const Interval<End> &b) {
     return std::tie(a.begin.x, a.end.x, a.begin.along, a.end.along) <
            std::tie(b.begin.x, b.end.x, b.begin.along, b.end.along);

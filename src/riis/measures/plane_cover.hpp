@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the part of an outline in the plane that triangles leave uncovered: its area, and the length of its edge.
-// In: an outline, triangles in the plane, and a distance by which the triangles grow. Out: areas and lengths.
+// Measures the part of an outline in the plane that triangles leave uncovered: its area, and the length of its edge. The
+// triangles may first grow by a distance.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ Outline circle(double radius, const PlanePoint &centre);
 // number of ends at each place. Coordinates may be off by `rounding`, so areas within such errors do not count.
 std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>> &lines, double rounding = 0);
 
-// The triangles, and the rim: the edges that may bound the covered part. An edge is not part of the rim if its two triangles
-// lie on opposite sides of it.
+// The triangles, and the rim: the edges that may bound the covered part. An edge is not part of the rim if its two triangles lie
+// on opposite sides of the edge.
 struct Cover {
   std::vector<PlaneTriangle> triangles;
   std::vector<PlaneSegment> rim;

@@ -24,8 +24,8 @@ constexpr int n_steps = 64;
 constexpr double quads_wanted = 65536;
 constexpr int fewest = 8, most = 64;
 
-// Returns the volume that a triangle sweeps while its corners move along straight lines. The volume is exact, because it equals
-// the mean of the corners' shifts times the time average of the area vector.
+// Returns the volume that a triangle sweeps while its corners move along straight lines. The result is exact: the mean of the
+// corners' shifts times the time average of the area vector.
 double swept(const Vec3 (&from)[3], const Vec3 (&to)[3]) {
   const Vec3 e = from[1] - from[0], f = from[2] - from[0];
   const Vec3 de = (to[1] - to[0]) - e, df = (to[2] - to[0]) - f;
@@ -86,8 +86,8 @@ void add_swept(const PatchSet &from, const PatchSet &to, const Vector<double> &s
       const PatchImage &image = before.images[i];
       const double volume =
           swept_by_grid(placed(image, points_before), placed(now.images[i], points_now), shares.size());
-      // The triangles of a mirror image are turned over, so their normals also point downstream. The volume of these triangles
-      // therefore changes its sign.
+      // The triangles of a mirror image are turned over, so their normals also point downstream. The volume that these triangles
+      // sweep therefore gets the opposite sign.
       sums[image.leaflet_id] += points_upstream(image) ? -volume : volume;
     }
   }

@@ -19,7 +19,7 @@ struct Start {
 };
 
 // Returns where the line point + t * direction meets a triangle. Two triangles with a common edge compute that edge's volume
-// with opposite signs. The line therefore cannot slip through between the triangles.
+// with opposite signs. The line therefore cannot pass between the triangles.
 std::optional<double> meets(const std::array<Vec3, 3> &corners, Vec3 point, Vec3 direction) {
   const auto [a, b, c] = corners;
   const Vec3 oa = a - point, ob = b - point, oc = c - point;
@@ -57,7 +57,8 @@ std::optional<double> distance_along(const Wall &wall, Vec3 point, Vec3 directio
   const Bounds &bounds = wall.scene.bounds();
   const double reach = 2 * (distance(bounds.lower, bounds.upper) + distance(point, bounds.lower));
   std::vector<std::int32_t> found;
-  // The wall is mostly near, and a short line meets few triangles. A line that meets nothing gets longer.
+  // The search begins with a short line, because the wall is mostly near and a short line meets few triangles. If the line meets
+  // nothing, it becomes longer.
   for (double length = reach / 256;; length = std::min(4 * length, reach)) {
     std::optional<double> nearest;
     wall.scene.for_each_along(

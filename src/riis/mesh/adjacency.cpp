@@ -19,13 +19,13 @@
 namespace riis {
 namespace {
 
-// Makes an adjacency from items, which are cells or faces. First it lists the items of each node.
-// In: lists of items. Out: sorted rows without repeats, which do not depend on the number of threads.
+// Makes an adjacency from items, which are cells or faces. The code first lists the items of each node. The rows are sorted, have
+// no repeats, and do not depend on the number of threads.
 
 // Memory from malloc, which realloc can shrink in place. The content must be plain data.
 class PlainMemory {
  public:
-  // Keeps as much of the content as fits in both the old and the new size.
+  // Keeps the content up to the lesser of the old and the new size.
   void resize(std::int64_t n_bytes) {
     if (n_bytes == 0) return memory_.reset();
     void *const moved = std::realloc(memory_.get(), static_cast<std::size_t>(n_bytes));
@@ -45,15 +45,14 @@ class PlainMemory {
   std::unique_ptr<void, Free> memory_;
 };
 
-// Makes the rows. An entry says that a node is in an item. The entries of a block of
-// nodes are stored together, node by node. Later the rows overwrite the entries. Lists is a type
-// with
-//   n_nodes, n_items
-//   most_neighbors                         the most different nodes that for_each_neighbor visits
-//   for_each_entry(range, visit)           calls visit(node, entry) for every node of every item in a range
-//   for_each_neighbor(entry, node, visit)  calls visit(other) for the neighbours that an entry gives its node, in any order
-//   prefetch(entry)                        requests the memory that for_each_neighbor reads
-// The type Entry can hold the number of all entries, and Column the number of nodes.
+// Makes the rows. An entry says that a node is in an item. The entries of a block of nodes are stored together, node by node.
+// Later the rows overwrite the entries. Lists is a type with these members:
+//   `n_nodes`, `n_items`: the numbers of nodes and items.
+//   `most_neighbors`: the most different nodes that for_each_neighbor visits.
+//   `for_each_entry(range, visit)`: calls visit(node, entry) for every node of every item in a range.
+//   `for_each_neighbor(entry, node, visit)`: calls visit(other) for the neighbours that an entry gives its node, in any order.
+//   `prefetch(entry)`: requests the memory that for_each_neighbor reads.
+// The type Entry can hold the number of all entries, and the type Column can hold the number of nodes.
 template <class Entry, class Column, class Lists>
 class RowMaker {
  public:
@@ -242,7 +241,7 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
          max_count);
 }
 
-// The lists of neighbouring cells. In these lists the nodes are the cells, and an entry is a face between two cells.
+// The lists of neighbouring cells. These lists have cells in place of nodes, and an entry is a face between two cells.
 struct InnerFaces {
   static constexpr std::int64_t most_neighbors = 1;
 
@@ -267,7 +266,7 @@ struct InnerFaces {
   void prefetch(std::int64_t) const {}
 };
 
-// The lists of a grid. An entry is the node itself.
+// The lists of a grid, in which each node has one entry.
 struct GridNodes {
   static constexpr std::int64_t most_neighbors = 6;
 

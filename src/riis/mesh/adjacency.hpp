@@ -61,7 +61,7 @@ struct NarrowLimits {
 
 OwnAdjacency adjacency_from_cells(const riis_mesh_cells &cells, int n_threads, const NarrowLimits &limits = {});
 OwnAdjacency adjacency_from_faces(const riis_mesh_faces &faces, int n_threads);
-// Returns the number of a grid's nodes. Fails with RIIS_LIMIT_EXCEEDED if memory cannot hold so many.
+// Returns the number of a grid's nodes. Fails with RIIS_LIMIT_EXCEEDED if memory cannot hold so many nodes.
 std::int64_t nodes_of_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk);
 OwnAdjacency adjacency_from_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk, int n_threads);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's cells, checked, and the edges of each shape of cell.
+// The checked cells of the caller, and the edges of each shape of cell.
 #pragma once
 
 #include <riis/riis.h>
@@ -15,7 +15,8 @@
 
 namespace riis {
 
-// The edges of one shape of cell, as pairs of positions in a cell's list of nodes. The number of nodes decides the shape.
+// The edges of one shape of cell, as pairs of positions in a cell's list of nodes. The shape of a cell follows from the cell's
+// number of nodes.
 struct CellShape {
   int n_nodes, n_edges;
   std::array<std::array<std::uint8_t, 2>, 12> edges;
@@ -26,7 +27,7 @@ inline constexpr CellShape prism{6, 9, {{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5},
 inline constexpr CellShape hexahedron{
     8, 12, {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}}};
 
-// For each position in a cell's list of nodes, lists the positions that an edge joins to it.
+// For each position in a cell's list of nodes, lists the positions to which an edge leads.
 struct CellNeighbors {
   struct Positions {
     std::int64_t n = 0;
@@ -80,7 +81,7 @@ struct CellNodes {
 template <class Id>
 class Cells {
  public:
-  // Checks the sizes of all cells before any node, because the sizes give the number of nodes.
+  // Checks the sizes of all cells before any node, because the sizes give the length of the list of nodes.
   Cells(const riis_mesh_cells &cells, int n_threads)
       : n_cells_(cells.n_cells),
         n_nodes_(cells.n_nodes),

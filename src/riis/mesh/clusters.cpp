@@ -39,7 +39,7 @@ Bounds bounds_of(const StridedPoints &nodes) {
   return bounds;
 }
 
-// Asks the system for large pages. A search reads leaves in random order, and the processor looks up the page of each. The
+// Asks the system for large pages. A search reads leaves in random order, and the processor looks up the page of each leaf. The
 // request concerns only whole large pages within the memory, so the process takes no more memory.
 void ask_for_large_pages(void *memory, std::size_t n_bytes) {
 #if defined(MADV_HUGEPAGE)
@@ -60,7 +60,7 @@ void make_room_for(std::int64_t n_nodes, Clusters &clusters) {
   const std::int64_t n_leaves = n_of(nodes_per_leaf);
   if (n_leaves > clusters.room_for_leaves) {
     clusters.room_for_leaves = 0;
-    // The memory is left unfilled. The thread that uses a page is therefore also the first to write to it.
+    // The memory is left unfilled, so that the thread that uses a page is also the first to write to it.
     const auto n = static_cast<std::size_t>(n_leaves);
     clusters.leaves.reset(new Leaf[n]);
     clusters.points.reset(new LeafPoints[n]);

@@ -49,13 +49,13 @@ struct Clusters {
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
 // The next two functions fail with RIIS_INVALID_MESH for an unusable coordinate. n_nodes is 0 in clusters that were never made.
-//   bounds  the box of the nodes at the time when the caller gave them
+//   `bounds`: the box of the nodes at the time when the caller gave them.
 void sort_into_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters);
 // Keeps the order, and updates coordinates and boxes to the nodes' new positions.
 void place_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters);
 
-// Fills clusters with nodes whose order is known.
-// In: the nodes in their order. Out: leaves, and the boxes of leaves, clusters and regions.
+// Fills clusters with nodes whose order is known:
+// makes the leaves, and the boxes of leaves, clusters and regions.
 
 // A node with its number and its coordinates.
 struct OrderedNode {
@@ -89,8 +89,8 @@ inline Boxes no_boxes() {
   return boxes;
 }
 
-// Makes room for n_nodes nodes. If memory runs out, n_nodes stays as it was. Clusters that were never made therefore do not
-// count as made.
+// Makes room for n_nodes nodes. If memory runs out, n_nodes stays as it was, so that clusters that were never made do not count
+// as made.
 void make_room_for(std::int64_t n_nodes, Clusters &clusters);
 
 // Fills clusters, whose frame must be set. node_at(i) returns the i-th node in order, and prefetch(i) requests the memory that
@@ -116,7 +116,7 @@ void fill_clusters(std::int64_t n_nodes, int n_threads, const NodeAt &node_at, c
         double *xyz = clusters.points.get()[l].xyz;
         const std::int64_t first = l * nodes_per_leaf, last = n_nodes - 1;
         // Prefetches the nodes of the next leaf, because they may lie anywhere in the caller's memory. Stops at the end of
-        // this region, because another thread reads the next one.
+        // this region, because another thread reads the next region.
         for (std::int64_t i = first + nodes_per_leaf; i < std::min(first + 2 * nodes_per_leaf, end); ++i) prefetch(i);
         for (int i = 0; i < nodes_per_leaf; ++i) {
           const OrderedNode node = node_at(std::min(first + i, last));

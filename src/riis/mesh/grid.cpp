@@ -71,7 +71,7 @@ GridIndex checked_strides(const GridIndex &n, std::int64_t first, const GridInde
     if (is_default) stride[axis] = n_nodes;
     if (stride[axis] < 1)
       fail(RIIS_INVALID_ARGUMENT, "grid.stride[", axis, "] is ", stride[axis], "; it must be at least 1");
-    // The product is compared before it is made, because it may overflow.
+    // The factors are compared before they are multiplied, because the product may overflow.
     if (n[axis] > 1 && stride[axis] > (most_numbers - 1 - last) / (n[axis] - 1))
       fail(RIIS_LIMIT_EXCEEDED, "grid.stride[", axis, "] is ", stride[axis], ", so ", n[axis],
            " nodes along this axis exceed the limit of ", most_numbers, " numbers");

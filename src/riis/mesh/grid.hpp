@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rectilinear grid: three ascending axes, and the place of each node in the caller's arrays. No memory is taken for nodes.
-// In: axes, the first number and strides. Out: the coordinates, number and neighbours of each node.
+// A rectilinear grid: three ascending axes, and the place of each node in the caller's arrays. Nothing is stored for a node. The
+// axes, the first number and the strides give each node's coordinates, number and neighbours.
 #pragma once
 
 #include <array>
@@ -85,13 +85,13 @@ class Grid {
   Axes axes_;
   GridIndex size_, stride_;
   std::int64_t first_, n_numbers_;
-  // The axes with several nodes. The axis with the largest stride comes first. On other axes every index is 0.
+  // The axes with several nodes. The axis with the largest stride comes first. On an axis with one node, every index is 0.
   int long_axes_[3], n_long_axes_;
 };
 
 // Returns the strides if each number has at most one node. Fails with RIIS_INVALID_ARGUMENT or RIIS_LIMIT_EXCEEDED.
-//   given      the strides as the caller gave them; three times 0 stands for the default
-//   n_numbers  0 is replaced by the least length
+//   `given`: the strides as the caller gave them; three times 0 stands for the default.
+//   `n_numbers`: 0 is replaced by the least length.
 // The stride of an axis with one node becomes 0.
 GridIndex checked_strides(const GridIndex &n, std::int64_t first, const GridIndex &given, std::int64_t &n_numbers);
 

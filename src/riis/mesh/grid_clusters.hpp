@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The nodes of a grid in leaves, clusters and regions, as the search over clusters needs them. Leaves, clusters and regions are
-// bricks of nodes, so the axes give their boxes. A thread fills the leaves of one cluster at a time. In: a grid, the box of its
-// nodes near a surface. Out: boxes, and the leaves near triangles.
+// bricks of nodes, so the axes give their boxes. A thread fills the leaves of one cluster at a time. The nodes are those of a box
+// of the grid near a surface.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class GridClusters {
     LeafPoints points[leaves_per_cluster];
   };
 
-  // Takes the nodes of a box, which must have some. Memory of earlier boxes is used again.
+  // Takes the nodes of a box, which must have at least one node. The memory of earlier boxes is reused.
   void make(const Grid &grid, const GridBox &box);
 
   const NodeFrame &frame() const { return frame_; }
@@ -41,7 +41,7 @@ class GridClusters {
     return boxes_at(begin_of(cluster), leaves_, leaf_extent_, room->cluster);
   }
 
-  // Opens a cluster, and fills the leaves that have a bit.
+  // Opens a cluster, and fills the leaves whose bit is set.
   void open(std::int64_t cluster, std::uint32_t leaves, Room &room) const;
   // Returns a bit for each lane of a leaf that has a node.
   std::uint32_t lanes(int leaf, const Room &room) const;

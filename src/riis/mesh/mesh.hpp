@@ -38,14 +38,14 @@ struct NodeBalls {
   Range balls_of(std::int64_t large_ball) const;
 };
 
-// Makes the order. Two functions, this and the next, fail with RIIS_INVALID_MESH for an unusable coordinate.
+// Makes the order. This function and the next function fail with RIIS_INVALID_MESH for an unusable coordinate.
 void sort_into_balls(const StridedPoints &nodes, const Bounds &bounds, int n_threads, NodeBalls &balls);
 
 // Makes the balls and the large balls from the order.
 void enclose(const StridedPoints &nodes, int n_threads, NodeBalls &balls);
 
-// The edges of a mesh in blocks of 64 rows, each with the length of its longest edge and a box. A search for long edges near the
-// surface can skip most blocks as a whole.
+// The edges of a mesh in blocks of 64 rows. Each block has the length of its longest edge, and a box. A search for long edges
+// near the surface can skip most blocks as a whole.
 struct EdgeBlocks {
   static constexpr std::int64_t rows_per_block = 64;
 
@@ -57,8 +57,8 @@ struct EdgeBlocks {
   double longest = 0;  // the length of the mesh's longest edge
 };
 
-// Checks whether a mesh and a surface with a half thickness can have the same unit. In: boxes that are already known. Out: a
-// warning to the caller's log function, once for each pair of a mesh and a surface.
+// Checks whether a mesh and a surface with a half thickness can have the same unit. The check needs only boxes that are already
+// known. The check sends a warning to the caller's log function, once for each pair of a mesh and a surface.
 
 // The surfaces that were reported as misfits for a mesh. Several threads may call both functions at once.
 class WarnedSurfaces {
@@ -92,7 +92,7 @@ struct MeshNodes {
   MeshNodes(const StridedPoints &given) : n(given.n), points(given) {}  // NOLINT(google-explicit-constructor)
   explicit MeshNodes(const Grid &given) : n(given.n_numbers()), points{0, nullptr, nullptr, nullptr, 1}, grid(&given) {}
   std::int64_t n_nodes() const { return grid ? grid->all().n_nodes() : n; }
-  // Returns node i. A grid must have a node with this number.
+  // Returns node i. In a grid, the number i must have a node.
   Vec3 operator[](std::int64_t i) const { return grid ? (*grid)[i] : points[i]; }
   void prefetch(std::int64_t i) const {
     if (!grid) points.prefetch(i);
@@ -153,8 +153,8 @@ class Mesh {
   // coordinate.
   const EdgeBlocks &edges(int n_threads) const;
 
-  // Records that these nodes were marked. Returns true if clusters pay off: a marking was recorded before, or clusters already
-  // exist.
+  // Records that these nodes were marked. Returns true if clusters pay off, because a marking was recorded before or clusters
+  // already exist.
   bool record_marking() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
 
   // Returns the surfaces that the caller was already warned about, because their sizes do not fit this mesh.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Puts nodes in an order in which near nodes follow each other. Clusters and balls share this file.
-// In: the caller's nodes. Out: the nodes' numbers in that order.
 #pragma once
 
 #include <algorithm>
@@ -78,7 +77,7 @@ struct NodeBox {
   }
 };
 
-// A node's coordinates and its number. A node is given by its coordinates and its number.
+// A node is given by its coordinates and its number.
 template <class Node>
 struct NodeItem {
   float x[3];
@@ -94,7 +93,7 @@ using NodeItems = UnfilledVector<NodeItem<Node>>;
 enum class Cuts { by_clusters, by_leaves };
 
 // Sorts nodes so that near nodes follow each other. Each pass counts the nodes of a part in bins along the longest axis of its
-// box, and cuts the part there. The items move back and forth between two arrays.
+// box, and cuts the part across this axis. The items move back and forth between two arrays.
 template <class Node>
 class NodeSorter {
  public:
@@ -128,13 +127,12 @@ class NodeSorter {
 
  private:
   static constexpr int n_bins = 256, most_parts = 16;
-  // Smaller parts have fewer bins, because to clear and sum many bins would take longer than to count their nodes.
+  // Smaller parts have fewer bins, because clearing and summing many bins would take longer than counting the nodes.
   static constexpr std::int64_t small_size = 1024;
   static constexpr int n_small_bins = 64, n_small_bins_per_part = 16;
   typedef std::array<Node, n_bins> Counts;
-  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items often have the same bin
-  // and stream, and each update of a count waits for the previous update of that count. Each quarter therefore has its own
-  // counts.
+  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items often belong to the same
+  // count, and each update of a count waits for the previous update. Each quarter therefore has its own counts.
   static constexpr int n_quarters = 4;
   typedef std::array<Node, n_quarters> OfQuarters;
   typedef std::array<OfQuarters, n_bins> QuarterCounts;
@@ -269,8 +267,8 @@ class NodeSorter {
     }
   }
 
-  // Returns the box of some items. Compares four numbers at once, because one at a time would take longer than to read the
-  // memory. The fourth number is arbitrary and is not used.
+  // Returns the box of some items. Compares four numbers at once, because comparing them one by one would take longer than
+  // reading the memory. The fourth number is arbitrary and is not used.
   static NodeBox box_of(const Item *items, const Part &part) {
     typedef float Four __attribute__((vector_size(16)));
     static_assert(sizeof(Item) >= sizeof(Four));

@@ -34,7 +34,7 @@ class PointsOfSide {
   Vec3 mapped(std::size_t k) const { return points_.mapped[at(k)]; }
   Vec3 point(std::size_t k) const { return points_.point[at(k)]; }
   double share(std::size_t k) const { return is_reversed_ ? 1 - points_.share[at(k)] : points_.share[at(k)]; }
-  // Returns the unit tangent, or 0 if there is none.
+  // Returns the unit tangent, or 0 if the curve has no direction there.
   Vec3 tangent(std::size_t k) const {
     const PointOnSpan &where = points_.on_curve[at(k)];
     const Vec3 along = derivative(curve_.spans()[where.span], where.t);
@@ -83,15 +83,15 @@ Vector<double> SideMaterial::shares_before(const Vector<double> &shares) const {
 
 namespace {
 
-// Steps of u and v are nearly parallel up to this square of the sine of their angle.
+// Steps of u and v count as nearly parallel if the square of the sine of their angle is at most `least_sine_sq`.
 constexpr double least_sine_sq = 0.01;
 
 bool has_points_inside(const MovedPatch &moved) {
   return moved.patch < moved.now.mapped_inside.size() && moved.patch < moved.before.mapped_inside.size();
 }
 
-// The position of a point relative to another point, in steps of u and v, by least squares. This position is 0 if the steps are
-// nearly parallel.
+// The position of a point relative to another point, in steps of u and v, by least squares. The position is 0 if the steps of u
+// and v are nearly parallel.
 struct StepsBeside {
   double u = 0, v = 0;
 
@@ -150,7 +150,7 @@ class AtShares {
     return mix(v0[at_u], v1[at_u], v) + mix(u0[at_v], u1[at_v], u) -
            mix(mix(v0[0], v0[last], u), mix(v1[0], v1[last], u), v);
   }
-  // along_u and along_v return the change of the combination from one even share before to one even share behind.
+  // along_u and along_v return the change of the combination from the previous even share to the next even share.
   Vec3 along_u(std::size_t at_u, std::size_t at_v) const {
     const auto &[v0, v1, u0, u1] = at_;
     return mix(v0[at_u + 1] - v0[at_u - 1], v1[at_u + 1] - v1[at_u - 1], material_share(at_v)) +
@@ -248,8 +248,8 @@ class MovedSide {
   bool is_at_rest() const { return is_at_rest_; }
 
   // Returns the displacements at the given shares of the length, which ascend from 0 to 1. `points` has the current points, if
-  // they are already known. `unknown` lists the indices of the unknown points in ascending order. Unless the list is empty,
-  // it also contains the first and the last index.
+  // they are already known. `unknown` lists the indices of the unknown points in ascending order. If the list is not empty, it
+  // also contains the first and the last index.
   Vector<Vec3> displacements(const Vector<double> &shares, Vector<Vec3> points,
                              const Vector<std::size_t> &unknown) const {
     if (!unknown.empty()) {
@@ -279,8 +279,8 @@ class MovedSide {
   bool is_at_rest_;
 };
 
-// The lines of a grid in one direction, with additional lines between them. Between two lines, the step is halved as often as
-// the quads there.
+// The lines of a grid in one direction, with additional lines between them. Between two lines, the step is halved as often as the
+// quads between these lines.
 class HalvedLines {
  public:
   HalvedLines(const Vector<GridLine> &lines, const Vector<int> &levels) : lines_(lines) {

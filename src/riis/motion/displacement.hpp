@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes how far the points of a patch moved since an earlier state of the valve (docs/theory/velocity.md).
-// In: the patch now and before, its grid. Out: the displacement of every vertex.
+// Computes how far the points of a patch moved since an earlier state of the valve (docs/theory/velocity.md). The result is the
+// displacement of every vertex of the patch's grid.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct MovedPatch {
   std::size_t patch;
 };
 
-// The polynomial through values at n_material nodes. The first node is 0 and the last is 1. In Newton's form.
+// The polynomial through values at n_material nodes, in Newton's form. The first node is 0 and the last node is 1.
 template <class T>
 class Through {
  public:
@@ -52,7 +52,7 @@ class Through {
 };
 
 // Tells which points of a side are the same material in both states. Without a warp, these are the points at equal shares of the
-// length. A warp stretches curves unevenly. A point then had another share before. A warped curve also differs a little
+// length. A warp stretches curves unevenly, so a point may have had another share before. A warped curve also differs a little
 // from the curve that the map makes of the points. `rest` compensates for the change of this difference.
 class SideMaterial {
  public:
@@ -60,7 +60,7 @@ class SideMaterial {
   SideMaterial(const MovedPatch &moved, Side Patch::*side);
 
   bool is_warped() const { return is_warped_; }
-  // Returns where the points at these shares were. The result ascends from 0 to 1.
+  // Returns the earlier shares of the points that now have these shares. The result ascends from 0 to 1.
   Vector<double> shares_before(const Vector<double> &shares) const;
   Vec3 rest(double share) const { return rest_.at(share); }
 
@@ -83,14 +83,14 @@ struct PatchMaterial {
   SideMaterial v0, v1, u0, u1;
 };
 
-// The difference, for the offsets of a patch of arcs, between the motion by the map and the motion of the offsets of the warped
-// curves. The polynomial is 0 for a patch without a warp.
+// For the offsets of a patch of arcs, returns the motion by the map minus the motion of the offsets of the warped curves. The
+// polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// The map adds this part to the displacement inside a warped Coons patch. This part is 0 at the sides. At the four inner points
-// with u and v of 1/3 or 2/3, the displacement belongs to the material point that the map moves there. The displacement follows
-// from the mapped points beside these points (MappedInside). The excess over the Coons combination of the sides is a polynomial
-// of degree 3 in u and in v.
+// The map adds this part to the displacement inside a warped Coons patch. The added part is 0 at the sides. At the four inner
+// points with u and v of 1/3 or 2/3, the displacement belongs to the material point that the map moves there. The displacement
+// follows from the mapped points beside these points (MappedInside). The excess over the Coons combination of the sides is a
+// polynomial of degree 3 in u and in v.
 class RestInside {
  public:
   RestInside() = default;
@@ -103,7 +103,7 @@ class RestInside {
   }
 
  private:
-  // Each polynomial is 1 at one third, and 0 at the other third and at the ends.
+  // first(x) is 1 at x = 1/3, and 0 at x = 2/3 and at the ends.
   static double first(double x) { return 13.5 * x * (1 - x) * (2.0 / 3 - x); }
   static double second(double x) { return 13.5 * x * (1 - x) * (x - 1.0 / 3); }
 
@@ -114,7 +114,7 @@ class RestInside {
 // The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. The two states
 // are evaluated on the smooth patches: on the sides directly, and inside as the same combination of the sides. Only (u,v)
 // identifies a point in both states, so the two states may have different triangles. SideMaterial matches the points of a warped
-// side. The result is exactly 0 if neither the sides nor the bulge changed.
+// side. If the sides and the bulge did not change, the result is exactly 0.
 class PatchDisplacement {
  public:
   // Computes the displacements at the grid's vertices. The grid must have kept its lines.
@@ -122,7 +122,7 @@ class PatchDisplacement {
 
   // Returns the displacement where two lines of the grid meet.
   Vec3 at_lines(std::size_t i, std::size_t j) const { return at(column_[i], row_[j]); }
-  // Returns the displacement inside the quad after this point. The sides of the quad are halved `level` times.
+  // Returns the displacement inside the quad that begins at this point. The sides of the quad are halved `level` times.
   Vec3 in_quad(std::size_t i, std::size_t j, int level, int column, int row) const {
     return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
@@ -175,18 +175,18 @@ Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoi
 
 // Returns the joints of a side in the patch's parameter.
 Vector<double> joints_of(const PatchSet &set, const Side &side);
-// Moves each line with the two joints beside it. If the number of joints changed, no line moves.
+// Moves each grid line along with the two joints on either side of the line. If the number of joints changed, no line moves.
 Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to);
 
-// Returns whether patch i has the same images in the two states.
+// Returns whether each patch has the same images in both states.
 bool have_same_build(const PatchSet &now, const PatchSet &before);
 // Gives each image of a state a patch of its own, in the order of the images of `like`, which has the same ids. Two states of
 // one valve may differ in their build: equal cusps are images of one half, and unequal cusps have patches of their own.
 PatchSet with_own_patches(const PatchSet &state, const PatchSet &like);
-// Fails with RIIS_INVALID_PARAMETER unless both states have the same build.
+// Fails with RIIS_INVALID_PARAMETER if the two states have different builds.
 void check_same_build(const PatchSet &now, const PatchSet &before);
-// Fails with RIIS_INVALID_PARAMETER unless the images of both states have the same ids. with_own_patches then gives both states
-// one build. The message names the states.
+// Fails with RIIS_INVALID_PARAMETER if the images of the two states have different ids. If the ids are the same, with_own_patches
+// can give both states one build. The message names the states.
 void check_same_ids(const PatchSet &now, const PatchSet &before, const StateNames &names = {"valve_before", "valve"});
 
 }  // namespace riis

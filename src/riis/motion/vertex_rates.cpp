@@ -27,8 +27,8 @@ class MovedJoints {
     std::stable_sort(joints_.begin(), joints_.end(), [](const Joint &a, const Joint &b) { return a.from < b.from; });
   }
 
-  // Returns the place in the other state of a line between two others. In an adapted grid, such a line is at a joint that is
-  // not too near an end, or else in the middle.
+  // Returns the place, in the other state, of a line between two other lines. In an adapted grid, such a line is at a joint that
+  // is not too near an end, or else in the middle.
   double cut(double from, double to, double moved_from, double moved_to) const {
     for (const Joint &joint : joints_)
       if (joint.from > 0.875 * from + 0.125 * to && joint.from < 0.125 * from + 0.875 * to) return joint.to;
@@ -72,7 +72,7 @@ class MovedCuts {
   Vector<GridLine> &to_;
 };
 
-// Returns the lines u of a grid in another state. Only the lines of arcs that were cut at joints move.
+// Returns the lines u of a grid in another state. Lines move only if the grid's move_with_joints is true.
 Vector<GridLine> lines_in(const PatchSet &at, const PatchSet &state, std::size_t patch, const GridLines &lines) {
   Vector<GridLine> made = lines.u;
   if (lines.move_with_joints) {

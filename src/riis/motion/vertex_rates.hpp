@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Derivatives of a surface's vertices with respect to a parameter (docs/theory/gradients.md).
-// In: the patches and the grids of the surface, the patches of two near states. Out: the rate of every vertex.
+// The rates follow from the patches and the grids of the surface, and from the patches of two near states.
 #pragma once
 
 #include <vector>
@@ -21,9 +21,9 @@ struct Direction {
 };
 
 // Computes (after - before) / step for every vertex, in the order of the vertices of a TriangleSet. `at` and `grids` belong to
-// the surface. The direction's two states are put on the same grids. A vertex on a curve keeps its share of the curve's length. A
-// vertex on a chord keeps its place on the chord, and a vertex inside a patch keeps its u and v. The rates are therefore rates of
-// the triangles' corners, not of the smooth valve. Inside a triangle the rate is exactly linear.
+// the surface. The direction's two states are evaluated on the same grids. A vertex on a curve keeps its share of the curve's
+// length. A vertex on a chord keeps its place on the chord, and a vertex inside a patch keeps its u and v. The rates are
+// therefore rates of the triangles' corners, not of the smooth valve. Inside a triangle the rate is exactly linear.
 void make_vertex_rates(const PatchSet &at, const Vector<LevelledGrid> &grids, const Direction &direction, int n_threads,
                        std::vector<double> &rates);
 

@@ -22,8 +22,8 @@ constexpr std::int64_t nodes_per_block = 512;  // the search for nearest edges t
 
 // The nodes of a leaflet lie nearly on a line if their root-mean-square distance from the line is less than a share of their
 // root-mean-square distance from their middle. For other nodes, the condition number of the equations for the moment is at most
-// the inverse square of this share, 1e4. The sums of a small heap of nodes have lost digits, so the distance must also reach a
-// share of the frame's size.
+// the inverse square of this share, 1e4. If the nodes lie close together, their sums have lost digits. The nodes'
+// root-mean-square distance from the line must therefore also be at least a share of the frame's size.
 constexpr double least_width = 0.01, least_width_in_frame = 0.001;
 
 // The edges that hold a leaflet, and a frame for its nodes: the middle of the edges, and a size. Nodes within the radius are at
@@ -38,7 +38,7 @@ struct Hold {
   Vec3 local(Vec3 p) const { return (1 / size) * (p - middle); }
 };
 
-// Finds the edges that hold each leaflet. All edges hold a leaflet without an edge of its own.
+// Finds the edges that hold each leaflet. A leaflet without an edge of its own is held by all edges.
 class Holds {
  public:
   explicit Holds(const Loads &loads) : loads_(loads), own_(loads.edges) {
@@ -108,9 +108,9 @@ void check_width(const Loads &loads, const Hold &hold, double n_nodes, const std
        " from their middle; give a larger loads.radius, or more rows of nodes");
 }
 
-// Returns the field of a leaflet. Of all fields whose sum and moment are the leaflet's, its forces have the least sum of
-// |force|^2 / w. Force and moment about the nodes' middle separate, so only a matrix of 3 x 3 is left, which the axes of the
-// nodes' covariance make diagonal.
+// Returns the field of a leaflet. Among all fields with the leaflet's force and moment, this field has the least sum of |force|^2
+// / w. About the nodes' middle, the equations for force and moment separate. Only a 3 x 3 matrix is left, which is diagonal in
+// the axes of the nodes' covariance.
 Field field_of(const Loads &loads, const Hold &hold, Vec3 force, Vec3 moment, const double *sums) {
   for (std::int64_t k = 0; k < n_load_sums; ++k)
     if (!(std::abs(sums[k]) <= 1e120))
@@ -146,7 +146,7 @@ void add_load_sums(const Loads &loads, const Tissue &tissue, int n_threads, doub
   for (std::int64_t leaflet = 0; leaflet < loads.n_leaflets; ++leaflet) {
     const Hold hold = holds.of(static_cast<std::int32_t>(leaflet));
     const Vector<double> weights = weights_of(holds, hold, tissue, n_threads);
-    // A single thread adds in the order of the nodes, so that the bits do not depend on the number of threads.
+    // A single thread adds the numbers in the order of the nodes, so that the bits do not depend on the number of threads.
     std::array<Sum, n_load_sums> added;
     for (std::int64_t i = 0; i < tissue.nodes.size(); ++i) {
       const double w = view(weights)[i];

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spreads the forces of the leaflets over the nodes of the tissue that holds them (docs/theory/loads.md).
-// In: forces and moments by leaflet, the edges that hold the leaflets, nodes. Out: sums over the nodes, then a force at each
-// node.
+// Spreads the forces of the leaflets over the nodes of the tissue that holds them (docs/theory/loads.md). The first step computes
+// sums over the nodes. The second step computes a force at each node.
 #pragma once
 
 #include <cstdint>

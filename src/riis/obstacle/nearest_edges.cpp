@@ -75,7 +75,8 @@ NearestEdges::Box NearestEdges::box_around(std::int64_t begin, std::int64_t end)
   return {{bounds.lower - margin, bounds.upper + margin}, begin, end, 0};
 }
 
-// Adds the boxes of order_[begin] to order_[end - 1]. A box with more than a few edges is halved by the middles of its edges.
+// Adds the boxes of order_[begin] to order_[end - 1]. A box with more than a few edges is split into two boxes. An edge goes to
+// one of the boxes by the place of its middle.
 void NearestEdges::add(std::int64_t begin, std::int64_t end) {
   const std::int64_t own = view(boxes_).size();
   boxes_.push_back(box_around(begin, end));

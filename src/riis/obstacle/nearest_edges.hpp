@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the caller's edge that is nearest to a point. A tree of boxes skips distant edges. The result is the same as from a
 // loop over all edges.
-// In: edges, points. Out: an edge for each point. If several edges are equally near, the first of them counts.
+// If several edges are equally near to a point, the first of them counts.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +21,16 @@ struct Edges {
   Vec3 middle(std::int64_t i) const { return mix(first(i), second(i), 0.5); }
 };
 
-// Checks the caller's edges, at least one of them, and borrows their arrays. `owner` is the argument that has the edges.
+// Checks the caller's edges, of which there must be at least one, and borrows their arrays. `owner` is the argument that has the
+// edges.
 Edges checked_edges(const char *owner, std::int64_t n, const double *ends, const std::int32_t *leaflet_id);
 
 // Returns the squared distance from a point to an edge. If the nearest point is an end that two edges share, both edges give the
 // same bits.
 double distance_sq(const Edges &edges, std::int64_t edge, Vec3 point);
 
-// To build the trees takes a time of order n log n. A query usually takes a time of order log n. If all edges are equally
-// near, it takes a time of order n.
+// Building the trees takes a time of order n log n. A query usually takes a time of order log n. If all edges are equally near, a
+// query takes a time of order n.
 class NearestEdges {
  public:
   // Borrows the arrays of the edges.

@@ -23,8 +23,8 @@ double coefficient_at(const Resistance &resistance, double distance) {
   return resistance.factor * (1 + cosine_of_pi(distance / eps)) / (2 * eps);
 }
 
-// Returns the derivative of K with respect to the distance from the middle of the band. The sine is taken from the nearer end of
-// the slope. The derivative thus has few roundings up to both ends, where K is flat.
+// Returns the derivative of K with respect to the distance from the middle of the band. K is flat in the middle and at the edge
+// of the band. The sine is computed from the nearer of these two places, so that few digits are lost near both places.
 double slope_at(const Resistance &resistance, double distance) {
   const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;
@@ -32,7 +32,7 @@ double slope_at(const Resistance &resistance, double distance) {
   return -(resistance.factor / (2 * eps)) * (pi / eps) * sine;
 }
 
-// A cut rim ends the band: nodes whose closest point is on the rim lie beyond it. Without a cut rim no node does.
+// With a cut rim, nodes whose closest point is on the rim lie beyond the rim. Without a cut rim, no node lies beyond the rim.
 bool is_beyond_rim(const Resistance &resistance, const ListedNodes &list, std::int64_t i) {
   return resistance.cuts_rim && view(list.fields.rim)[i];
 }
@@ -43,7 +43,7 @@ double distance_from_middle(const Band &band, const ListedNodes &list, std::int6
   const double distance = view(list.nodes.distance)[i];
   if (!band.steps_aside()) return distance;
   const double height = view(list.fields.height)[i];
-  // The two tests of the band are equal up to rounding. An unmarked node never resists.
+  // The two tests of the band agree only up to rounding, and an unmarked node must never resist.
   return band.holds(distance, height) ? band.distance_from_middle(distance, height) : band.half_thickness;
 }
 
@@ -124,7 +124,7 @@ void add_sums(const Vector<Wrench> &sums, double *force, double *moment) {
   }
 }
 
-// Checks n_leaflets against the leaflets of the surface, not against the leaflets of the nodes. All ranks then refuse a wrong
+// Compares n_leaflets with the leaflets of the surface, not with the leaflets of the nodes. All ranks then refuse a wrong
 // n_leaflets, even a rank without a node of the last leaflet.
 void check_leaflets(const Marks &marks, const riis_reaction &to) {
   const std::int32_t last = marks.leaflet_ids.empty() ? -1 : marks.leaflet_ids.back();
@@ -133,7 +133,8 @@ void check_leaflets(const Marks &marks, const riis_reaction &to) {
          "; n_leaflets must be larger");
 }
 
-// Refuses a surface that lacks the closest triangle of a node. An update that kept the ids and leaflets of triangles passes.
+// Refuses a surface that lacks the closest triangle of a node. A surface passes after an update that kept the ids and leaflets of
+// its triangles.
 void check_closest_triangles(const Marks &marks, const TriangleSet &triangles, const TrianglePositions &positions) {
   const NodeList &nodes = marks.within.nodes;
   for (std::int64_t i = 0; i < nodes.size(); ++i) {
@@ -156,8 +157,7 @@ constexpr std::int64_t nodes_per_block = 4096, few_nodes = 16384;
 // The search for nearest edges has smaller limits, because each node takes ten times as long.
 constexpr std::int64_t edge_nodes_per_block = 512, few_edge_nodes = 2048;
 
-// Finds the nearest edge of each node. The node's force is added to this edge. Entries of nodes without resistance mean
-// nothing.
+// Finds the nearest edge of each node, to which the node's force is added. The entries of nodes without resistance are arbitrary.
 Vector<std::int64_t> nearest_edges(const Marks &marks, const Resistance &resistance, const Edges &edges) {
   const NearestEdges search(edges);
   for (const std::int32_t leaflet : marks.leaflet_ids)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the resistive term of the momentum equation and its sums (paper, eq. "RIIS"; docs/theory/marks.md, "Resistance").
-// In: the nodes within the limit, with their fields. Out: the term and its sums, which are added to the caller's arrays.
+// Computes the resistive term of the momentum equation and its sums (paper, eq. "RIIS"; docs/theory/marks.md, "Resistance"). The
+// term at the nodes within the limit, and its sums, are added to the caller's arrays.
 #pragma once
 
 #include <riis/riis.h>
@@ -20,18 +20,18 @@ struct Resistance {
 Resistance checked_resistance(const riis_resistance &resistance, const char *name, const Band &band,
                               double distance_limit);
 // Computes K and K u_surface at the nodes of the list, and stores both in the list. The fields of the nodes are already in the
-// list. `resistance` is null if `data` requests neither array.
+// list. `resistance` is null if `data` requests neither K nor K u_surface.
 void list_resistance(const Resistance *resistance, const WantedData &data, const Threads &n_threads, ListedNodes &list);
 
 // Each of the next five functions fails with RIIS_INVALID_ARGUMENT if the marks lack data that it needs.
 Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks);
 void add_resistance(const Marks &marks, const Resistance &resistance, const riis_resistance_arrays &to);
-// Adds the flow's force on the surface, and its moments. If the reaction's edges or n_leaflets do not fit the surface, it also
-// fails, and adds nothing.
+// Adds the flow's force on the surface, and its moments. Also fails, and adds nothing, if the reaction's edges or n_leaflets do
+// not fit the surface.
 void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow,
                   const riis_reaction &to);
-// Adds the flow's force on each vertex of the triangles that the nodes were marked with. The function fails if the triangles lack
-// the closest triangle of a node.
+// Adds the flow's force on each vertex of the triangles with which the nodes were marked. The function fails if the triangles
+// lack the closest triangle of a node.
 void add_vertex_reaction(const Marks &marks, const TriangleSet &triangles, const Resistance &resistance,
                          const riis_flow_arrays &flow, double *vertex_force);
 // Sums the caller's value over the nodes of the band on each side of the surface. Nodes beyond a rim do not count.

@@ -20,7 +20,7 @@ namespace {
 // Distances by minimisation (paper, 4.1 "Minimization"): Powell's method minimises |S(u,v) - P|^2 on every patch, starting at
 // (0.5, 0.5). Powell's method ends in a local minimum. The result is therefore always the distance to some point of S, but not
 // always to the closest point (docs/theory/paper-distances.md).
-// In: placed patches, the tolerance of the minimisation. Out: the least of all patches' local minima.
+// The result is the least of the local minima of all patches.
 
 class Minimizer final : public PatchDistance {
  public:
@@ -108,8 +108,8 @@ ClosestOnPatches Minimizer::closest(Vec3 p, double limit) const {
   return std::sqrt(best.distance_sq) <= limit ? best : ClosestOnPatches{};
 }
 
-// The patches deviate from the smooth surface by at most this share of the allowed error. The share is small, because more grid
-// lines are cheaper than more samples.
+// The patches deviate from the smooth surface by at most `patch_share` of the allowed error. The share is small, because more
+// grid lines are cheaper than more samples.
 constexpr double patch_share = 0.1;
 
 PlacedPatches make_patches(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the distance of a point to the surface without triangles (paper, 4.1), for comparison.
-// In: a point, a limit. Out: the closest point that the method finds, with its patch, u and v.
+// Measures the distance of a point to the surface without triangles (paper, 4.1), for comparison. For a given point, a method
+// finds its closest point within a limit, with the patch, u and v.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@
 
 namespace riis {
 
-// Turns placed patches into functions S(u,v) that can be evaluated anywhere (paper, 3.3), for sampling and minimisation.
-// In: a valve's curves and patches, the allowed error, the placement. Out: a grid of quads for each image of a patch.
+// Turns placed patches into functions S(u,v) that can be evaluated anywhere (paper, 3.3), for sampling and minimisation. Each
+// image of a patch becomes a grid of quads.
 
 // S(u,v) on a grid with placed points. The placed patch is bilinear in every quad.
 struct PlacedPatch {
@@ -59,13 +59,15 @@ void for_each_derivatives(const QuadGrid &grid, const Visit &visit) {
     }
 }
 
-// The largest |S_u| and |S_v|. No line v = const is longer than the first, and no line u = const is longer than the second.
+// The largest |S_u| and |S_v|. A line v = const is at most as long as the largest |S_u|. A line u = const is at most as long as
+// the largest |S_v|.
 struct Speeds {
   double u, v;
 };
 Speeds largest_speeds(const QuadGrid &grid);
 
-// Returns the box of the grid's points. The box also contains every S(u,v), because each is a weighted mean of these points.
+// Returns the box of the grid's points. The box also contains every S(u,v), because each S(u,v) is a weighted mean of these
+// points.
 Bounds bounds_of(const QuadGrid &grid);
 
 struct ClosestOnPatches {
@@ -79,9 +81,9 @@ class PatchDistance {
  public:
   virtual ~PatchDistance() = default;
 
-  // Returns the closest point that the method finds, if its distance from p is at most limit (>= 0, may be infinite).
-  // Otherwise patch is -1. A result within the limit has the same bits for any limit. Several threads may call this function at
-  // once.
+  // Returns the closest point that the method finds, if its distance from p is at most `limit`. Otherwise the patch is -1.
+  // `limit` is at least 0 and may be infinite. A result within the limit has the same bits for any limit. Several threads may
+  // call this function at once.
   virtual ClosestOnPatches closest(Vec3 p, double limit) const = 0;
 
   // Returns false only if the surface certainly has no point within the limit of p.
@@ -113,12 +115,12 @@ std::unique_ptr<const PatchDistance> make_distance(const PatchSet &set, const Di
 
 // Distances by sampling (paper, 4.1 "Sampling"): the method finds the nearest of evenly spaced points S(u,v). The number of
 // samples of a patch depends on its width and height (docs/theory/paper-distances.md).
-// In: placed patches, the allowed error of a distance. Out: nearest samples.
+// A SampleSet makes the samples for an allowed error, and finds the nearest sample.
 
 // The most samples that the library accepts. Each sample takes 24 bytes, and the boxes of the tree take a little more.
 inline constexpr std::int64_t max_samples = 16'777'216;
 
-// Numbers of steps: samples stand at u = 0, 1/s_u, ..., 1 and at v = 0, 1/s_v, ..., 1, with s_u = `u` and s_v = `v`.
+// Numbers of steps: samples lie at u = 0, 1/s_u, ..., 1 and at v = 0, 1/s_v, ..., 1, with s_u = `u` and s_v = `v`.
 struct SampleCounts {
   std::int64_t u, v;
   double n() const { return static_cast<double>(u + 1) * static_cast<double>(v + 1); }

@@ -3,7 +3,7 @@
 // function of several variables without calculating derivatives", The Computer Journal 7 (1964) 155-162, with that paper's
 // modified rule for the direction to drop. Lines are searched by Brent's method: R. P. Brent, "Algorithms for Minimization
 // without Derivatives" (1973), chapter 5.
-// In: a function, a start, the tolerance. Out: a local minimum whose value is at most the start's.
+// The result is a local minimum whose value is at most the value at the start.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,8 @@ struct LocalMinimum {
   double value;
 };
 
-// The steps t for which from + t * along lies in [0,1]^2. For any `from` in the square they are an interval that contains 0.
+// The steps t for which from + t * along lies in [0,1]^2. For any `from` in the square, these steps form an interval that
+// contains 0.
 struct Segment {
   double low, high;
 };
@@ -42,9 +43,9 @@ inline Parameters step(Parameters from, double t, Parameters along) {
   return {std::clamp(from.u + t * along.u, 0.0, 1.0), std::clamp(from.v + t * along.v, 0.0, 1.0)};
 }
 
-// Finds a minimum of f(t) on [low, high] by the function localmin of Brent's book. The error of t is about 3 tolerance.
-// Returns the least of all computed values, so f may have several minima. Uses parabolas through the last three points, and
-// golden sections if a parabola does not help.
+// Finds a minimum of f(t) on [low, high] by the function localmin of Brent's book. The error of t is about three times the
+// tolerance. Returns the least of all computed values, so f may have several minima. Uses parabolas through the last three
+// points, and golden sections if a parabola does not help.
 template <class Function>
 std::array<double, 2> minimum_on_segment(const Function &f, double low, double high, double tolerance) {
   constexpr double golden = 0.3819660112501051;  // (3 - sqrt 5) / 2

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs work in an arena of the pool, with TBB's limit of threads adjusted for it. Embree's scenes and concurrent walks run in
-// such an arena. TBB thus gives these tasks the caller's n_threads threads instead of all threads of the process.
+// Runs work in an arena of the pool, with TBB's limit of threads adjusted for this work. Embree's scenes and concurrent walks run
+// in such an arena. TBB thus runs these tasks on the caller's n_threads threads, and not on all threads of the process.
 #pragma once
 
 #if !defined(RIIS_STD_THREADS)
@@ -16,9 +16,9 @@
 
 namespace riis {
 
-// An arena is kept and used again. The reason is that TBB frees an arena only after the workers that it called have come and
-// found no work. On a busy machine the workers come too late for a short walk. New arenas for each walk would therefore make the
-// process grow by some kilobytes in each walk (TBB 2021.8).
+// An arena is kept and used again, because TBB frees an arena only after the workers that it called have come and found no work.
+// On a busy machine the workers come too late for a short walk. New arenas for each walk would therefore make the process grow by
+// some kilobytes in each walk (TBB 2021.8).
 struct PooledArena {
   explicit PooledArena(int n_slots) : n_threads(n_slots), arena(n_slots, 1) { arena.initialize(); }
 
@@ -28,17 +28,18 @@ struct PooledArena {
 };
 
 // Returns an arena of n_threads threads, which the caller must give back. The arena comes from the pool, or is new if no idle
-// arena has this number of threads. There are therefore never more arenas of one size than were borrowed at once.
+// arena has this number of threads. The number of arenas of one size is therefore never larger than the number that was borrowed
+// at once.
 PooledArena *borrow_arena(int n_threads);
 void give_back(PooledArena *arena) noexcept;
 
 // Returns the number of all arenas, idle and borrowed.
 std::size_t n_arenas() noexcept;
 
-// Borrows an arena of up to n_threads threads, with the calling thread, during the life of this object. TBB has a limit on the
-// threads of the process. During its life, this object raises a limit below n_threads that the caller did not set. The arena
-// stays within the limit, because TBB would print a message on stderr about a larger arena. An arena of one thread uses only the
-// calling thread.
+// Borrows an arena of up to n_threads threads, including the calling thread, during the life of this object. TBB has a limit on
+// the threads of the process. If the limit is below n_threads and the caller did not set it, this object raises the limit during
+// its life. The arena stays within the limit, because TBB would print a message on stderr about a larger arena. An arena of one
+// thread uses only the calling thread.
 class Arena {
  public:
   explicit Arena(int n_threads) {

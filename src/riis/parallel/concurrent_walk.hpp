@@ -18,9 +18,9 @@
 #include "parallel/threads.hpp"
 
 // Implements concurrent_walk with standard threads for the thread sanitizer, which does not understand TBB. The version with
-// standard threads guarantees no more order than TBB does. A range runs after the call of add that passed it on, and the walk
-// ends after all its ranges. Relaxed atomics do all other counting, because they order nothing. A lock around a common queue
-// would put the bodies in order, and thus hide their races.
+// standard threads guarantees no more order than TBB does. A range runs after the call of add() that added the range, and the
+// walk ends after all its ranges. Relaxed atomics do all other counting, because they impose no order. A lock around a common
+// queue would put the bodies in order, and thus hide their races.
 namespace riis {
 
 // Slots for any number of ranges. A slot keeps its address.

@@ -152,18 +152,18 @@ int parallel_for(std::int64_t n_blocks, int n_threads, LoopBody body) {
   if (n_blocks <= 1 || n_threads == 1) return run_alone(n_blocks, body);
   if (omp_in_parallel() || omp_get_proc_bind() != omp_proc_bind_false) return openmp_for(n_blocks, n_threads, body);
 #if defined(RIIS_STD_THREADS)
-  // The thread sanitizer then sees the loops of a time step on a team.
+  // Under the thread sanitizer, the loops of a time step always run on a team, so that the sanitizer sees them there.
   return team_for(n_blocks, n_threads, body, loop_choice);
 #else
   const std::int64_t begin = nanoseconds();
-  // More threads than processors wait for each other in every loop of OpenMP.
+  // If there are more threads than processors, the threads wait for each other in every loop of OpenMP.
   if (n_threads > processors_of_machine() || loop_choice.takes_team(begin))
     return team_for(n_blocks, n_threads, body, loop_choice);
   TimesOfCaller of_caller{begin, begin};
   const int n_ran = openmp_for(n_blocks, n_threads, body, &of_caller);
   const std::int64_t end = nanoseconds();
-  // At the beginning, GCC's run-time also waits until all threads have left the previous loop. The first loop starts these
-  // threads.
+  // At the beginning of a loop, GCC's run-time also waits until all threads have left the previous loop. In a process's first
+  // loop the run-time starts the threads, which does not count as waiting.
   const std::int64_t waited = loop_choice.has_recorded() ? of_caller.begins - begin : 0;
   loop_choice.record(waited + (end - of_caller.has_worked), end);
   return n_ran;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loops over a fixed number of blocks. The exhaustive search runs on OpenMP's threads. Loops of a time step also run on
-// OpenMP's threads. After a long wait for one of them, they run on a team. Only parallel_for.cpp uses OpenMP.
+// OpenMP's threads. After a long wait for one of OpenMP's threads, the loops of a time step run on a team. Only parallel_for.cpp
+// uses OpenMP.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@ namespace riis {
 // than this. If OpenMP binds threads to places, the mask is the process's mask at its start.
 int default_thread_count() noexcept;
 
-// Returns the number of the machine's processors, also of processors outside the calling thread's affinity mask.
+// Returns the number of the machine's processors, including processors outside the calling thread's affinity mask.
 int processors_of_machine() noexcept;
 
 // By default a call uses one more thread for each of these amounts of work, which take half a millisecond or more. On a quiet
@@ -30,8 +31,8 @@ inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::in
                        : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
 }
 
-// Refers to a body(block, thread) of any type, which must live as long as the loop. Loops are therefore compiled once, not once
-// for each body, and a block costs one call through a pointer.
+// Refers to a function object body(block, thread) of any type. The object must live as long as the loop. Loops are therefore
+// compiled once, not once for each body, and a block costs one call through a pointer.
 class LoopBody {
  public:
   template <class Body>
@@ -57,14 +58,14 @@ struct TimesOfCaller {
 // Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads of OpenMP, and returns how many
 // threads ran. If a body throws, the exception that a single thread would meet is rethrown after the loop. The caller's OpenMP
 // settings do not change. In a caller's parallel region, the loop uses as many threads as nested parallelism allows. If OpenMP
-// runs the loop, `of_caller` gets the times of the calling thread. It may be null.
+// runs the loop, `of_caller` gets the times of the calling thread. This pointer may be null.
 int openmp_for(std::int64_t n_blocks, int n_threads, LoopBody body, TimesOfCaller *of_caller = nullptr);
 
-// Does the same on a team (team.hpp), without waiting for a thread that another process delays. The calling thread first works
-// alone for as long as `choice` says. If the loop ends within that time, the result is still n_threads.
+// Runs the same loop on a team (team.hpp), without waiting for a thread that another process delays. The calling thread first
+// works alone for as long as `choice` says. If the loop ends within that time, the result is still n_threads.
 int team_for(std::int64_t n_blocks, int n_threads, LoopBody body, LoopChoice &choice);
 
-// Does the same on the threads that loop_choice chooses. The threads are always OpenMP's in two cases: inside a caller's
+// Runs the same loop on the threads that loop_choice chooses. OpenMP's threads are always chosen in two cases: inside a caller's
 // parallel region, and if the user binds OpenMP's threads to places.
 int parallel_for(std::int64_t n_blocks, int n_threads, LoopBody body);
 
@@ -77,7 +78,8 @@ auto by_ranges(std::int64_t n, std::int64_t per_block, const Body &body) {
   };
 }
 
-// Do the same for [0, n) in ranges of per_block, with body(range, thread). The last range may be shorter.
+// The next two functions run these loops over [0, n) in ranges of per_block numbers, with body(range, thread). The last range may
+// be shorter.
 template <class Body>
 int parallel_for_ranges(std::int64_t n, std::int64_t per_block, int n_threads, const Body &body) {
   return parallel_for((n + per_block - 1) / per_block, n_threads, by_ranges(n, per_block, body));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A semaphore for the threads of this process. Darwin has a call for POSIX's unnamed semaphores, but it fails with ENOSYS.
-// Darwin's library for dispatching has semaphores of its own.
+// A semaphore for the threads of this process. Darwin has a call for POSIX's unnamed semaphores, but this call fails with ENOSYS.
+// The semaphores of Darwin's dispatch library are used instead.
 #pragma once
 
 #if defined(__APPLE__)
@@ -11,7 +11,7 @@
 
 namespace riis {
 
-// Is never destroyed, because threads may wait on it until the process ends.
+// A semaphore is never destroyed, because threads may wait on it until the process ends.
 class Semaphore {
  public:
   // Returns whether the system made the semaphore. The other functions need a semaphore that was made.

@@ -23,8 +23,9 @@ namespace riis {
 namespace {
 
 // A thread that waits stays awake for a while, because waking it would take some microseconds. At first the worker keeps its
-// processor, and thus wakes at once even if a caller's thread spins there. Later the worker offers the processor to other
-// threads. Then it sleeps. The history of accesses that the thread sanitizer keeps would fill up if threads waited awake.
+// processor, so that it can begin at once even if a caller's thread spins there. Later the worker offers the processor to other
+// threads, and finally it sleeps. Under the thread sanitizer threads do not wait awake, because its history of accesses would
+// fill up.
 using std::chrono::microseconds;
 #if defined(RIIS_STD_THREADS)
 constexpr microseconds longest_awake{0}, longest_alone{0};
@@ -71,13 +72,13 @@ struct State {
 // A calling thread with its workers. A team serves one loop at a time. Teams and their workers exist until the process ends.
 class Team {
  public:
-  // Starts workers until the team has n_workers of them. Returns the number of workers, which is less if the system refuses a
+  // Starts workers until the team has n_workers workers. Returns the number of workers, which is less if the system refuses a
   // thread. A team without semaphores has no workers.
   int grow_to(int n_workers) {
     if (!may_start_.is_made() || !may_end_.is_made()) return 0;
     if (n_workers_ < n_workers) {
       n_processors_ = default_thread_count();
-      // A caller's handlers of signals run on the caller's threads. Signals of errors are not blocked.
+      // Workers block all signals except signals of errors, so that the caller's signal handlers run on the caller's threads.
       sigset_t blocked, before;
       sigfillset(&blocked);
       for (const int error : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) sigdelset(&blocked, error);
@@ -99,7 +100,7 @@ class Team {
     const State closed{state_.load(std::memory_order_relaxed)};
     const auto n = static_cast<std::uint64_t>(n_places);
     state_.store(closed.word + State::one_loop + n * State::one_place);
-    // Only workers that sleep are woken, because the others find the loop by themselves.
+    // Only sleeping workers are woken, because the other workers find the loop by themselves.
     const int n_awake = n_workers_ - n_asleep_.load();
     for (int n_to_wake = take_asleep(n_places - n_awake); n_to_wake > 0; --n_to_wake) may_start_.post();
     work(context, 0);
@@ -115,7 +116,7 @@ class Team {
   }
 
   [[noreturn]] void work_for_ever() {
-    // The first loop may have begun before this thread. The number of a loop is never 0.
+    // This thread may start after the first loop has begun. `last_loop` is 0 at first, because no loop has the number 0.
     for (std::uint32_t last_loop = 0;;) {
       State state{state_.load()};
       if (!state.has_place_after(last_loop)) {
@@ -164,15 +165,15 @@ class Team {
   void *context_ = nullptr;
   std::atomic<bool> waits_awake_{false}, caller_sleeps_{false};
   std::atomic<int> n_asleep_{0};  // the workers that sleep and that no post will wake
-  // Threads sleep on semaphores. A condition variable would need a mutex. If the system interrupts a thread that holds the mutex,
-  // the calling thread would also wait.
+  // Threads sleep on semaphores, because a condition variable would need a mutex. If the system interrupted a thread that holds
+  // the mutex, the calling thread would also wait.
   Semaphore may_start_, may_end_;
   int n_workers_ = 0, n_processors_ = 1;
 };
 
 // The idle teams. The end of the process does not destroy idle teams, because their workers still wait. The number of teams is
-// the largest number of the caller's threads that were inside loops at once. The first few teams are static, so they take no
-// memory of a call.
+// the largest number of the caller's threads that were inside loops at once. The first few teams are static, so a call needs no
+// memory for them.
 constexpr std::size_t n_first_teams = 16;
 alignas(Team) unsigned char first_teams[n_first_teams][sizeof(Team)];
 std::mutex teams_mutex;

@@ -12,17 +12,17 @@ namespace riis {
 
 // Calls work(context, 0) on the calling thread. Calls work(context, thread), 0 < thread < n_threads, on each further thread that
 // comes before the calling thread's call has returned. Returns after all these calls have returned. Returns the number of
-// threads that took part. This number is less than n_threads only if the system refuses a thread, a semaphore or memory. No call
-// may throw.
+// threads that took part. The number of threads is less than n_threads only if the system refuses a thread, a semaphore or
+// memory. No call may throw.
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
 // Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they also run the
-// caller's own loops. A loop, however, waits for all threads, however long another process holds a processor. After such a wait,
-// teams run the loops for some time. If OpenMP then runs only a few loops until the next such wait, the machine is busy, and the
-// teams' time doubles. A team also waits if another process interrupts its thread inside a block. The calling thread therefore
-// begins a team's loop alone. The calling thread works alone for the time that recent loops lost by calling their teams. Even if
-// the team then loses the same time again, the loop takes at most twice as long as with the better choice. All times are in
-// nanoseconds.
+// caller's own loops. But a loop of OpenMP waits for all its threads, even if another process holds a processor for long. After a
+// long wait, teams run the loops for some time. If OpenMP then runs only a few loops until the next long wait, the machine is
+// busy, and the teams' time doubles. A team also waits if another process interrupts its thread inside a block. The calling
+// thread therefore begins a team's loop alone. The calling thread works alone for the time that recent loops lost by calling
+// their teams. If the team loses the same time again, the loop takes at most twice as long as with the better choice. All times
+// are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
@@ -34,7 +34,7 @@ class LoopChoice {
   bool has_recorded() const noexcept {
     return pause_.load(std::memory_order_relaxed) > 0 || n_served_.load(std::memory_order_relaxed) > 0;
   }
-  // Records that a loop of OpenMP ended now. Also records how long the calling thread waited for the others at the loop's
+  // Records that a loop of OpenMP ended now. Also records how long the calling thread waited for the other threads at the loop's
   // beginning and end. On a quiet machine the calling thread waits for one block at most, which takes less than a millisecond.
   void record(std::int64_t waited, std::int64_t now) noexcept {
     const int n_served = n_served_.load(std::memory_order_relaxed);
@@ -49,8 +49,8 @@ class LoopChoice {
     until_.store(now + pause, std::memory_order_relaxed);
   }
 
-  // Returns how long the calling thread works alone in a loop that begins now. Without new losses this time becomes shorter, so
-  // teams are tried again.
+  // Returns how long the calling thread works alone in a loop that begins now. The time becomes shorter while no losses are
+  // recorded, so that teams are tried again.
   std::int64_t time_alone(std::int64_t now) const noexcept {
     const double mean = mean_loss(now);
     return mean < least_loss ? 0 : static_cast<std::int64_t>(mean);
@@ -68,7 +68,7 @@ class LoopChoice {
     const double mean = mean_loss_.load(std::memory_order_relaxed);
     if (mean < 1) return 0;
     const double n_halves = static_cast<double>(now - recorded_.load(std::memory_order_relaxed)) / half_life;
-    // A straight line between whole numbers of half lives.
+    // Between whole numbers of half lives, the loss falls along a straight line.
     const double whole = std::clamp(std::floor(n_halves), 0.0, 64.0), rest = std::clamp(n_halves - whole, 0.0, 1.0);
     return std::ldexp(mean * (1 - 0.5 * rest), -static_cast<int>(whole));
   }
@@ -78,8 +78,8 @@ class LoopChoice {
   std::atomic<double> mean_loss_{0};
 };
 
-// The process's choice between OpenMP and a team. The loops of several threads of the caller may record at once. Each of the
-// values that other threads write is good enough.
+// The process's choice between OpenMP and a team. If several threads record loops at once, the record of any of the threads is
+// good enough.
 extern LoopChoice loop_choice;
 
 }  // namespace riis

@@ -37,7 +37,8 @@ double largest_difference(double triangle_error, const PatchDistance &distance) 
   return (triangle_error + distance.patches().largest_error()) * (1 + 1e-6);
 }
 
-// An offset needs normals that agree. The check makes the normals, which every marking with an offset needs.
+// With an offset, the normals of neighbouring triangles must agree. The check makes the normals, which every marking with an
+// offset needs.
 void check_normals_agree(const Surface &surface) {
   if (!surface.band().steps_aside()) return;
   const std::array<std::int64_t, 2> triangles = surface.pseudonormals().disagreeing();
@@ -126,16 +127,16 @@ void add_direction(const ValveDirection &direction, int n_threads, Surface &surf
 
 namespace {
 
-// The lines are chosen for this many openings, evenly spaced from 0 to 1.
+// The lines are chosen for `n_openings` openings, evenly spaced from 0 to 1.
 constexpr int n_openings = 33;
-// After that, the chosen lines are tested at n_between openings between every two neighbouring openings. If the lines are too
-// coarse at some of these openings, all lines are chosen again, with these openings included. The test is repeated at most
-// n_trials times.
+// The chosen lines are then tested at `n_between` further openings between every two neighbouring openings. If the lines are too
+// coarse at some of these openings, all lines are chosen again, also for the openings where they were too coarse. The test is
+// repeated at most `n_trials` times.
 constexpr int n_between = 7, n_trials = 4;
 // A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
 constexpr std::size_t max_patches = 10'000;
-// After the triangles were planned, a warp may change, and the error with it. The plan of a warped valve therefore uses
-// only this share of the allowed error.
+// A warp may change after the triangles were planned, and the error then changes too. The plan of a warped valve therefore uses
+// only `warped_share` of the allowed error.
 constexpr double warped_share = 0.6;
 
 PatchSet patches_at(Valve &valve, double opening) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole pipeline. The pipeline turns a valve's parameters or the caller's arrays into a surface that answers queries for
 // closest points.
-// In: a valve or arrays, the placement, the accuracy. Out: the surface, and the seconds of its making.
+// The pipeline also measures how many seconds this takes.
 #pragma once
 
 #include <riis/riis.h>
@@ -16,15 +16,15 @@
 
 namespace riis {
 
-// A triangulation that stays the same while a valve opens and closes (docs/theory/triangles.md, "Fixed triangulation").
-// In: a valve, the allowed error. Out: a plan of the triangles that serves all openings.
+// A triangulation that stays the same while a valve opens and closes (docs/theory/triangles.md, "Fixed triangulation"). The plan
+// of the triangles serves all openings of the valve.
 class FixedTriangulation {
  public:
-  // Makes the plan. max_error bounds the distance between triangles and the smooth surface, before placement. Failures are the
-  // failures of the pipeline's stages. The message names the opening.
+  // Makes the plan. max_error bounds the distance between triangles and the smooth surface, before placement. Fails as the stages
+  // of the pipeline do, with a message that names the opening.
   FixedTriangulation(const Valve &valve, double max_error, int n_threads);
 
-  // Fails with RIIS_INVALID_PARAMETER if the valve differs from the plan's valve in anything but its opening and the values of
+  // Fails with RIIS_INVALID_PARAMETER if the valve differs from the plan's valve in anything except its opening and the values of
   // its warp.
   void check(const Valve &valve) const { valve_.check_same_but_for_opening(valve); }
   const TriangulationPlan &plan() const { return plan_; }
@@ -34,7 +34,7 @@ class FixedTriangulation {
   TriangulationPlan plan_;
 };
 
-// The values that every surface is made with. Lengths are in mesh units.
+// The values with which every surface is made. Lengths are in mesh units.
 struct SurfaceRequest {
   Band band;
   Placement placement;
@@ -58,7 +58,7 @@ struct EarlierValve {
   const PatchSet *patches_before = nullptr;  // the patches of the earlier state, if they are known
 };
 
-// A direction in which a valve changes, by two near states (motion/vertex_rates.hpp).
+// A direction in which a valve changes, given by two near states (motion/vertex_rates.hpp).
 struct ValveDirection {
   const Valve &after, &before;
   Placement placement_after, placement_before;
@@ -72,7 +72,7 @@ struct SurfaceSeconds {
 // Both functions named make_surface replace the content of `surface` and reuse its memory. After a failure, `surface` can only be
 // made again. The first function fails as the stages of the pipeline do. The first function also fails with
 // RIIS_INVALID_PARAMETER if the valve has no area or if the valves of the two states have different builds. Without an earlier
-// state the vertices have no velocity. `fixed` is null unless accuracy.is_fixed. With an offset, both functions fail with
+// state the vertices have no velocity. `fixed` is null if accuracy.is_fixed is false. With an offset, both functions fail with
 // RIIS_INVALID_SURFACE if two triangles run along a shared edge in the same direction.
 SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const SurfaceRequest &request,
                             const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface);

@@ -12,7 +12,7 @@
 namespace riis {
 namespace {
 
-// Returns whether clusters are faster. For a limit that leaves out most nodes, clusters pay only from the second marking of a
+// Returns whether clusters are faster. For a limit that leaves out most nodes, clusters pay off only from the second marking of a
 // mesh on.
 bool do_clusters_pay_off(const SearchRequest &request, bool is_first) {
   if (request.surface.other_distance()) return false;
@@ -40,7 +40,7 @@ std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   return asked_for;
 }
 
-// A search that ran, and its report.
+// The search that ran, and its report.
 struct SearchRun {
   std::int32_t search;
   SearchReport report;
@@ -57,7 +57,7 @@ SearchRun run_clusters(const SearchRequest &request, Marks &marks) {
   return {RIIS_SEARCH_EXHAUSTIVE, search_exhaustively(request, marks.found)};
 }
 
-// Returns the nodes of a grid that may be within the limit. The margin is several times the rounding.
+// Returns the nodes of a grid that may be within the limit. The box has a margin of several times the rounding.
 GridBox box_near(const SearchRequest &request, const Grid &grid) {
   const TriangleScene &scene = request.surface.scene();
   Bounds bounds = scene.bounds();
@@ -100,8 +100,8 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   }
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
-      // A moving valve is near its last position, so the walk starts at the nodes found last. The nodes found last may be nodes
-      // of another mesh with as many nodes. A wrong start does no harm.
+      // A moving valve is near its last position, so the walk starts at the nodes that were found last. These nodes may belong to
+      // another mesh with as many nodes, but a wrong start does no harm.
       const bool fits = marks.stats.n_nodes == request.mesh.nodes().n;
       return {search, search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch,
                                        marks.found)};
@@ -129,7 +129,7 @@ WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked
   return data;
 }
 
-// Copies the nodes in the band from a list with heights, with their fields. The two lists may be the same list.
+// From a list with heights, copies the nodes in the band and their fields. The two lists may be the same list.
 void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &from, ListedNodes &to) {
   const std::int64_t n_from = from.nodes.size();
   const auto is_marked = [&](std::int64_t i) {

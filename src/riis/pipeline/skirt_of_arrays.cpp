@@ -18,9 +18,9 @@
 namespace riis {
 namespace {
 
-// A line of open edges is the attachment if it encloses at least this share of the leaflets' outline.
+// A line of open edges is the attachment if it encloses at least `least_share` of the area of the leaflets' outline.
 constexpr double least_share = 0.8;
-// If a second line encloses this share of the largest area, either line may be the attachment.
+// If a second line encloses at least `ambiguous_share` of the largest area, either line may be the attachment.
 constexpr double ambiguous_share = 0.99;
 constexpr const char *cure = ": name the attached vertices by arrays.attached";
 
@@ -73,8 +73,8 @@ std::vector<OpenEdge> chosen_edges(const TriangleSet &set) {
   return best;
 }
 
-// Returns the open edges between attached vertices. Each attached vertex must have such an edge, because a vertex elsewhere was
-// named by mistake.
+// Returns the open edges between attached vertices. Each attached vertex must have such an edge, because a vertex without such an
+// edge was named by mistake.
 std::vector<OpenEdge> named_edges(const TriangleSet &set, const UserFaces &faces) {
   std::int64_t n_places = 0;
   const auto place = distinct_positions(set, n_places);
@@ -150,7 +150,8 @@ class SkirtLine {
       const Moving a = vertex(edge.from) - centre_, b = vertex(edge.to) - centre_;
       area = area + MovingNumber{0.5, 0} * cross(a, b);
     }
-    // As for valves from patches, the area is compared with that of a circle of this length.
+    // The area is compared with the area of a circle whose circumference is the length of the attachment, as for valves from
+    // patches.
     const MovingNumber size = length_of(area);
     if (!(size.now > 1e-3 * whole.now * whole.now)) return;
     direction_ = area / size;

@@ -15,8 +15,8 @@
 namespace riis {
 namespace {
 
-// Above this number of new triangles, the memory of the old surface is freed, because keeping so much memory would cost more than
-// a new allocation. A triangle takes about 300 bytes.
+// If there are more than `max_triangles_kept` new triangles, the memory of the old surface is freed, because keeping so much
+// memory would cost more than a new allocation. A triangle takes about 300 bytes.
 constexpr std::int64_t max_triangles_kept = 1'000'000;
 
 }  // namespace
@@ -111,10 +111,10 @@ void UpdatableSurface::add_direction(const ValveDirection &direction, std::int32
 
 namespace {
 
-// A pair counts if its depth is at least this many half thicknesses, the default of riis_find_crossings.
+// A pair counts if its depth is at least `least_depth` half thicknesses, which is the default of riis_find_crossings.
 constexpr double least_depth = 1e-6;
 
-// Logs a warning if leaflets cross deeper than touching leaflets can. Returns whether it did.
+// Logs a warning if leaflets cross deeper than touching leaflets can. Returns whether it has logged a warning.
 bool say(const Valve &valve, const Surface &surface, int n_threads) {
   const TriangleSet &set = surface.triangles();
   const Crossings pairs =
@@ -166,7 +166,7 @@ void CrossingWatch::look(const Valve &valve, const Surface &surface, int n_threa
   try {
     shape.is_said = say(valve, surface, n_threads);
   } catch (...) {
-    // The search ran out of memory. The lack of memory is no failure, because the caller did not request the search and the
+    // The search ran out of memory. A lack of memory is no failure here, because the caller did not request the search and the
     // surface is good.
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface that can be updated, with the data that the next update continues from or reuses.
-// In: a valve, the caller's arrays or keyframes. Out: the surface, and the time of its last update in seconds.
+// A surface that can be updated, with the data that the next update needs or reuses. The surface comes from a valve, the caller's
+// arrays or keyframes. The object records how many seconds its last update took.
 #pragma once
 
 #include <riis/riis.h>
@@ -19,12 +19,11 @@
 namespace riis {
 
 // Logs a warning if leaflets go through each other, once for each shape of the valve.
-// In: the valve and its new surface. Out: a log message or none.
 class CrossingWatch {
  public:
-  // In each range of the opening, it examines the first surface of each shape, until it has warned about the shape. Without a log
-  // function the search does nothing and allocates nothing. The search never fails, because the surface itself is good. Without
-  // memory for the search there is no warning.
+  // In each range of the opening, this function examines the first surface of each shape, until it has warned about the shape.
+  // Without a log function the search does nothing and allocates nothing. The search reports no failure, because the surface
+  // itself is good. If the search lacks memory, there is no warning.
   void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
 
  private:
@@ -35,7 +34,7 @@ class CrossingWatch {
   };
   Shape &remembered(std::uint64_t digest);
 
-  // The number of shapes that are remembered. A caller that alternates between at most this number of shapes gets one warning for
+  // The number of shapes that are remembered. A caller that alternates between at most `n_remembered` shapes gets one warning for
   // each shape.
   static constexpr std::size_t n_remembered = 8;
 
@@ -45,7 +44,7 @@ class CrossingWatch {
 
 class UpdatableSurface {
  public:
-  // Returns the surface of the last successful update. There must have been one.
+  // Returns the surface of the last successful update. At least one update must have succeeded.
   const Surface &surface() const { return *surface_; }
   const SurfaceSeconds &seconds() const { return seconds_; }
 
@@ -54,7 +53,7 @@ class UpdatableSurface {
   // chooses the fixed triangulation. An update without this option ends the fixed triangulation.
   void update_from_valve(const Valve &valve, const EarlierValve *earlier, const SurfaceRequest &request,
                          const ValveAccuracy &accuracy);
-  // Updates the surface from arrays. If the arrays contain no faces, their vertices are for the faces of the last arrays.
+  // Updates the surface from arrays. If the arrays contain no faces, their vertices belong to the faces of the last arrays.
   void update_from_arrays(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request);
   // Takes the vertices at a time and the mean velocities since dt before that time (Keyframes::at).
   void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,

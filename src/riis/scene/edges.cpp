@@ -264,7 +264,7 @@ std::vector<OpenEdge> longest_boundary(const TriangleSet &set) {
 namespace {
 
 // Finds the vertices on a side of a patch, in their order along the side. Two vertices of a subdivided quad may lie at the same
-// place. Of such vertices, only the first is returned.
+// place. Only the first of such vertices is returned.
 Vector<std::int64_t> vertices_on(const TriangleSet &set, std::int64_t begin, std::int64_t end, PatchRim side) {
   const std::int64_t of_along = side == rim_v0 || side == rim_v1 ? 0 : 1;
   const auto along = [&](std::int64_t id) { return view(set.uv)[2 * id + of_along]; };
@@ -355,7 +355,7 @@ Attachment attachment_of(const TriangleSet &set) {
 
 namespace {
 
-// Returns the open edges of each leaflet that are not on the outline of the orifice. Edges between two leaflets are open.
+// Returns the open edges of each leaflet that are not on the outline of the orifice. Edges between two leaflets count as open.
 std::vector<EdgePart> free_edges_of_arrays(const TriangleSet &given) {
   const std::optional<TriangleSet> leaflets = given.skirt < 0 ? std::nullopt : std::optional(without_skirt(given));
   const TriangleSet &set = leaflets ? *leaflets : given;

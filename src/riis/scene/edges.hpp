@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The edges of a surface: the open boundary of triangles, the free edges of leaflets, and the attachment, where tissue or a stent
 // holds a leaflet.
-// In: triangles, whose vertices may be repeated. Out: open edges, vertices along the sides of patches, and the leaflets.
+// The triangles may repeat vertices.
 #pragma once
 
 #include <riis/riis.h>
@@ -13,7 +13,7 @@
 
 namespace riis {
 
-// An open edge, in its direction round its triangle.
+// An open edge, with the direction that it has around its triangle.
 struct OpenEdge {
   std::int64_t from, to;  // two vertices; each stands for all vertices with the same coordinates
   std::int64_t triangle;  // the position of its triangle in the set
@@ -25,9 +25,9 @@ std::vector<OpenEdge> open_edges(const TriangleSet &set, bool by_leaflet);
 
 // Returns the closed lines of open edges, each in order. If several lines meet in one vertex, each line continues along triangles
 // that it has not met before. The attachments of cusps that meet at commissures thus make one line, and their free edges make
-// another.
+// another line.
 std::vector<std::vector<OpenEdge>> closed_boundaries(const TriangleSet &set);
-// Returns the edges of the longest closed line of open edges, or nothing if there is none.
+// Returns the edges of the longest closed line of open edges, or nothing if there is no closed line.
 std::vector<OpenEdge> longest_boundary(const TriangleSet &set);
 
 // One side of one patch. Its length is above 0.

@@ -82,7 +82,7 @@ UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std
 
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners) {
   const auto &[a, b, c] = corners;
-  // Scales the edges first, so that neither small nor large triangles leave the range of doubles.
+  // Scales the edges first, so that numbers of small and large triangles stay within the range of doubles.
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const double longest = std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
   const Vec3 n = cross((1.0 / longest) * (b - a), (1.0 / longest) * (c - a));
@@ -251,7 +251,7 @@ Pseudonormals::Rates Pseudonormals::rates_of(const TriangleSet &set, const doubl
   Rates made;
   resize(made.rim_edge, 3 * n);
   resize(made.corner, view(corner_).size());
-  // The edges of all triangles with the ends of an edge of the rim, in the order of their ends.
+  // Edges of triangles that have the same two ends as some edge of the rim, ordered by their ends.
   struct Edge {
     Ends ends;
     std::int64_t slot;

@@ -3,7 +3,7 @@
 // point lies on an edge or a vertex (J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted
 // pseudonormal", IEEE TVCG 11(3), 2005). On an open surface, the side refers to the nearest piece of the surface. The same edges
 // and vertices also give the rim of the surface.
-// In: triangles. Out: a normal for any closest point, its rate, and whether the point is on the rim.
+// For any closest point, this file gives the normal, the normal's rate, and whether the point is on the rim.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A surface that answers queries. The surface has triangles, their scene and their band, and optionally another method to measure
-// distances. In: triangles. Out: closest triangles, sides.
+// distances. A surface finds closest triangles and sides.
 #pragma once
 
 #include <atomic>
@@ -22,7 +22,7 @@
 
 namespace riis {
 
-// The placement, the disc, the housing and the kind of the valve that a surface was made from.
+// The placement, the disc, the housing and the kind of the valve from which a surface was made.
 struct SourceValve {
   Placement placement;
   Valve::Disc disc;      // before placement
@@ -33,14 +33,15 @@ struct SourceValve {
 
 class Surface {
  public:
-  // Makes the surface. After a motion, another call reuses its memory. After a failure the surface must not be used.
+  // Makes the surface. A further call, such as after a motion, reuses the surface's memory. After a failure the surface must not
+  // be used.
   void make(TriangleSet triangles, const Band &band, int n_threads);
   // Moves the triangles out, so that the next surface's triangles can reuse their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }
-  // Sets another method to measure distances. Before this call, distances are to the triangles.
+  // Sets another method to measure distances. Without this call, distances are measured to the triangles.
   void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);
 
-  // Takes the valve that the triangles come from. A surface from arrays has none.
+  // Takes the valve that the triangles come from. A surface from arrays has no valve.
   void is_of_valve(const SourceValve &source) { source_valve_.emplace(source); }
   const std::optional<SourceValve> &source() const { return source_valve_; }
 
@@ -82,7 +83,7 @@ class Surface {
 
   // Returns the other method for distances, or null if the triangles' scene measures distances.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
-  // Bounds the excess of the distance to the triangles over the distance that the method returns.
+  // Bounds how far the distance to the triangles may exceed the distance that the other method returns.
   double triangle_error() const { return triangle_error_; }
 
   // Returns the normals for sides and rims. The first call makes them. Several threads may call this function at once.

@@ -63,7 +63,8 @@ void TriangleGroups::make(const TriangleSet &set, const SurfaceFrame &surface_fr
   if (!are_as_before) size_at_first_ = size();
 }
 
-// Returns the sum of the extents of all boxes, in the frame's units. This sum grows as the triangles of a group move apart.
+// Returns the sum of the extents of all boxes, in the frame's units. The sum of the extents grows as the triangles of a group
+// move apart.
 double TriangleGroups::size() const {
   double sum = 0;
   for (const OfPack &pack : of_packs_) sum += pack.size;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts neighbouring triangles into groups of up to 16, which is the form that the filters take (kernels/kernels.hpp).
-// In: a triangle set. Out: groups in the surface's frame, their bounds, and the unchanged corners of all triangles.
+// Puts neighbouring triangles into groups of up to 16, which is the form that the filters take (kernels/kernels.hpp). The groups
+// are in the surface's frame, and have bounds. The corners of all triangles are also kept unchanged.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace riis {
 
 // Takes a coordinate x to (x - centre) * scale. The scale is the power of two that brings the surface's half extent between 1/2
-// and 1. The difference and the product only have the rounding errors of their results.
+// and 1. The only errors are the rounding of the difference and of the product.
 struct SurfaceFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
@@ -49,12 +49,12 @@ struct TriangleGroups {
   std::vector<TriangleGroup> groups;
   Bounds of_all;  // bounds of all corners, in the set's own coordinates
   std::vector<GroupBounds> bounds;
-  // Packs of groups_per_pack neighbouring groups in order. The last pack may have fewer. Only the groups' boxes along the
-  // coordinate axes, longest edges and corners are set. A pack has the corner of one of its groups.
+  // Packs of groups_per_pack neighbouring groups in order. The last pack may have fewer groups. Only a pack's box along the
+  // coordinate axes, its longest edge and its corner are set. The corner belongs to one of the pack's groups.
   std::vector<GroupBounds> packs;
   float longest_edge = 0;
-  // True if each group has the same triangles as before and the groups are not much larger. Structures over the groups
-  // then still fit.
+  // True if each group has the same triangles as before and the groups are not much larger. Trees that were built over the groups
+  // then remain valid.
   bool are_as_before = false;
 
   // Copies the corners of a set's triangles, and computes their bounds.
@@ -67,7 +67,7 @@ struct TriangleGroups {
   }
 
  private:
-  // The results of the threads for a pack.
+  // What a thread finds out about the groups of a pack.
   struct OfPack {
     double size;    // the sum of the extents of its groups' boxes
     bool are_same;  // whether each group has the same triangles as before

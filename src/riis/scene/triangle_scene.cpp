@@ -52,16 +52,16 @@ std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   return device;
 }
 
-// For points more than this many half extents from the centre, single precision cannot separate triangles. All triangles are
+// For points more than `far_away` half extents from the centre, single precision cannot separate triangles. All triangles are
 // then queried.
 constexpr double far_away = 1e6;
 
 // Returns the radius, in the frame's units, that makes Embree visit every triangle whose computed distance from q is at most
 // `distance`. In single precision, Embree compares the square of the radius with sums of squares, from the rounded point to
 // boxes rounded outwards. The unit roundoff is e = 2^-24. The point is off by at most sqrt(3) e max|q|. The relative error of
-// the subtractions, squares and sums is at most 6 e, and that of the radius' square is at most e. The factor 1 + 2^-20 = 1 + 16
-// e and the term 4 e max|q| cover these errors and the rounding of this function itself. `rounding` covers the rounding of the
-// kernel. 2^-60 keeps the radius' square a normal float.
+// the subtractions, squares and sums is at most 6 e, and the relative error of the radius' square is at most e. The factor 1 +
+// 2^-20 = 1 + 16 e and the term 4 e max|q| cover these errors and the rounding of this function itself. `rounding` covers the
+// rounding of the kernel. The term 2^-60 keeps the radius' square a normal float.
 float inflated_radius(double distance, Vec3 q, double rounding) {
   const double largest = largest_coordinate(q);
   return round_up(distance * (1.0 + 0x1p-20) + largest * 0x1p-22 + rounding + 0x1p-60);
@@ -171,7 +171,7 @@ bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   return true;
 }
 
-// Calls visit for the groups within a radius of a point, and perhaps for others.
+// Calls visit for the groups within a radius of a point, and perhaps for other groups.
 void visit_groups(RTCScene tree, const float *point, float radius, RTCPointQueryFunction visit, void *user_data) {
   RTCPointQuery sphere{point[0], point[1], point[2], 0, radius};
   RTCPointQueryContext context;
@@ -196,8 +196,8 @@ bool add_group(RTCPointQueryFunctionArguments *arguments) {
 }
 
 // Bounds the rounding of a distance. The kernel computes a point of the triangle. The point's coordinates are accurate to a few
-// units of rounding of the largest coordinate, and 16 units are ample. The distance from that point is accurate to its own
-// rounding.
+// units of rounding of the largest coordinate, and 16 units are ample. The distance from a given point to the computed point has
+// only a small relative error.
 double rounding_of_distances(const Bounds &bounds) { return 0x1p-49 * bounds.largest_coordinate(); }
 
 }  // namespace
@@ -230,7 +230,7 @@ void TriangleScene::Implementation::build(Scene &made) {
   rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(groups.groups.size()));
   rtcCommitGeometry(geometry.get());
   check("take the triangles");
-  // Embree builds with TBB. Outside of an arena, TBB would call one thread for each processor.
+  // Embree builds with TBB. Outside of an arena, TBB would use one thread for each processor.
   constexpr std::size_t few = 1024;  // with fewer groups, Embree itself builds on one thread
   Arena(groups.groups.size() < few ? 1 : n_threads).run([&] { rtcCommitScene(made.get()); });
   check("build the scene");
@@ -274,16 +274,15 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
   Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}, ties, false};
   if constexpr (keeps_ties) ties->candidates.clear();
   if (!(largest <= far_away)) {
-    // In the frame's units, such a far point may overflow. The distance of a far point from the surface exceeds the surface's
-    // size, so most limits end the query here.
+    // In the frame's units, the coordinates of such a far point may overflow. The distance of a far point from the surface
+    // exceeds the surface's size, so most limits end the query here.
     if (!may_be_within(p, limit)) return {infinity, -1};
     const std::int64_t n = view(in.groups.corners).size() / 9;
     for (std::int64_t i = 0; i < n; ++i) query_triangle<keeps_ties>(query, i);
   } else {
     double reach = limit;
     if (!(reach * frame.scale < 4 * far_away)) {
-      // A limit this large would exclude nothing. The distance of an arbitrary triangle, the first one, therefore replaces such a
-      // limit.
+      // A limit far beyond the surface's size would exclude nothing, so the distance of the first triangle replaces such a limit.
       query_triangle<keeps_ties>(query, 0);
       reach = std::sqrt(query.best.distance_sq);
     }

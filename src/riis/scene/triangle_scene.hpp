@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles in an Embree scene, which answers queries for closest points. Only this file and its .cpp use Embree.
-// In: a triangle set, a point, a limit. Out: the closest triangle, the same triangle as by brute force with the same kernel.
+// Triangles in an Embree scene, which answers queries for closest points. Only this file and its .cpp use Embree. The closest
+// triangle is the same triangle that a loop over all triangles with the same kernel would find.
 //
 // Embree works in single precision and only excludes triangles. Coordinates are recentred and scaled by a power of two to
 // the size of the surface. Boxes are rounded outwards, and radii are increased by more than Embree's rounding. Every candidate
@@ -21,7 +21,7 @@ namespace riis {
 
 // Ties: triangles that are as near to a point as its closest triangle, but belong to another leaflet, or to another patch of
 // the same leaflet (docs/theory/marks.md, "Equally near leaflets"). Only velocities need ties.
-// In: triangles in the order in which a search compares them. Out: the ties of each point, which do not depend on this order.
+// The ties of a point do not depend on the order in which a search compares triangles.
 
 struct TieRule {
   const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;  // for each triangle; null if ties are not wanted
@@ -45,7 +45,7 @@ struct Tie {
   ClosestTriangle triangle;
 };
 
-// The ties that one thread of a search finds. The ties contain the closest triangle of each patch that ties, and perhaps farther
+// The ties that one thread of a search finds. The ties contain the closest triangle of each tied patch, and perhaps farther
 // triangles.
 struct Ties {
   TieRule rule;
@@ -58,8 +58,8 @@ struct Ties {
   void compare(std::int64_t point, const ClosestTriangle &closest, const ClosestTriangle &other) {
     if (other.triangle < 0 || !rule.is_tie(closest, other)) return;
     if (!candidates.empty()) {
-      // Triangles around a vertex are often compared one after another. Of several candidates on one patch, only the nearest
-      // stays a candidate.
+      // Triangles around a vertex are often compared one after another. Only the nearest of several candidates on one patch stays
+      // a candidate.
       Tie &last = candidates.back();
       if (last.point == point && rule.are_of_one_patch(last.triangle, other)) {
         if (is_closer(other.distance_sq, other.triangle, last.triangle)) last.triangle = other;
@@ -70,7 +70,7 @@ struct Ties {
   }
 
   // Keeps only the candidates that are ties, after the search has decided all points. closest_to(point) returns the closest
-  // triangle, or the position -1 if there is none. node_of(point) returns the node.
+  // triangle, or the position -1 if there is no triangle. node_of(point) returns the node.
   template <class ClosestTo, class NodeOf>
   void settle(const ClosestTo &closest_to, const NodeOf &node_of) {
     for (const Tie &tie : candidates) {
@@ -90,17 +90,17 @@ class TriangleScene {
   TriangleScene &operator=(const TriangleScene &) = delete;
 
   // Makes the groups from a copy of the corners, so the set need not be kept. A further call, for triangles that moved, reuses
-  // the memory. After a failure the scene can only be destroyed. The first query builds Embree's tree, with n_threads threads,
-  // because a search over clusters never needs the tree. A query fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY if Embree
-  // reports an error. The next query tries once more.
+  // the memory. After a failure the scene can only be destroyed. The first query builds Embree's tree with n_threads threads. The
+  // tree is not built earlier, because a search over clusters never needs it. A query fails with RIIS_INTERNAL_ERROR or
+  // RIIS_OUT_OF_MEMORY if Embree reports an error. The next query tries once more.
   void make(const TriangleSet &set, int n_threads);
 
   // Builds Embree's tree, as the first query does. Several threads may call this function at once.
   void build_tree() const;
 
-  // Returns the closest triangle to p, or a triangle -1 if none is within the limit (>= 0, may be infinite). p must be finite,
-  // with coordinates up to max_coordinate. Several threads may call this function at once. If `ties` is not null, the candidates
-  // of p replace its earlier candidates.
+  // Returns the closest triangle to p, or the triangle -1 if no triangle is within the limit. The limit is at least 0, and may be
+  // infinite. p must be finite, with coordinates up to max_coordinate. Several threads may call this function at once. If `ties`
+  // is not null, the candidates of p replace its earlier candidates.
   ClosestTriangle closest(Vec3 p, double limit, InstructionSet instructions = best_instruction_set(),
                           Ties *ties = nullptr) const;
 
@@ -116,8 +116,8 @@ class TriangleScene {
   // groups' frame. The radius and the point's coordinates must be below 4e6.
   void collect_groups(const float *point, float radius, std::vector<std::int32_t> &found) const;
 
-  // Calls visit(triangle) for all triangles that meet the segment from a to b, and perhaps for others. `triangle` is a position
-  // in the set. `found` is scratch memory. Coordinates must be at most max_coordinate.
+  // Calls visit(triangle) for all triangles that meet the segment from a to b, and perhaps for other triangles. `triangle` is a
+  // position in the set. `found` is scratch memory. Coordinates must be at most max_coordinate.
   template <class Visit>
   void for_each_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &found, const Visit &visit) const {
     found.clear();
@@ -137,7 +137,7 @@ class TriangleScene {
   template <bool keeps_ties>
   ClosestTriangle find_closest(Vec3 p, double limit, InstructionSet instructions, Ties *ties) const;
 
-  // Adds all groups that have a triangle which meets the segment, and perhaps more.
+  // Adds all groups with a triangle that meets the segment, and perhaps other groups.
   void collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &found) const;
 
   Bounds bounds_{};

@@ -23,9 +23,9 @@ struct Edge {
 
 // Returns a length such that no edge of at most this length leaks. If such an edge meets the surface in a point, its nearer node
 // is at most half the length from that point. The nearer node is thus within the half thickness and marked. With an offset, only
-// smaller distances are sure to be in the band. The margins are several times the rounding, so this also holds for computed
-// distances. Returns -1 if marks may be missing, or do not follow the distances to the triangles. In this case no edge counts as
-// short.
+// nodes within a smaller distance are certainly in the band, so the length is smaller. The margins are several times the
+// rounding, so this also holds for computed distances. Returns -1 if marks may be missing, or if the marks do not follow the
+// distances to the triangles. If the result is -1, no edge counts as short.
 double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
   if (surface.other_distance() || !marks.stats.complete) return -1;
   return 2 * surface.band().sure_distance() * (1 - 0x1p-40) - 4 * surface.scene().rounding();
@@ -57,7 +57,7 @@ struct alignas(64) Finder {
     return crosses;
   }
 
-  // With an offset, an edge may have both ends outside the band on one side, where a fold of the surface is sharp.
+  // With an offset, an edge across a sharp fold of the surface may have both ends outside the band on the same side.
   bool only_cuts_off_fold(Vec3 p, Vec3 q) const {
     if (!request->surface.band().steps_aside()) return false;
     const NodePlace from = places->of(p), to = places->of(q);

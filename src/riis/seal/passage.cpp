@@ -18,7 +18,7 @@
 namespace riis {
 namespace {
 
-// Nodes are ordered by the half thickness that marks each. Without an offset, this is the distance of the node.
+// Nodes are ordered by the least half thickness that marks a node. Without an offset, this half thickness is the node's distance.
 
 // Returns the largest half thickness that marks one of the nodes. Refuses nodes in the band.
 double largest_thickness(const SearchRequest &request, const char *name, ArrayView<const std::int64_t> ids) {
@@ -53,14 +53,14 @@ struct Candidate {
   }
 };
 
-// An edge that only the row of `other` contains.
+// An edge from `node` to `other` that is listed in the row of `other` only.
 struct OneWayEdge {
   std::int64_t node, other;
 
   bool operator<(const OneWayEdge &edge) const { return node != edge.node ? node < edge.node : other < edge.other; }
 };
 
-// Opens nodes in the order from far to near, until they join the ends.
+// Opens nodes in the order from far to near, until open nodes join the ends of the passage.
 template <class Edges>
 class Opening {
  public:
@@ -94,8 +94,8 @@ class Opening {
     return is_joined();
   }
 
-  // Opens one by one the other nodes that are farther than `nearest`. Returns the node that joins the ends. If no node does,
-  // returns a candidate with the id -1.
+  // Opens the closed nodes that are farther than `nearest` one by one, until a node joins the ends. Returns this node, or a
+  // candidate with the id -1 if no node joins the ends.
   Candidate open_until_joined(double nearest) {
     const std::vector<OneWayEdge> one_way = one_way_edges();
     OpenSets sets = this->sets();
@@ -167,7 +167,8 @@ template <class Edges>
 riis_passage find_passage_along(const SearchRequest &request, const Edges &edges, const PassageEnds &ends) {
   const auto start = std::chrono::steady_clock::now();
   const double half_thickness = request.surface.half_thickness(), beyond_all = thickest(request.surface.band());
-  // The least half thickness that marks a node of a path is at most the half thickness that marks either end.
+  // A path includes its ends. The least half thickness that marks a node of a path is therefore at most the half thickness that
+  // marks either end.
   const double widest =
       std::min(largest_thickness(request, "from", ends.from), largest_thickness(request, "to", ends.to));
   Opening<Edges> opening(request, edges, ends);

@@ -17,7 +17,7 @@
 namespace riis {
 
 // Leaks: edges of the mesh that cross the surface between two unmarked nodes. The marks leave open the paths along these edges.
-// In: a surface, a mesh with an adjacency, the marks. Out: the leaking edges in ascending order.
+// The mesh must have an adjacency. The leaking edges are listed in ascending order.
 
 // Edges between two unmarked nodes that cross the surface, in ascending order. riis_leak_list documents the members.
 struct Leaks {
@@ -35,15 +35,15 @@ inline constexpr double negligible_coordinate = 1e-90;
 
 // Returns whether the closed segment from a to b and the closed triangle have a point in common. Coordinates must be at most
 // max_coordinate in magnitude, and the triangle must have an area (has_zero_area). The answer is exact, without a tolerance or
-// rounding. A segment through the common edge of two triangles meets both. The order of the ends and of the corners does not
-// matter.
+// rounding. A segment through the common edge of two triangles meets both triangles. The order of the ends and of the corners
+// does not matter.
 bool segment_meets_triangle(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners);
 
 // Finds the leaks. Fails with RIIS_INVALID_MESH for an unusable coordinate. Does not use the request's distance limit.
 Leaks find_leaks(const SearchRequest &request, const Marks &marks);
 
-// Open regions: the connected components of the nodes that are neither closed nor masked out.
-// In: an adjacency or a grid, the closed nodes. Out: for each node, the lowest node of its region.
+// Open regions: the connected components of the nodes that are open and not masked out.
+// The label of a node is the lowest node of its region.
 
 struct OpenNodes {
   const MeshNodes &nodes;
@@ -52,7 +52,8 @@ struct OpenNodes {
 };
 
 // Writes a label for each row of the edges, and returns the number of regions. The label is the lowest node of the region,
-// or OpenSets::closed for a node in no region and for a number without a node. An edge may be in the row of one node or of both.
+// or OpenSets::closed for a node in no region and for a number without a node. An edge may be in the row of one node or in the
+// rows of both nodes.
 template <class Edges>
 std::int64_t label_open_regions(const Edges &edges, const OpenNodes &open, int n_threads,
                                 ArrayView<std::int64_t> label);
@@ -81,7 +82,8 @@ class OpenSets {
     }
   }
 
-  // Makes the lowest node of the set the node's parent, and returns it. Must not run while other threads unite sets.
+  // Makes the lowest node of the set the node's parent, and returns this lowest node. Must not run while other threads unite
+  // sets.
   std::int64_t flatten(std::int64_t node) {
     const std::int64_t lowest = root(node);
     __atomic_store_n(&parent_[node], lowest, __ATOMIC_RELAXED);
@@ -109,10 +111,10 @@ class OpenSets {
   ArrayView<std::int64_t> parent_;
 };
 
-// The widest passage: the path from one set of nodes to another that stays farthest from the surface.
-// In: a surface, a mesh with an adjacency, the two sets. Out: the path's node nearest to the surface, and its distance.
+// The widest passage: the path from one set of nodes to another that stays farthest from the surface. The result has the path's
+// node that is nearest to the surface, and this node's distance.
 
-// The two sets of nodes. Each has at least one node, and none is masked out.
+// The two sets of nodes. Each set has at least one node, and no node of a set is masked out.
 struct PassageEnds {
   ArrayView<const std::int64_t> from, to;
 };

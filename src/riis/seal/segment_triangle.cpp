@@ -11,8 +11,8 @@ namespace riis {
 namespace {
 
 // An exact number: a sum of doubles that do not overlap, without zeros, in ascending order of magnitude (Shewchuk, "Adaptive
-// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997). Sums are exact unless doubles overflow.
-// Products are exact unless doubles overflow or underflow. The range of the coordinates excludes both.
+// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997). Sums and products are exact, because the
+// range of the coordinates excludes overflow and underflow.
 template <int capacity>
 struct Exact {
   std::array<double, capacity> part;
@@ -176,8 +176,8 @@ bool segments_meet(Point2 a, Point2 b, Point2 c, Point2 d) {
          (c_side == 0 && is_between(a, b, c)) || (d_side == 0 && is_between(a, b, d));
 }
 
-// Decides for a segment in the plane of the triangle. Projects segment and triangle along an axis along which the triangle has an
-// area.
+// Decides whether a segment in the plane of a triangle meets the triangle. Projects the segment and the triangle along a
+// coordinate axis, so that the projected triangle has an area.
 bool meets_in_plane(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) {
   const auto along = [](int axis, Vec3 p) {
     return axis == 0 ? Point2{p.y, p.z} : axis == 1 ? Point2{p.z, p.x} : Point2{p.x, p.y};

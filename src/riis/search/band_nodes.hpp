@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places single nodes of a band that steps aside.
-// In: a surface, points at any distance. Out: the half thickness that marks a point, and its side.
+// Places single nodes relative to a band with an offset. For a point at any distance from a surface, this file finds the half
+// thickness that marks the point, and the point's side.
 #pragma once
 
 #include "search/search.hpp"
@@ -14,7 +14,7 @@ struct NodePlace {
   bool is_beyond_rim;
 };
 
-// Places nodes of a request, at any distance from the surface. Several threads may use it at once.
+// Places nodes of a request, at any distance from the surface. Several threads may use one object at once.
 class NodePlaces {
  public:
   explicit NodePlaces(const SearchRequest &request);

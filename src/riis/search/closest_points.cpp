@@ -18,8 +18,8 @@
 namespace riis {
 namespace {
 
-// The number of points that are sorted together. They take 2 MB. Small batches suit points that are near the points before them.
-// The leaves of small batches are then as compact as the leaves of large batches, and the points stay in the cache.
+// The number of points that are sorted together. A large batch takes 2 MB. Small batches suit points that are near the points
+// before them: the leaves are then as compact as the leaves of large batches, and the points stay in the cache.
 constexpr std::int64_t points_per_batch = 1 << 16, points_per_small_batch = 1 << 13;
 
 constexpr std::int64_t points_per_block = 2048;
@@ -41,7 +41,8 @@ class ClosestPoints {
         to_(to) {}
 
   void write() {
-    // A failure must come before anything is written. Later, if memory runs out, queries may need the tree.
+    // The tree is built now, because a failure must come before anything is written. Queries need the tree if memory runs out
+    // later.
     scene_.build_tree();
     const int n_threads = request_.n_threads;
     if (!are_enough_for_clusters(wanted_.n, surface_)) {
@@ -62,9 +63,9 @@ class ClosestPoints {
   }
 
  private:
-  // Two distances from the surface's middle, in half extents of the surface. Near a point beyond `far`, single precision does not
-  // separate triangles, and one such point would make its batch's frame useless for the other points. If no point is beyond
-  // `wide`, one frame serves all batches.
+  // `far` and `wide` are distances from the surface's middle, in half extents of the surface. For a point beyond `far`, single
+  // precision does not separate triangles. A single point beyond `far` would make the frame of its batch useless for the other
+  // points. If no point is beyond `wide`, one frame serves all batches.
   static constexpr double far = 0x1p10, wide = 0x1p4;
 
   double reach_of(Vec3 p) const { return largest_coordinate(scene_.groups().frame(p)); }
@@ -73,9 +74,9 @@ class ClosestPoints {
   }
   bool is_far(Vec3 p) const { return may_be_far_ && !(reach_of(p) <= far); }
 
-  // Returns whether consecutive points are near each other. In this case, a small batch from the middle has at most half the
-  // extent of all points along some axis. The batch comes from the middle because many meshes begin with the nodes of their
-  // boundary. The test needs enough points for a small batch.
+  // Returns whether consecutive points are near each other: whether a small batch from the middle has at most half the extent of
+  // all points along some axis. The batch comes from the middle because many meshes begin with the nodes of their boundary. The
+  // test needs enough points for a small batch.
   bool follow_each_other() const {
     const std::int64_t begin = (wanted_.n - points_per_small_batch) / 2;
     Bounds bounds;
@@ -98,7 +99,7 @@ class ClosestPoints {
     std::vector<OfThread> threads;
   };
 
-  // Queries and writes those points of a range for which is_asked(point) is true. This needs no memory.
+  // Queries and writes those points of a range for which is_asked(point) is true. The function needs no memory.
   template <class IsAsked>
   void write_one_by_one(const Range &all, int n_threads, const IsAsked &is_asked) const {
     constexpr std::int64_t few = 512;  // a query takes longer than a point of a batch
@@ -117,7 +118,7 @@ class ClosestPoints {
     });
   }
 
-  // Writes the points of a range. Without memory, all points are queried one by one.
+  // Writes the points of a range. If memory runs out, all points are queried one by one.
   void write_batch(const Range &range, int n_threads, Batch &batch) const {
     try {
       if (search(range, n_threads, batch)) return;
@@ -184,9 +185,9 @@ class ClosestPoints {
     Bounds bounds;
   };
 
-  // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except for far points. For the
-  // first point of the range, k is 0. In each block, the visited points have consecutive places, beginning at the block's first
-  // k.
+  // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except for far points. The places
+  // k are counted from the first point of the range, which has k = 0. In each block, the visited points have consecutive places,
+  // beginning at the block's first k.
   template <class Visit>
   std::array<Block, points_per_batch / points_per_block> visit_blocks(const Range &all, int n_threads,
                                                                       const Visit &visit) const {
@@ -328,7 +329,7 @@ template <class Real>
 void find_closest_points(const ClosestPointsRequest &request, const StridedReals<Real> &points,
                          const riis_closest_arrays &to) {
   if (request.wanted.n == 0) return;
-  // Makes the pseudonormals before anything is written. If memory runs out during this, the arrays are unchanged.
+  // Makes the pseudonormals before anything is written. If memory runs out meanwhile, the arrays are unchanged.
   if (to.side || (to.normal && request.wanted.n > request.surface.triangles().n_triangles()))
     request.surface.pseudonormals();
   ClosestPoints<Real>(request, points, to).write();

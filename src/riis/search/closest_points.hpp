@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The closest points of many points that belong to no mesh, on a surface's triangles.
-// In: the caller's points. Out: the caller's arrays.
+// Finds the closest points on a surface's triangles for many points that belong to no mesh. The points and the results are in the
+// caller's arrays.
 #pragma once
 
 #include <riis/riis.h>
@@ -33,7 +33,7 @@ struct ClosestPointsRequest {
   Threads n_threads;
 };
 
-// Writes the wanted entries of the arrays. The points were checked. If memory runs out, the arrays are unchanged.
+// Writes the wanted entries of the arrays. The points must have been checked. If memory runs out, the arrays are unchanged.
 template <class Real>
 void find_closest_points(const ClosestPointsRequest &request, const StridedReals<Real> &points,
                          const riis_closest_arrays &to);

@@ -16,10 +16,11 @@
 namespace riis {
 namespace {
 
-// In the surface's frame, single precision does not separate triangles at such lengths.
+// At lengths above `large` in the surface's frame, single precision does not separate triangles.
 constexpr double large = 0x1p20;
 
-// If more groups are near a leaf, a query of each node is faster. Large leaves near small triangles have so many groups.
+// If more than `most_groups` groups are near a leaf, querying each node is faster. Only large leaves near small triangles have so
+// many near groups.
 constexpr std::size_t most_groups = 4096;
 
 // Maps the mesh's frame to the surface's frame.
@@ -35,9 +36,9 @@ struct Placing {
 };
 
 #if defined(__SIZEOF_INT128__)
-// The order of closest triangles (is_closer) as one number, if squares of distances are finite. The first 64 bits are the bits
-// of the square. Squares are not negative, so their bits have the same order. The last 64 bits are the triangle, or the
-// largest number if there is none.
+// A number with the order of closest triangles (is_closer), for finite squares of distances. The first 64 bits are the bits of
+// the square. Squares are not negative, so their bits have the same order. The last 64 bits are the triangle, or the largest
+// number if there is no triangle.
 __extension__ typedef unsigned __int128 Rank;
 Rank rank_of(const ClosestTriangle &closest) {
   std::uint64_t square;
@@ -152,8 +153,8 @@ class ClusterSearch {
     own_.prepare(request.n_threads, !is_stored);
   }
 
-  // Finds the clusters that may be near the surface. For each of them, lists the groups that may be near the cluster. For each of
-  // these groups, sets a bit for each leaf of the cluster that may be near the group.
+  // Finds the clusters that may be near the surface. For each such cluster, lists the groups that may be near the cluster. For
+  // each such group, sets a bit for each leaf of the cluster that may be near the group.
   void find_near_clusters() {
     std::int64_t n_near;
     if constexpr (is_stored) {
@@ -191,7 +192,7 @@ class ClusterSearch {
   // limit (docs/theory/clusters.md, "Every distance").
   void search_every_cluster() {
     const auto n = nodes_.n_clusters();
-    // Threads that share the clusters of a region must each compare the region.
+    // If several threads share the clusters of a region, each thread must compare the region.
     const std::int64_t per_block = n < 64 * request_.n_threads ? 1 : Clusters::clusters_per_region;
     constexpr std::int64_t few = 4;  // searching this many takes about half a millisecond
     n_threads_ =
@@ -237,7 +238,7 @@ class ClusterSearch {
     }
   }
 
-  // Appends the groups of all packs that have a bit.
+  // Appends the groups of all packs whose bit is set.
   void add_groups_of_packs(const std::vector<std::uint16_t> &bits, std::vector<std::int32_t> &to) const {
     for (std::int64_t pack = 0; pack < view(groups_.packs).size(); ++pack) {
       if (!view(bits)[pack]) continue;
@@ -267,7 +268,7 @@ class ClusterSearch {
     for (std::int64_t cluster = first; cluster < end; ++cluster) add_cluster(cluster, cluster - first, own);
   }
 
-  // Appends each numbers[k] whose bits[k] has the given bit. Returns how many were appended.
+  // Appends each numbers[k] whose bits[k] has the given bit. Returns how many numbers were appended.
   std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
                          std::vector<std::int32_t> &to) const {
     const std::size_t first = to.size();
@@ -300,8 +301,8 @@ class ClusterSearch {
     const std::int32_t *const near_groups = own.near_groups.data() + first;
     std::uint16_t *const leaf_bits = own.leaf_bits.data() + first;
     const auto n_near = static_cast<std::int32_t>(n);
-    // If groups are smaller than a cluster's leaves, many groups are near the cluster. The own axes of the groups then make
-    // little difference.
+    // If groups are smaller than a cluster's leaves, many groups are near the cluster. The boxes along the groups' own axes then
+    // exclude few clusters.
     constexpr std::size_t many = 32;
     if (kernels_.near_boxes(task_, leaves, near_groups, n_near, leaf_bits) &&
         (n > many || kernels_.near_own_boxes(task_, leaves, near_groups, n_near, leaf_bits))) {
@@ -332,7 +333,7 @@ class ClusterSearch {
       near &= near - 1;
     }
   };
-  // Returns the near leaves of a cluster. Leaves of a grid need no request, because a thread fills them.
+  // Returns the near leaves of a cluster. Leaves of a grid need no prefetch, because each thread fills its leaves itself.
   LeavesAhead leaves_ahead(std::int64_t cluster, std::uint32_t near) const {
     if constexpr (is_stored)
       return {&nodes_.stored().leaves.get()[cluster * leaves_per_cluster], near};
@@ -362,8 +363,8 @@ class ClusterSearch {
   // Sets the limits of a filter, for a limit in the surface's frame. Returns the filter's error.
   double limits_within(double limit, FilterLimits &limits) const {
     const double scale = groups_.frame.scale;
-    // The second term covers the rounding of the distances that double precision decides. The third term covers ties, which
-    // may be farther than the closest triangle by this amount.
+    // The first term is the filter's own error. The second term covers the rounding of the distances in double precision. The
+    // third term covers ties, which may be a little farther than the closest triangle.
     const double error = filter_error(placing_.ratio, placing_.largest_shift, limit, groups_.longest_edge) +
                          4 * scene_.rounding() * scale + request_.ties.of_leaflets * scale;
     limits.reach_sq = static_cast<float>((limit + 2 * error) * (limit + 2 * error));
@@ -372,7 +373,7 @@ class ClusterSearch {
     return error;
   }
 
-  // Prepares the filter to leave out nodes on the side that a band steps away from (docs/theory/clusters.md, "One side").
+  // Prepares the filter to leave out nodes on the side away from the band's offset (docs/theory/clusters.md, "One side").
   void look_at_one_side(const Band &band, double error) {
     const double half_thickness = band.half_thickness * groups_.frame.scale;
     if (!(half_thickness <= large)) return;
@@ -400,7 +401,7 @@ class ClusterSearch {
     task_.one_side.end_of_band = own_.ends_of_band.data();
   }
 
-  // Returns whether a triangle of a group is so low that its normal is inaccurate.
+  // Returns whether a group has a triangle with so little height that the normal is inaccurate.
   static bool has_needle(const TriangleGroup &group) {
     constexpr float least_height = 1e-10f;
     bool has_one = false;
@@ -412,7 +413,7 @@ class ClusterSearch {
     return has_one;
   }
 
-  // Returns a lower bound of the cosines of the angles between the normals of a group's triangles and the group's first axis.
+  // Compares the normals of a group's triangles with the group's first axis. Returns a lower bound of the cosines of the angles.
   static double least_cosine(const TriangleGroup &group, const GroupBounds &bounds) {
     const float(&axis)[3] = bounds.axis[0];
     float least = 1;
@@ -557,7 +558,7 @@ class ClusterSearch {
     }
     decide(own, pairs);
     while (pairs.ahead.near) pairs.ahead.request_one();
-    // Every node with pairs is written, but the position advances only after a node within the limit.
+    // Every node with pairs is written to the list, but the position in the list advances only after a node within the limit.
     UnfilledVector<FoundNode> &found = view(found_.by_thread)[thread];
     const std::size_t n_before = found.size();
     std::size_t n_paired = 0;

@@ -18,7 +18,7 @@ namespace riis {
 struct ClusterScratch {
   static constexpr std::int32_t room_for_pairs = 4096;
 
-  // A near cluster and its near groups: the thread whose lists contain them, and their range in these lists.
+  // A near cluster and its near groups. The lists of one thread contain these groups, from `first` on.
   struct Item {
     std::int64_t cluster;
     std::size_t first, n;
@@ -64,11 +64,12 @@ struct ClusterScratch {
 };
 
 // Returns false if single precision cannot separate near from far. Single precision fails if the mesh or its distance from the
-// surface is about a million times the surface's size. It also fails if the mesh is extremely small compared with the surface.
+// surface is about a million times the surface's size. Single precision also fails if the mesh is extremely small compared with
+// the surface.
 bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes);
 
-// Returns whether clusters pay off for the distances of this number of nodes, with a limit that leaves out few nodes. For fewer
-// nodes, to compare all groups with the first clusters takes longer than to query each node.
+// Returns whether clusters pay off for this number of nodes, if the limit leaves out few nodes. With fewer nodes, comparing all
+// groups with the first clusters takes longer than querying each node.
 bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface);
 
 // Returns whether most triangles are beyond the limit for most nodes near the surface.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Up to eight points, each with its closest triangle. The kernels compute the data about their closest points together.
+// Up to eight points, each with its closest triangle. The kernels compute the data of the eight closest points together.
 #pragma once
 
 #include <algorithm>
@@ -73,7 +73,7 @@ struct EightPoints {
     to[2][lane] = v.z;
   }
   static Vec3 lane_of(const Lanes &from, std::int64_t lane) { return {from[0][lane], from[1][lane], from[2][lane]}; }
-  // Writes one lane as a vector. GCC turns three plain copies of a lane into slower code.
+  // Writes one lane as a vector. Three plain assignments would be slower when compiled by GCC.
   static void put_lane(const Lanes &from, std::int64_t lane, double *to) {
     typedef double Two
         __attribute__((vector_size(16)));  // every processor of the baseline instruction set has such registers

@@ -10,8 +10,8 @@
 namespace riis {
 namespace {
 
-// Blocks are small enough for two threads to get equal shares of a coarse mesh's band, and large enough to be handed out
-// cheaply.
+// Blocks are so small that two threads get equal shares of a coarse mesh's band, and so large that distributing them takes little
+// time.
 constexpr std::int64_t nodes_per_block = 2048;
 
 struct EveryPoint {

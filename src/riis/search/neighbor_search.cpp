@@ -16,7 +16,7 @@ namespace riis {
 namespace {
 
 constexpr std::int64_t nodes_per_range = NeighborScratch::nodes_per_range, balls_per_block = 16;
-// Below this number of balls, one thread suffices, because each part of the search takes only a millisecond or two.
+// For fewer balls than these numbers, one thread suffices, because each part of the search takes only a millisecond or two.
 constexpr std::int64_t few_balls = 256, few_large_balls = 64;
 
 template <class Distances>
@@ -109,7 +109,7 @@ class NeighborSearch {
     std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.ball < b.ball; });
   }
 
-  // In every near ball, starts the walk at the first node that is not proven far.
+  // In every near ball, starts the walk at the first node that is not proved to be far.
   void begin_in_near_balls(const NodeBalls &balls) {
     for (const NearBall &near : walked_.near_balls) {
       const Range range = balls.nodes_of(near.ball);
@@ -122,8 +122,8 @@ class NeighborSearch {
     }
   }
 
-  // Deals with the nodes of near balls that the walk did not reach. Queries such a node unless its ball's centre proves that
-  // the node is far.
+  // Deals with the nodes of near balls that the walk did not reach. A node that the walk did not reach is queried if the ball's
+  // centre does not prove that it is far.
   void prove(const NodeBalls &balls) {
     const auto n = view(walked_.near_balls).size();
     const int n_ran = parallel_for_ranges(n, balls_per_block, threads_near(), [&](const Range &block, int thread) {

@@ -39,7 +39,7 @@ class NeighborScratch {
   std::vector<std::int64_t> near_large_balls;
   std::vector<NearBall> near_balls;
 
-  // The number of nodes that a thread passes on together.
+  // The number of nodes that a thread passes on to other threads together.
   static constexpr std::int64_t nodes_per_range = 128;
 
   void prepare(std::int64_t n_nodes, int n_threads);
@@ -56,9 +56,9 @@ class NeighborScratch {
   std::uint8_t walk_ = 0;
 };
 
-// Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"). After the walk, the search proves each remaining
-// node far, or queries the node (docs/theory/search.md). The walk starts at the nodes in `last`, usually those found by the last
-// marking. The mesh must have an adjacency.
+// Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"). After the walk, the search proves that a
+// remaining node is far, or queries the node (docs/theory/search.md). The walk starts at the nodes in `last`, which usually are
+// the nodes that the last marking found. The mesh must have an adjacency.
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
                               NeighborScratch &scratch, FoundNodes &found);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The request and the report that all searches share.
-// In: surface, mesh, limit. Out: the nodes within the limit in any order, with distance and triangle.
+// A search takes a surface, a mesh and a limit. The search finds the nodes within the limit in any order, with their distances
+// and triangles.
 #pragma once
 
 #include <algorithm>
@@ -59,7 +60,7 @@ struct FoundNodes {
 
   // Empties the lists, and makes room for the next search.
   void prepare(int n_threads, const TieRule &ties = {}) {
-    // Checks each list by itself, because an earlier call may have run out of memory after the first.
+    // Checks each list by itself, because an earlier call may have run out of memory after the first list.
     if (view(by_thread).size() < n_threads) resize(by_thread, n_threads);
     if (view(ties_by_thread).size() < n_threads) resize(ties_by_thread, n_threads);
     make_room(
@@ -105,7 +106,7 @@ struct NodeSearch {
   Threads n_threads;
   InstructionSet instructions;
   TieRule ties = {};
-  // If not null, the caller wants only the nodes in this band, and the search may leave out others.
+  // If not null, the caller wants only the nodes in this band, and the search may leave out other nodes.
   const Band *listed = nullptr;
 
   bool is_masked_out(std::int64_t node) const { return node_mask && !node_mask[node]; }
@@ -149,7 +150,8 @@ struct TriangleDistances {
     return std::sqrt(scene.closest(p, limit, instructions).distance_sq);
   }
 
-  // Returns the constant part of the error of a distance from p. The other part is proportional to the distance and to |p|.
+  // Returns the constant part of the error of a distance from p. Another part of the error is proportional to the distance and to
+  // |p|.
   double rounding() const { return scene.rounding(); }
 };
 
@@ -165,8 +167,8 @@ struct OtherDistances {
     return {found.distance_sq, found.patch};
   }
 
-  // Sampling measures the distance to fixed points, so the distance is such a bound. A minimisation may end anywhere on S, so its
-  // result at p bounds no result at other points. Each result, however, is the distance to some point of S, and so at least the
+  // Sampling measures the distance to fixed points, so the distance itself is the bound. A minimisation may end anywhere on S, so
+  // its result at p bounds no result at other points. But each result is the distance to some point of S, so it is at least the
   // distance to the triangles minus triangle_error.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);
@@ -178,7 +180,7 @@ struct OtherDistances {
   double rounding() const { return scene.rounding(); }
 };
 
-// Calls visit(distances) with the way in which the surface measures.
+// Calls visit(distances) with the surface's way to measure distances.
 template <class Visit>
 auto with_distances(const Surface &surface, InstructionSet instructions, const Visit &visit) {
   if (const PatchDistance *method = surface.other_distance())

@@ -17,10 +17,10 @@
 namespace riis {
 namespace {
 
-// A curve may be halved this often. A request with more parts would make more triangles than this library can hold.
+// A curve may be halved `max_rounds` times. With more parts, there would be more triangles than the library can hold.
 constexpr int max_rounds = 24;
 
-// The largest number of parts between two lines for the bound on O.
+// The largest number of parts between two lines for the bound on the offset O (geometry/bulge.hpp).
 constexpr int most_parts = 8;
 
 // Errors of a patch of arcs between two lines of its grid.
@@ -29,7 +29,7 @@ struct ColumnErrors {
   double off_line;    // the largest deviation of O from linear, at the points between
   double second;      // a bound on |O''|
   double largest, width;
-  // Bounds the deviation of O from linear, with O evaluated at the ends of n parts.
+  // Bounds the deviation of O from a linear function. O is evaluated at the ends of n parts.
   double offset(int n) const {
     const double step = width / n;
     return std::min(largest, off_line + 0.125 * step * step * second);
@@ -108,7 +108,7 @@ class PlannedArcs {
     const Vector<Bezier> &on_base = base_.between(i, j), &on_edge = edge_.between(i, j);
     const Curve &base = set_.curve_of(patch_.v0), &edge = set_.curve_of(patch_.v1);
     if (on_base.size() > 1 || on_edge.size() > 1) {
-      // For a range inside which O' may jump, calls Bulge::linear_error, which takes jumps into account. bound_offset does not.
+      // For a range inside which O' may jump, calls Bulge::linear_error, because bound_offset does not take jumps into account.
       const Bulge bulge(along(set_, patch_.v0), along(set_, patch_.v1), patch_.bulge);
       made.off_line = made.largest =
           bulge.linear_error(bulge.place(shares_[i]), bulge.place(shares_[j]), offset_share * max_error_);
@@ -158,8 +158,8 @@ Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double en
   return made;
 }
 
-// Ascending positions, and a need for each step between two of them. Within a step, a segment's error is at most the need
-// times the square of the segment's width, as a share of the allowed error.
+// Ascending positions, and a number `need` for each step between neighbouring positions. The need times the square of a segment's
+// width bounds the error of a segment within the step, as a share of the allowed error.
 struct Needs {
   Vector<double> at, need;
 };
@@ -196,10 +196,10 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
 }
 
 // Needs are computed on narrow steps, but the error of a wide segment is bounded a little less closely. The lines therefore use
-// up only this share of the allowed error.
+// up only `most_of_allowed` of the allowed error.
 constexpr double most_of_allowed = 0.9;
-// The number of steps on which needs are computed is steps_per_segment times the largest number of segments of a curve. The
-// number of steps stays between least_steps and most_steps.
+// The number of steps on which needs are computed is `steps_per_segment` times the largest number of segments of a curve. The
+// number of steps stays between `least_steps` and `most_steps`.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
 // To save time, needs are computed only at every n-th state. Later the lines are checked at every state.
@@ -379,7 +379,7 @@ class Planner {
     return made;
   }
 
-  // Returns the needs on the wider steps between `lines`.
+  // Returns the needs for the wider steps between `lines`.
   static Needs between_lines(const Needs &needs, const Vector<double> &lines) {
     Needs made{lines, Vector<double>(lines.size() - 1, 0)};
     std::size_t step = 0;
@@ -407,15 +407,15 @@ class Planner {
     }
   }
 
-  // Returns the shares in the patch's parameter. A side that is collapsed at all openings has only lines at its ends.
+  // Returns the shares of the lines along a side, in the patch's parameter. A side that is collapsed at all openings has lines
+  // only at its ends.
   Vector<double> shares_along(const Side &side) const {
     if (is_collapsed(side)) return {0, 1};
     const Vector<double> &shares = plan_.shares[side.curve];
     return side.reversed ? turned(shares) : shares;
   }
 
-  // Merges the lines of two sides. All shares are binary fractions, so two of them are either equal to the last bit or far
-  // apart.
+  // Merges the lines of two sides. All shares are binary fractions, so two shares are either equal to the last bit or far apart.
   Vector<GridLine> lines(const Side &a, const Side &b) const {
     const Vector<double> on_a = shares_along(a), on_b = shares_along(b);
     Vector<double> both;
@@ -428,8 +428,8 @@ class Planner {
     return made;
   }
 
-  // Returns the joints at the first opening, if the lines can move with them. The base must therefore have the same number of
-  // joints at every opening, and no joint near an end.
+  // Returns the joints at the first opening, or nothing if the lines cannot move with the joints. Lines can move with the joints
+  // if the base has the same number of joints at every opening, and no joint near an end.
   Vector<double> joints(std::size_t patch) const {
     constexpr double near_end = 0.01;
     const Vector<double> first = joints_of(set_, set_.patches[patch].v0);
@@ -441,7 +441,7 @@ class Planner {
     return first;
   }
 
-  // At every opening, adds lines until base, edge and O are nearly linear between them. After that, chooses the smallest
+  // At every opening, adds lines until base, edge and O are nearly linear between the lines. After that, chooses the smallest
   // sufficient number of parts for O.
   void plan_arcs(std::size_t patch) {
     PatchPlan &plan = plan_.patches[patch];
@@ -467,7 +467,7 @@ class Planner {
     plan_.n_rows = std::max(plan_.n_rows, static_cast<std::size_t>(rows_for(offset, max_error_)));
   }
 
-  // Returns a first choice of few lines, which usually suffices. Some lines are at the joints.
+  // Returns a first choice of few lines, which usually suffices. The choice includes lines at the joints.
   Vector<double> first_arc_lines(std::size_t patch, const Vector<double> &joints) const {
     const Patch &first = set_.patches[patch];
     Vector<double> ends{0};

@@ -14,8 +14,8 @@
 namespace riis {
 namespace {
 
-// Returns the largest speed per unit of opening at five points of each span. Five points are enough to notice any motion,
-// because a cubic that is 0 at all of them is 0 everywhere.
+// Returns the largest speed per unit of opening at five points of each span. Five points are enough to notice any motion, because
+// a cubic that is 0 at all five points is 0 everywhere.
 double largest_rate(const PatchSet &set) {
   double largest = 0;
   for (const Vector<Bezier> &rates : set.rates)
@@ -80,9 +80,9 @@ class GridMaker {
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  // A curve may have a million points, and a valve a million patches. Before the points are counted, polylines of at most this
-  // many patches are therefore made. The number of patches is fixed, so the count in an error message does not depend on the
-  // number of threads.
+  // A curve may have a million points, and a valve a million patches. The polylines of at most `patches_at_once` patches are
+  // therefore made before the points are counted. The number of patches is fixed, so the count in an error message does not
+  // depend on the number of threads.
   static constexpr std::size_t patches_at_once = 16;
 
   QuadGrid grid(std::size_t i, std::size_t n_rows) const {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns patches into grids of quads (paper, 3.2 and 3.3).
-// In: curves and patches of a valve, the allowed error. Out: a grid for each patch. The grid's error leaves room for the error of
-// the split into triangles.
+// Each patch of a valve becomes one grid. The grid's error leaves room for the error of the split into triangles.
 #pragma once
 
 #include "base/recycled.hpp"
@@ -12,17 +11,17 @@
 namespace riis {
 
 // The allowed error is divided as in docs/theory/triangles.md, "Shares of the bound". A point of a Coons patch has three errors:
-// of a u curve, of a v curve, and of merged grid lines. A share below bounds each of these errors. At least 1 - 2 * (curve_share
-// + merge_share) remains for the split of a quad into triangles.
+// of a u curve, of a v curve, and of merged grid lines. The shares below bound these errors. At least 1 - 2 * (curve_share +
+// merge_share) remains for the split of a quad into triangles.
 inline constexpr double curve_share = 0.45, merge_share = 0.01;
-// The errors of a plan's lines reach this share nearly everywhere. With a larger share, too little would remain for the quads, so
-// many of them would be subdivided.
+// The errors of a plan's lines reach the share `planned_curve_share` nearly everywhere. With a larger share, too little would
+// remain for the quads, so many quads would be subdivided.
 inline constexpr double planned_curve_share = 0.39;
 // A point of a patch of arcs has three errors: the mean error of two curves, at most half the error of O, and the error of the
 // arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) remains.
 inline constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 
-// Between two vertices of a curve, the velocity is nearly linear. The estimated deviation is at most this share of the largest
+// Between two vertices of a curve, the velocity is nearly linear. The estimated deviation is at most `bend_share` of the largest
 // speed.
 inline constexpr double bend_share = 0.008;
 
@@ -32,8 +31,8 @@ double rows_for(double offset, double max_error);
 // Makes one grid for each patch, in the order of the patches, before any image is placed. Keeps each curve within its share of
 // max_error. Fails with RIIS_LIMIT_EXCEEDED if the surface would take more than max_triangles triangles.
 Vector<QuadGrid> make_grids(const PatchSet &set, double max_error);
-// Does the same, but keeps each grid's lines, and gives each quad its level. A curve's share is multiplied by its tightness. An
-// empty `tightness` means 1 for all curves.
+// Makes the same grids as make_grids, but keeps each grid's lines, and gives each quad its level. The share of a curve is
+// multiplied by the curve's tightness. An empty `tightness` means 1 for all curves.
 Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, double max_error, const Vector<double> &tightness,
                                          int n_threads);
 

@@ -14,7 +14,7 @@
 namespace riis {
 namespace {
 
-// Returns the seam of an image, or null if it has none.
+// Returns the seam of an image, or null if the image has no seam.
 const Seam *seam_of(const PatchSet &set, std::size_t patch, std::size_t image) {
   for (const Seam &seam : set.seams)
     if (seam.patch == patch && seam.image == image) return &seam;
@@ -56,8 +56,8 @@ PatchVertices vertices_of(const LevelledGrid &levelled) {
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *level_of_next++;
     if (level == 0) return;
-    // At one level, all parts of a bilinear quad have the same flatness. Recursive halving would therefore end in equal
-    // parts. This loop makes them directly.
+    // At one level, all parts of a bilinear quad have the same flatness. Recursive halving would therefore end in equal parts,
+    // which this loop makes directly.
     const int n_parts = 1 << level;
     const double step = 1.0 / n_parts;  // a power of two
     const Quad quad = quad_of(grid, i, j);
@@ -81,7 +81,8 @@ PlacedBy placed_by(const PatchImage &image, const Placement &placement) {
     put({from.row_x.z, from.row_y.z, from.row_z.z}, to[2]);
   };
   put_columns(image.rotation, by.of_image);
-  // Negates a column of the matrix instead of a coordinate of each point. The products have the same bits.
+  // A mirror image negates a coordinate of each point. Here a column of the matrix is negated instead, which gives products with
+  // the same bits.
   if (image.mirror != Mirror::none)
     for (double &x : by.of_image[image.mirror == Mirror::in_x ? 0 : 1]) x = -x;
   put(image.translation, by.offset_of_image);
@@ -209,8 +210,8 @@ void close_gaps(const Vector<Tile> &tiles, TriangleSet &triangles) {
 }  // namespace
 
 bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
-  // A triangle without area is only a segment, its longest edge, or a point. A triangle that is a point can be dropped without
-  // loss. A triangle that is a segment can be dropped if the segment is the diagonal of a quad whose other half was kept.
+  // A triangle without area is either a point or a segment, which is its longest edge. A triangle that is a point can be dropped
+  // without loss. A triangle that is a segment can be dropped if the segment is the diagonal of a quad whose other half was kept.
   const Vec3 corner = set.vertex(triangle.corner), a = set.vertex(triangle.a), b = set.vertex(triangle.b);
   const double diagonal = distance(a, b), other = std::max(distance(corner, a), distance(corner, b));
   const bool is_on_diagonal = triangle.other_was_kept && other <= (1 + 1e-9) * diagonal;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the triangles of grids, image by image. The adapted and the fixed triangulation share this code.
-// In: grids with the levels of their quads, patches and their images. Out: placed vertices, and the triangles between them.
+// Makes the triangles of grids, image by image. The adapted and the fixed triangulation share this code. From grids with the
+// levels of their quads, this file makes placed vertices and the triangles between them.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,8 @@ struct PatchVertices {
   Vector<Vec3> displacements;  // displacements since an earlier state of the same build; empty without such a state
 };
 
-// The two states of a moving valve whose builds differ. Each tile has a patch of its own, with the number of the tile.
+// Two states of a moving valve, if their builds differ. Each tile has its own patch in these sets, and patch and tile have the
+// same number.
 struct OwnPatches {
   PatchSet now, before;
 };
@@ -63,7 +64,7 @@ class Tiles {
 
   // Makes vertices and triangles, and then calls work(i, first_of_quad) for tile i, as place_vertices does. first_of_quad has
   // the position of each quad's first triangle, and then the end of the last quad's triangles. The ids also count triangles
-  // without area. Returns the patches that miss triangles. Without such patches, the triangles are complete.
+  // without area. Returns the patches that miss triangles. If there is no such patch, the triangles are complete.
   template <class Work>
   Vector<std::size_t> make_triangles(const Work &work) {
     make_room_for_triangles();
@@ -88,11 +89,11 @@ class Tiles {
   std::int64_t n_vertices_ = 0, room_ = 0;
 };
 
-// Returns whether a triangle was left out and nothing in the set stands for it.
+// Returns whether a triangle was left out, and nothing in the set replaces the triangle.
 bool is_missed(const TriangleSet &set, const LeftOut &triangle);
 
-// Returns the triangulation's request with a smaller allowed error, reduced by the patches' own deviation. Fails if the
-// remaining error is too small, or if the earlier state has another build.
+// Returns the triangulation's request, with the allowed error reduced by the patches' own deviation. Fails if the remaining error
+// is too small, or if the earlier state has another build.
 Triangulation checked(const PatchSet &set, const Triangulation &asked);
 
 // Adds the rims of the patches. Also keeps the grids, for the bound of velocity errors and for directions.

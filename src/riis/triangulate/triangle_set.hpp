@@ -29,7 +29,7 @@ struct VerticesOfPatch {
   AxisLine axis;  // placed
 };
 
-// An edge of the attachment of triangles from arrays, in its direction round its triangle.
+// An edge of the attachment of triangles from arrays. The edge has the direction around its triangle.
 struct AttachedEdge {
   std::int64_t from, to;
   std::int32_t leaflet_id;
@@ -90,8 +90,8 @@ struct TriangleSet {
 // Returns triangles from arrays without their skirt, for measures of the leaflets.
 TriangleSet without_skirt(const TriangleSet &set);
 
-// Finds the position of a triangle in the set from its id. The position of a triangle equals its id, unless the set left out
-// some of the caller's triangles.
+// Finds the position of a triangle in the set from its id. If the set has left out none of the caller's triangles, the position
+// of a triangle equals its id.
 class TrianglePositions {
  public:
   explicit TrianglePositions(const TriangleSet &set)
@@ -112,15 +112,16 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
 // Replaces `grouping` by groups of all triangles of a set, by position. Reuses its memory.
 void group_all_by_place(const TriangleSet &set, Grouping &grouping);
 
-// The most triangles that the library accepts. Ids of four bytes could count more triangles, but each takes a few hundred bytes.
+// The most triangles that the library accepts. Ids of four bytes could count more triangles, but each triangle takes a few
+// hundred bytes of memory.
 inline constexpr std::int64_t max_triangles = 16'777'216;
 
-// Returns true for edges all shorter than min_edge, or a height over the longest edge of at most 1e-12 of this edge.
+// Returns true if all edges are shorter than min_edge, or if the height over the longest edge is at most 1e-12 of this edge.
 inline bool has_zero_area(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double longest_sq = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
   if (!(longest_sq >= min_edge * min_edge)) return true;
-  // For edges from 1e-60 to 1e60, these products neither underflow nor overflow.
+  // For edges from 1e-60 to 1e60, these products stay within the range of doubles.
   const Vec3 twice_area = cross(ab, ac);
   return !(dot(twice_area, twice_area) > 1e-24 * longest_sq * longest_sq);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns patches into triangles (paper, 3.3 and 4.1 "Triangulation").
-// In: curves and patches of a valve, the allowed error, the placement. Out: triangles with their patch, leaflet, u and v.
+// The patches of a valve become placed triangles, each with its patch, leaflet, u and v.
 #pragma once
 
 #include <cstddef>
@@ -17,15 +17,15 @@
 
 namespace riis {
 
-// Grids whose lines stay the same while a valve opens (docs/theory/triangles.md, "Fixed triangulation").
-// In: the patches of a valve at many openings, the allowed error. Out: lines that keep the error at all these openings. Also
-// grids on these lines at any opening, with their errors.
+// Grids whose lines stay the same while a valve opens (docs/theory/triangles.md, "Fixed triangulation"). A plan is made from the
+// patches of a valve at many openings. The plan's lines keep the allowed error at all these openings. Grids on these lines, with
+// their errors, can be made at any opening.
 struct PatchPlan {
   bool has_arcs = false;  // whether the patch is one of arcs at some opening
 
   GridLines lines;  // the lines of a Coons patch
 
-  // A patch of arcs has lines in u, and joints of the base that the lines move with. Lines and joints are given at one of the
+  // A patch of arcs has lines in u, and joints of the base with which the lines move. Lines and joints are given at one of the
   // openings. Between two joints, a line keeps its relative position. Without joints the lines do not move.
   Vector<double> u, joints;
   Vector<int> n_parts;  // the number of parts between two lines; O is evaluated at their ends
@@ -53,9 +53,10 @@ struct GridPlan {
   std::size_t n_rows = 1;  // the number of rows of all patches of arcs
 };
 
-// Makes the plan from the patches at each of the openings. The patches of all openings must use one numbering of curves. Keeps
-// each curve of a Coons patch within max_error times of_curves times its tightness, and the curves of other patches within their
-// own share. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER if no lines are enough.
+// Makes the plan from the patches at each of the openings. The patches of all openings must use one numbering of curves. The
+// error of a curve of a Coons patch is at most max_error times of_curves times the curve's tightness. The errors of the curves of
+// other patches stay within their own share. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with
+// RIIS_INVALID_PARAMETER if no number of lines is enough.
 GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, double of_curves,
                     const Vector<double> &tightness);
 
@@ -72,7 +73,7 @@ struct LeftOut {
 };
 
 // The triangles of a plan at one of the openings, as ids of the plan's vertices. Two openings share such triangles if the same
-// triangles have an area at both.
+// triangles have an area at both openings.
 struct Connectivity {
   std::vector<std::int64_t> vertex_id, triangle_id;
   std::vector<std::int32_t> leaflet_id, patch_id;

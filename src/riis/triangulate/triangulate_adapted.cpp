@@ -13,7 +13,7 @@
 namespace riis {
 namespace {
 
-// Groups the triangles of a tile by its quads. Writes the triangles to `order`, group by group. Each triangle is in one
+// Groups the triangles of a tile by the tile's quads. Writes the triangles to `order`, group by group. Each triangle is in one
 // group.
 class QuadGroups {
  public:
@@ -76,7 +76,8 @@ class QuadGroups {
     const bool along_u = j1 - j0 == 1 || (i1 - i0 > 1 && distance(grid_.point(i0, j), grid_.point(i1, j)) >
                                                              distance(grid_.point(i, j0), grid_.point(i, j1)));
     const auto before = [&](std::size_t cut) { return along_u ? Quads{i0, cut, j0, j1} : Quads{i0, i1, j0, cut}; };
-    // Near the middle, both parts are compact. The cut is at the place near the middle with the fewest possible groups.
+    // A cut near the middle makes both parts compact. Among the places near the middle, the cut takes the place that gives the
+    // fewest groups.
     constexpr std::size_t farthest = 4;
     const std::size_t middle = along_u ? i : j, size = along_u ? i1 - i0 : j1 - j0;
     const auto n_groups = [](std::int64_t n_held) { return (n_held + triangles_per_group - 1) / triangles_per_group; };

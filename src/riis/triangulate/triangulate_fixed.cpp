@@ -43,7 +43,7 @@ bool have_area(const TriangleSet &set) {
   return true;
 }
 
-// Bounds how far a corner of an image is from its place in an image that is exactly congruent to the others.
+// Bounds how far rounding moves a corner of an image from its place in an exactly congruent image.
 double rounding_of_corners(const QuadGrid &grid, const Patch &patch, const Placement &placement) {
   double largest = 0, farthest = 0;
   for (const Vec3 &p : grid.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
@@ -65,7 +65,7 @@ Vector<std::size_t> make_triangles(Tiles &tiles) {
   return tiles.make_triangles([](std::int64_t, const Vector<std::int32_t> &) {});
 }
 
-// Gives a set the triangles of a plan, unless it already has them.
+// Gives a set the triangles of a plan if the set lacks them.
 void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet &set) {
   const std::uint64_t number = 2 * from.number + (flip_normals ? 1 : 0);
   // The number alone does not suffice, because a set whose triangles were moved away keeps its number.
@@ -82,8 +82,8 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
   set.connectivity = number;
 }
 
-// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if some triangles are missed, or a
-// triangle has an area either only here or only in the plan.
+// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if some triangles are missed, or if
+// the triangles with an area are not those of the plan.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
   Tiles tiles(set, how, grids, triangles);
@@ -125,8 +125,8 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
   if (!take_planned_triangles(patches, how, grids, plan.connectivity, memory)) {
-    // At this opening, the triangles with an area are not those of the plan. The plan's groups therefore do not fit, and new
-    // groups are made.
+    // At this opening, other triangles have an area than in the plan. The groups of the plan therefore do not fit, and new groups
+    // are made.
     Tiles tiles(patches, how, grids, memory);
     const Vector<std::size_t> vanished = make_triangles(tiles);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
@@ -154,8 +154,8 @@ void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan
   for (std::size_t i = 0; i < grids.size(); ++i) raise_levels(grids[i], max_error, plan.levels[i]);
 }
 
-// Halves the columns of patches of arcs that then have fewer triangles, because their quads need fewer halvings. Returns
-// whether there are any. Afterwards the levels of the plan must be found again.
+// Halves the columns of a patch of arcs if this gives the patch fewer triangles, because the quads then need fewer halvings.
+// Returns whether the columns of any patch were halved. After the halving, the levels of the plan must be found again.
 bool halve_columns(const PatchSet &set, TriangulationPlan &plan) {
   bool are_any = false;
   for (std::size_t i = 0; i < set.patches.size(); ++i) {
@@ -177,7 +177,7 @@ bool halve_columns(const PatchSet &set, TriangulationPlan &plan) {
     halved.u.push_back(1);
     if (halved.u.size() == of_patch.u.size()) continue;
     are_any = true;
-    // A skirt has the lines of its patch.
+    // A skirt has the same lines as its patch.
     for (std::size_t k = 0; k < set.patches.size(); ++k)
       if (k == i || set.patches[k].skirt_of_arcs == i) plan.grids.patches[k] = halved;
   }
@@ -211,7 +211,7 @@ bool have_same_triangles(const Tile &a, const Tile &b) {
                                           });
 }
 
-// Makes the triangles of a plan at an opening of the plan at which no triangles are missed.
+// Makes the triangles of a plan at one of the plan's openings. No triangles may be missed at this opening.
 Connectivity make_connectivity(const PatchSet &state, const Triangulation &how, const TriangulationPlan &plan,
                                TriangleSet triangles) {
   const Vector<LevelledGrid> grids = make_levelled_grids(state, how, plan);
@@ -238,7 +238,7 @@ Connectivity make_connectivity(const PatchSet &state, const Triangulation &how, 
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads) {
   double max_error = asked_error;
   for (const PatchSet &state : given) max_error = std::min(max_error, error_left(state, asked_error));
-  // Plans with less than the whole error, because the remainder is for openings between the given ones.
+  // The plan uses less than the whole error, because the remainder is for openings between the given openings.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;
   // A curve that is shared at only one opening has two numbers at other openings. The state with most curves therefore gives the

@@ -56,7 +56,7 @@ const ParameterRule rotation_rules[n_cusps] = {
     {"0, 0, -(right.leaflet_angle + non_coronary.leaflet_angle) - 2/3 (180 - sum of all leaflet_angle)",
      non_coronary_rotation}};
 
-// The paper's values of the cusps. The translation is along the axis.
+// The paper's values of the cusps. The value of `translation` is the translation along the axis.
 constexpr double table[n_cusps][n_of_cusp] = {{0.24, 1.365, 61.0, 1.58, 0.40, 1.390, 47.30, 1.82, 0.0, -1},
                                               {0.49, 1.495, 58.5, 2.77, 0.74, 1.355, 43.00, 4.12, 119.5, -1},
                                               {0.20, 1.380, 60.5, 1.19, 0.67, 1.435, 42.75, 2.54, -121.5, -1}};
@@ -156,7 +156,7 @@ CuspOpening opening_of(const ParameterValues &values) {
   return {values[open_radius_ratio][0], values[commissure_expansion][0]};
 }
 
-// Checks lengths against the root radius, and heights against each other.
+// Compares lengths with the root radius, and heights with one another.
 void check_together(const ParameterValues &values) {
   const Reference radius{"root_radius", values[root_radius][0]}, height{"leaflet_height", values[leaflet_height][0]};
   const auto check = [&](std::size_t position, const Reference &reference, double least, double most) {
@@ -200,12 +200,12 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   PatchSet set;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const HalfCusp closed_half = half_cusp(shape_of(closed.values, cusp));
-    // At opening 0, a valve does not make the open state of its own parameters. A closed valve does not need that state, which
-    // might be refused.
+    // At opening 0, the open state of the valve's own parameters is not made, because a closed valve does not need an open state,
+    // and the open state might be refused.
     const HalfCusp open_half = !has_own_open_state ? half_cusp(shape_of(open.values, cusp))
                                : opening != 0      ? own_open_half(closed.values, cusp)
                                                    : open_half_of(closed.values, cusp);
-    // The position of a cusp consists of angles and a shift instead of control points. So these numbers are blended.
+    // The position of a cusp consists of angles and a shift, not of control points, so these numbers are blended.
     const auto vector_of = [&](OfCusp parameter) {
       const std::size_t i = position_of(cusp, parameter);
       return riis::blend(riis::vector_of(closed.values[i]), riis::vector_of(open.values[i]), opening);
@@ -219,7 +219,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }  // namespace
 
 const ValveKind &aortic_valve_kind() {
-  // The kind is made when it is first used, and it is never destroyed. The kind thus serves during the whole life of the process.
+  // The kind is made when it is first used, and is never destroyed, so it serves until the process ends.
   static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::of_cusp));
   return kind;
 }

@@ -22,8 +22,8 @@
 namespace riis {
 namespace {
 
-// A leaflet has this many places of equal distance along the annulus, from one commissure to the next. From each place hangs a
-// meridian. A free edge and a coaptation line are two cubics each, and thus have equal numbers of control points.
+// A leaflet has `n_places` evenly spaced places along the annulus, from one commissure to the next. From each place hangs a
+// meridian. A free edge and a coaptation line consist of two cubics each, and thus have one control point for each place.
 constexpr std::size_t n_places = 7, middle = 3, n_cells = n_places - 1;
 template <class Value>
 struct AtPlaces {
@@ -34,25 +34,27 @@ struct AtPlaces {
 };
 constexpr double u_of(std::size_t place) { return static_cast<double>(place) / n_cells; }
 
-// The coaptation zone is at least this share of a leaflet. A leaflet that is too short for this part stays back from its
-// neighbours.
+// The coaptation zone takes at least `least_coaptation` of a leaflet's length. A leaflet that is too short for this zone does not
+// reach its neighbours.
 constexpr double least_coaptation = 0.05;
-// A closed meridian's first inner control point lies below the annulus by this share of the drop to the coaptation line.
+// A closed meridian's first inner control point lies below the annulus by `first_drop` of the drop to the coaptation line.
 constexpr double first_drop = 0.2;
 // The heights of a closed free edge's control points from the middle to a commissure, as shares of the rise from the middle to
 // the commissure.
 constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
-// A bump's lift acts on a meridian's first inner control point by this share.
+// A bump lifts a meridian's first inner control point by only `lift_of_start` of its lift.
 constexpr double lift_of_start = 0.3;
 // A leaflet that is too short moves back in steps until it lacks less than this share of its length.
 constexpr int most_steps = 60;
 constexpr double rounding = 1e-12, rounding_of_zone = 1e-6;
-// A leaflet has at least this share of the annulus. Its way to the meeting point has at least this share of the annulus' depth.
+// A leaflet has at least `least_ratio` of the annulus. The way of a leaflet to the meeting point has at least `least_way` of the
+// annulus' depth.
 constexpr double least_ratio = 0.05, least_way = 0.12;
-// A commissure takes at most this share of the way to the meeting point, and the zone at most this share of a leaflet.
+// A commissure takes at most `most_of_way` of the way to the meeting point. The zone takes at most `most_coaptation` of a
+// leaflet's length.
 constexpr double most_of_way = 0.8, most_coaptation = 0.7;
-// The rates of the control points are differences over this step of the opening. The rates only determine where vertices are
-// dense.
+// The rates of the control points are differences over the step `rate_step` of the opening. The rates only determine where
+// vertices are dense.
 constexpr double rate_step = 1e-4;
 
 // Positions in the list of specs behind the leaflets' own sizes.
@@ -63,8 +65,8 @@ enum Parameter : std::size_t {
 };
 // clang-format on
 
-// The kinds have two leaflets or three. Leaflets have lengths, and with three leaflets the anterior one also has a share of the
-// annulus. The list of specs begins with these.
+// A kind has two or three leaflets. Each leaflet has a length, and of three leaflets the anterior leaflet also has a share of the
+// annulus. The list of specs begins with these sizes.
 class Sizes {
  public:
   Sizes(const ParameterValues &values, std::size_t n_leaflets) : n_leaflets_(n_leaflets), values_(values) {}
@@ -98,17 +100,18 @@ class Sizes {
 Vec3 level(Vec3 p) { return {p.x, p.y, 0}; }
 Vec3 unit(Vec3 p) { return (1 / length(p)) * p; }
 
-// A place of the annulus, and the horizontal direction inwards.
+// A place on the annulus, and the horizontal direction inwards.
 struct Hinge {
   Vec3 point, inwards;
 
-  // Returns the point at a distance, inwards and by an angle below the horizontal.
+  // Returns the point at a distance from the hinge. The direction is inwards, and below the horizontal by an angle.
   Vec3 hang(double distance, SineCosine angle) const {
     return point + distance * (angle.cosine * inwards - Vec3{0, 0, angle.sine});
   }
 };
 
-// The annulus in two laps, so that each leaflet is one part of it, and the places of the leaflets.
+// The annulus and the places of the leaflets. The annulus is stored twice in succession, so that each leaflet has one connected
+// part.
 class Annulus {
  public:
   Annulus(const std::array<Bezier, 4> &lap, const Vector<double> &commissures) : laps_(two_laps(lap)) {
@@ -127,7 +130,7 @@ class Annulus {
   }
 
   // Sets the point where all leaflets meet, seen along z. Commissures then lead towards this point, so that neighbours stay on
-  // their sides of one plane.
+  // opposite sides of one plane.
   void set_meeting(Vec3 at) {
     meeting_ = at;
     for (AtPlaces<Place> &leaflet : leaflets_)
@@ -168,7 +171,7 @@ struct Leaflet {
   AtPlaces<double> lift;      // of the bumps, when closed
 };
 
-// The control points are those of two cubics, which meet at the middle place. Returns the parts of these between the places.
+// The control points are those of two cubics, which meet at the middle place. Returns the parts of the cubics between the places.
 std::array<Bezier, n_cells> parts(const AtPlaces<Vec3> &q) {
   const auto [first, rest] = split(Bezier::cubic(q[0], q[1], q[2], q[3]), 1.0 / 3);
   const auto [fourth, rest_behind] = split(Bezier::cubic(q[3], q[4], q[5], q[6]), 1.0 / 3);
@@ -193,7 +196,8 @@ Vec3 meeting_point(const Sizes &sizes, const Annulus &annulus) {
   const auto hinge = [&](std::size_t leaflet) { return level(annulus.hinge(leaflet, middle).point); };
   const double apart = distance(hinge(0), hinge(1));
   if (sizes.n_leaflets() == 2) return mix(hinge(0), hinge(1), 0.5 * (1 + (sizes.length(0) - sizes.length(1)) / apart));
-  // Newton's method for |H - M| + overlap = length of the three leaflets. The differences of two equations leave out the overlap.
+  // Newton's method solves |H - M| + overlap = length for all three leaflets. Subtracting one equation from another removes the
+  // overlap.
   Vec3 at = 1.0 / 3 * (hinge(0) + hinge(1) + hinge(2));
   for (int step = 0; step < 30; ++step) {
     std::array<Vec3, 3> row{};
@@ -217,7 +221,7 @@ Annulus annulus_of(const Sizes &sizes) {
   return annulus;
 }
 
-// Closed, a free edge ends at this point of a commissure, and the coaptation line ends above it.
+// A closed free edge ends at this point of a commissure, and the coaptation line ends above the point.
 Vec3 end_of_edge(const Sizes &sizes, const Hinge &hinge) {
   return hinge.hang(sizes.of(commissure_length), sine_cosine_degrees(sizes.of(commissure_angle)));
 }
@@ -239,12 +243,13 @@ double closed_length(const Sizes &sizes, Vec3 hinge, Vec3 on_line) {
 Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, const Bumps &bumps) {
   const Vec3 hinge = annulus.hinge(k, middle).point, meeting = annulus.meeting();
   const Vec3 away = unit(level(hinge) - meeting);
-  // Three leaflets meet in straight lines to the commissures. Two meet in a smile, which is straight in the middle.
+  // Three leaflets meet along straight lines to the commissures. Two leaflets meet along a smile-shaped line, which is straight
+  // in the middle.
   const auto along = [&](std::size_t end) -> Vec3 {
     if (sizes.n_leaflets() == 2) return end == 0 ? Vec3{away.y, -away.x, 0} : Vec3{-away.y, away.x, 0};
     return unit(level(end_of_edge(sizes, annulus.hinge(k, end))) - meeting);
   };
-  // The leaflet keeps half the gap from these lines.
+  // The leaflet stays half the gap away from these lines.
   const double sine = std::min(length(cross(away, along(0))), length(cross(away, along(n_cells))));
   Vec3 on_line = meeting + 0.5 * sizes.of(gap) / sine * away - Vec3{0, 0, sizes.of(tenting_height)};
   const auto zone_below = [&] { return sizes.length(k) - closed_length(sizes, hinge, on_line); };
@@ -285,7 +290,7 @@ Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k
   return made;
 }
 
-// Open leaflets hang straight down from the annulus, with the lengths of the closed ones.
+// Open leaflets hang straight down from the annulus, with the lengths of the closed leaflets.
 Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, const Leaflet &closed) {
   const SineCosine down = sine_cosine_degrees(sizes.of(open_angle));
   AtPlaces<Vec3> edge;
@@ -304,11 +309,11 @@ Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, 
   return made;
 }
 
-// A leaflet first turns about its hinges, and then becomes straight. Lengths therefore run behind the angle; with equal progress,
-// neighbours would meet.
+// A leaflet first turns about its hinges, and then becomes straight. Lengths therefore change later than angles. If lengths and
+// angles changed at the same pace, neighbouring leaflets would meet.
 double behind(double share) { return share * share; }
 
-// A vector from a hinge swings from one state to another: the vector is blended, and so is its length.
+// Swings a vector about its hinge from one state to another: blends the two vectors, and gives the result the blended length.
 Vec3 swung(Vec3 from, Vec3 to, double share) {
   const Vec3 blended = riis::blend(from, to, share);
   const double size = length(blended);
@@ -322,9 +327,9 @@ double middle_length(const Leaflet &leaflet) {
          arc_length(meridian({0, 0, 0}, leaflet.start[middle], leaflet.turn[middle], on_line, on_edge));
 }
 
-// Returns the leaflet with every place at a share of its way. Each control point swings about its hinge. After that, the leaflet
-// is stretched so that its middle has its length. The stretch decreases towards the commissures. At last bumps lift the leaflet
-// along z, so that lifted leaflets keep as far apart as healthy ones, seen along z.
+// Returns the leaflet after every place has moved by a share of its way. Each control point swings about its hinge. After the
+// swing, the leaflet is stretched until its middle has the right length. The stretch decreases towards the commissures. Finally,
+// bumps lift the leaflet along z. Seen along z, lifted leaflets are thus as far apart as healthy leaflets.
 Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double> &shares) {
   Leaflet made = closed;
   for (std::size_t i = 0; i < n_places; ++i) {
@@ -347,7 +352,7 @@ Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double>
   return made;
 }
 
-// The curves of a leaflet, from the commissure before it to the commissure behind it.
+// The curves of a leaflet, from the commissure before it to the commissure after it.
 struct LeafletCurves {
   std::array<Bezier, n_cells> line, edge;
   AtPlaces<Bezier> meridians, zone;  // down to the coaptation line, and from there to the free edge
@@ -469,7 +474,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   return set;
 }
 
-// Refuses values that do not go together. The message names the size that is out of proportion.
+// Refuses values that do not fit together. The message names the size that is out of proportion.
 void check_values(const ParameterValues &values, const ValveKind &kind, std::size_t n_leaflets) {
   const Sizes sizes(values, n_leaflets);
   const auto name = [&](std::size_t position) { return kind.parameters[position].name.c_str(); };
@@ -587,13 +592,14 @@ ParameterSpec ratio_spec(const char *name, const char *description, double value
 
 }  // namespace
 
-// The outline seen along z is an ellipse whose flat side is nearer and flatter, by the flatness.
+// Seen along z, the outline is an ellipse with a flat side. A larger `flatness` makes the flat side flatter, and moves it nearer
+// to the middle.
 std::array<Bezier, 4> saddle_annulus(const SaddleAnnulus &annulus) {
   constexpr double circle = 0.5523;  // the reach of a cubic for a quarter of a circle, in radii
   const double sign = annulus.flat_side == FlatSide::at_positive_y ? 1 : -1, high = 0.5 * annulus.saddle_height;
   const double half = 0.5 * annulus.width, near = (0.5 - 0.12 * annulus.flatness) * annulus.depth,
                far = annulus.depth - near, reach = circle * half, flat_reach = (circle + 0.3 * annulus.flatness) * half;
-  // The outline's points are followed counter-clockwise. At each of them, the tangent is along x or along y.
+  // The outline passes these points counter-clockwise. At each point, the tangent is along x or along y.
   const std::array<Vec3, 4> at{
       {{0, sign * near, high}, {-sign * half, 0, -high}, {0, -sign * far, high}, {sign * half, 0, -high}}};
   const std::array<Vec3, 4> along{{{-sign, 0, 0}, {0, -sign, 0}, {sign, 0, 0}, {0, sign, 0}}};
@@ -608,8 +614,7 @@ std::array<Bezier, 4> saddle_annulus(const SaddleAnnulus &annulus) {
   return made;
 }
 
-// The kinds are made when they are first used, and they are never destroyed. The kinds thus serve during the whole life of the
-// process.
+// The kinds are made when they are first used, and are never destroyed, so they serve until the process ends.
 const ValveKind &mitral_coapting_valve_kind() {
   static const ValveKind &kind = *new_kind<2, mitral_coapting_valve_kind>(
       "mitral_coapting",

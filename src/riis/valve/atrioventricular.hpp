@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The annulus of the atrioventricular valves (docs/theory/atrioventricular.md, "Annulus").
-// In: its sizes. Out: four cubics.
+// The annulus consists of four cubics, which follow from its sizes.
 #pragma once
 
 #include <array>

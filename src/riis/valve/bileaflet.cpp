@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bileaflet mechanical valve. Two rigid flat leaflets in a round housing turn about their hinges (docs/theory/bileaflet.md).
-// In: the parameters of two states, the opening. Out: patches of two leaflets and, if ring_height is not 0, of the housing's
-// wall.
+// From the parameters of two states and the opening, this file makes the patches of the two leaflets. If ring_height is not 0, it
+// also makes the patches of the housing's wall.
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -82,7 +82,7 @@ struct Shape {
 };
 
 Shape blended(const ValveState &closed, const ValveState &open, double at) {
-  // Returns a value without blending if both states have it. A housing that does not move thus keeps its bits.
+  // If both states have the same value, returns this value without blending, so that a housing that does not move keeps its bits.
   const auto both = [&](Parameter parameter) {
     const double from = closed.values[parameter][0], to = open.values[parameter][0];
     return from == to ? from : blend(from, to, at);
@@ -121,7 +121,7 @@ class Turn {
   SineCosine closed_, now_;
 };
 
-// Every arc has this many spans. A quarter of a circle is then accurate to 1e-9 of its radius.
+// Every arc has `n_spans` spans. A quarter of a circle is then accurate to 1e-9 of its radius.
 constexpr int n_spans = 8;
 
 // Bounds the distance of an arc's spans from the circle, in radii. For a span of the angle a, the distance is 2/27 sin^6(a/4) /
@@ -134,8 +134,8 @@ double arc_deviation(double whole_angle) {
   return (1 + rounding) * (2.0 / 27.0) * cube * cube / (cosine * cosine);
 }
 
-// Returns the arc of a circle about the axis, from (radius, 0) to the point (last_x, last_y) of the circle, last_y > 0. `placed`
-// takes points of the plane, such as control points, to space.
+// Returns the arc of a circle about the axis, from (radius, 0) to the point (last_x, last_y) of the circle, where last_y > 0.
+// `placed` takes points of the plane, such as control points, to space.
 template <class ToSpace>
 Curve make_arc(double circle_radius, double whole_angle, double last_x, double last_y, const ToSpace &placed) {
   const double step = whole_angle / n_spans;
@@ -153,7 +153,7 @@ Curve make_arc(double circle_radius, double whole_angle, double last_x, double l
   Vector<Bezier> spans;
   for (int i = 0; i < n_spans; ++i) {
     const Point from = on_circle(i), to = on_circle(i + 1);
-    // The circle's tangent is the radius turned by 90 degrees.
+    // The tangent at a point of the circle is the point's radius vector, turned by 90 degrees.
     spans.push_back(Bezier::cubic(placed(from.x, from.y), placed(from.x - reach * from.y, from.y + reach * from.x),
                                   placed(to.x + reach * to.y, to.y - reach * to.x), placed(to.x, to.y)));
   }
@@ -200,7 +200,7 @@ void add_ring(const Shape &shape, PatchSet &set) {
   const Side bottom = arc_at(lower), top = arc_at(upper);
   const Side first = set.add(Bezier::line({R, 0, lower}, {R, 0, upper}));
   const Side last = set.add(Bezier::line({0, R, lower}, {0, R, upper}));
-  // u runs round the axis, and v runs downstream. S_u x S_v therefore points outwards.
+  // u runs around the axis, and v runs downstream. S_u x S_v therefore points outwards.
   Patch patch{bottom, top, first, last, {}};
   std::int32_t patch_id = 4;
   for (const bool is_turned : {false, true})

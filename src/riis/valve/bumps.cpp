@@ -13,7 +13,7 @@ namespace {
 
 constexpr double none = -1;
 
-// The parameters of one bump. The last one exists only with BumpLift::yes.
+// The parameters of one bump. Only bumps with BumpLift::yes have the last parameter.
 constexpr std::size_t n_parameters = 7;
 std::size_t n_parameters_of(BumpLift lift) { return lift == BumpLift::yes ? n_parameters : n_parameters - 1; }
 
@@ -37,7 +37,7 @@ std::array<ParameterSpec, n_parameters> specs_of_one(std::size_t n_leaflets) {
   }};
 }
 
-// A smooth hat: 1 at the place, 0 from the distance 1 on.
+// A smooth function that is 1 at the place, and 0 at distances of 1 and more.
 double hat(double distance) {
   const double inside = std::max(0.0, 1 - distance * distance);
   return inside * inside;

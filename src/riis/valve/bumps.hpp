@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bumps: disease at one place of a free edge (docs/theory/bumps.md). A bump changes how far the place opens, and nothing else.
-// In: the parameters of the bumps. Out: the states of any place between the valve's closed and open state.
+// The parameters of the bumps determine, for each place of the edge, states between the valve's closed and open state.
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@ inline constexpr std::size_t n_bumps = 6;
 
 enum class BumpLift : bool { no, yes };
 
-// Appends the parameters of all bumps, and returns the position of the first. Only bumps with BumpLift::yes have "lift".
+// Appends the parameters of all bumps, and returns the position of the first parameter. Only bumps with BumpLift::yes have
+// "lift".
 std::size_t add_bump_specs(Vector<ParameterSpec> &specs, std::size_t n_leaflets, BumpLift lift);
 
 // The closed and the open position of a place of a free edge. The two numbers are shares of the way of a healthy place: 0 at its

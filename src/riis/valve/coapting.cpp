@@ -31,21 +31,21 @@ enum OfCommissure { height, fusion, n_of_commissure };
 enum OfCusp { sector, own_effective_height, own_coaptation_height, own_open_radius_ratio, n_of_cusp };
 // clang-format on
 
-// An open free edge that does not hang must be shorter than this share of the closed free edge.
+// An open free edge that does not hang must be shorter than `most_of_edge` times the closed free edge.
 constexpr double most_of_edge = 0.998;
-// The free edge must stay this high above the root while the valve opens, times root_radius.
+// While the valve opens, the height of the free edge above the root must stay at least `least_height` times root_radius.
 constexpr double least_height = 0.05;
-// Every set of values is checked for folds of the cusps at these openings, because folds arise in the second half of the motion.
+// Every set of values is checked for folds of the cusps at four openings, because folds arise in the second half of the motion.
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
-// At the root, the leaflet must rise by this share of the rise of a leaflet without sag.
+// At the root, the leaflet must rise by at least `least_rise` times the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;
-// Fused commissures must leave an open orifice of this share of the area inside the commissures.
+// Fused commissures must leave an open orifice of at least `least_orifice` of the area inside the commissures.
 constexpr double least_orifice = 0.06;
-// The rates of the control points are differences over this step of the opening. The rates only determine where vertices are
-// dense.
+// The rates of the control points are differences over the step `rate_step` of the opening. The rates only determine where
+// vertices are dense.
 constexpr double rate_step = 1e-4;
 
-// The rules of sizes that were not set.
+// The rules for sizes that the caller did not set.
 using Rule = std::array<double, 3>;
 Rule commissure_radius_rule(const ParameterValues &values) { return {values[root_radius][0]}; }
 Rule commissure_height_rule(const ParameterValues &values) { return {1.4 * values[commissure_radius][0]}; }
@@ -65,7 +65,7 @@ void check_values(const ParameterValues &list);
 template <std::size_t n_cusps>
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
-// Appends a parameter of one cusp or commissure that has the value of the valve's own parameter until it is set.
+// Appends a parameter of one cusp or commissure. Until the parameter is set, it has the value of the valve's own parameter.
 void add_own(Vector<ParameterSpec> &specs, const std::string &owner, const char *name, Parameter of_valve) {
   ParameterSpec own = specs[of_valve];
   own.rule = {of_valve == commissure_height ? "commissure_height" : name, nullptr, of_valve};
@@ -186,7 +186,7 @@ class ValveValues {
       const double from_middle = (1 - made.fusion) * static_cast<double>(i) / 6;
       view(made.local)[i] = bumps_.at(k, is_first ? 0.5 + from_middle : 0.5 - from_middle);
     }
-    // A fused edge ends beside the commissure and moves with it.
+    // A fused edge ends beside the commissure and moves with the commissure.
     made.local.back() = bumps_.at(k, is_first ? 1 : 0);
     return made;
   }
@@ -234,7 +234,7 @@ Vector<Vector<HalfCusp>> halves_of(const CuspNumbers &cusp) {
   return halves;
 }
 
-// Returns the halves with the derivatives of the control points by the opening, as differences.
+// Returns the halves with the derivatives of their control points by the opening. The derivatives are computed as differences.
 Vector<MovingHalf> moving_halves(const CuspNumbers &closed, const CuspNumbers &open, double at) {
   const double from = std::max(at - rate_step, 0.0), to = std::min(at + rate_step, 1.0);
   const auto here = halves_of(blend(closed, open, at));
@@ -248,8 +248,8 @@ Vector<MovingHalf> moving_halves(const CuspNumbers &closed, const CuspNumbers &o
   return made;
 }
 
-// Refuses a cusp whose edge is too short to open or hangs too low, and one that folds. The closed and the open state are checked,
-// because one set of values defines both states.
+// Refuses a cusp whose edge is too short to open or hangs too low, and a cusp that folds. The closed and the open state are
+// checked, because one set of values defines both states.
 void check_cusp(const ValveValues &values, std::size_t k) {
   const CuspSizes sizes = values.sizes(k, values.has_equal_halves());
   const auto [closed, open] = end_states(sizes, sizes);
@@ -344,7 +344,7 @@ void check_values(const ParameterValues &list) {
   check_fusion(values);
 }
 
-// An open state has other sizes than the closed valve, but not other cusps.
+// An open state may have other sizes than the closed valve, but must have the same cusps.
 void check_same_cusps(const ValveValues &closed, const ValveValues &open) {
   for (std::size_t k = 0; k < closed.n_cusps(); ++k) {
     if (closed.sectors()[k] != open.sectors()[k])
@@ -387,8 +387,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 }  // namespace
 
-// The kinds are made when they are first used, and they are never destroyed. The kinds thus serve during the whole life of the
-// process.
+// The kinds are made when they are first used, and are never destroyed, so they serve until the process ends.
 const ValveKind &bicuspid_valve_kind() {
   static const ValveKind &kind = *new ValveKind(make_kind<2>("bicuspid", 0.1));
   return kind;

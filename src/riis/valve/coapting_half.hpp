@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The curves of half a coapting cusp (docs/theory/coapting.md).
-// In: its numbers, and how deep its free edge hangs. Out: its curves, without a crease along the coaptation line.
+// The curves follow from the numbers of the half and the depth of its free edge, and have no crease along the coaptation line.
 #pragma once
 
 #include "base/recycled.hpp"
@@ -10,12 +10,12 @@
 namespace riis {
 
 // The middle of the free edge hangs `depth` below the edge's end, at the height `low`. Depth and height are given, because the
-// two halves of a cusp have the same height to the last bit. Returns one part or, if the half is fused, the free and the fused
-// part.
+// two halves of a cusp must have the same height to the last bit. Returns one part or, if the half is fused, the free and the
+// fused part.
 Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double low);
 
-// Returns the least rise of the leaflet at the root. The unit is the rise of a leaflet without sag that has everywhere the length
-// of the symmetry curve. With a negative rise, the leaflet dips below its attachment and folds.
+// Returns the least rise of the leaflet at the root. The unit is the rise of a leaflet without sag whose length is everywhere the
+// length of the symmetry curve. With a negative rise, the leaflet dips below its attachment and folds.
 double rise_at_root(const Vector<HalfCusp> &parts);
 
 }  // namespace riis

@@ -27,8 +27,8 @@ Bezier profile_curve(const CuspProfile &profile, double height) {
                        last);
 }
 
-// Splits the curve at t. Replaces the common point by `point`, which must be on the curve except for rounding. At this
-// point, the curve therefore has the same bits as the ends of other curves.
+// Splits the curve at t. Replaces the common point by `point`, which must be on the curve up to rounding. At this point, the
+// curve therefore has the same bits as the ends of other curves.
 std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 point) {
   auto [below, above] = split(curve, t);
   view(below.control)[below.degree] = point;
@@ -71,7 +71,7 @@ SymmetrySides add_middle(PatchSet &set, const MovingHalf &half) {
 }
 
 // Adds the patches of all parts. The first part begins at `middle`. The last part ends at `commissure`, or at a side of its own.
-// `images` makes the images of a patch: 0 lower or 1 upper of the part with this number.
+// `images` makes the images of the lower patch (0) or of the upper patch (1) of the part with a number.
 template <class Images>
 void add_parts(PatchSet &set, const MovingHalf &half, const SymmetrySides &middle,
                const std::optional<Side> &commissure, const Images &images) {
@@ -108,13 +108,13 @@ MovingHalf turned(const MovingHalf &half, const PatchImage &image) {
   return {turn_all(half.parts), turn_all(half.rates)};
 }
 
-// Gives a half the middle of the other half. The half's own middle differs from the other middle by rounding only.
+// Gives a half the middle of the other half. Before this, the middles of the two halves differ by rounding only.
 void begin_at(HalfCusp &half, const HalfCusp &other) {
   half.leaflet.control[0] = other.leaflet.first();
   half.bending.control[0] = other.bending.first();
 }
 
-// Ends the curves at the commissure in this point. Their ends differ from the point by rounding only.
+// Moves the ends of the curves at the commissure to this point. The ends differ from the point by rounding only.
 void end_at(HalfCusp &half, Vec3 commissure) {
   for (Bezier HalfCusp::*curve : {&HalfCusp::leaflet, &HalfCusp::bending, &HalfCusp::sinus_below})
     view((half.*curve).control)[(half.*curve).degree] = commissure;
@@ -155,14 +155,13 @@ HalfCusp half_cusp(const CuspShape &shape) {
   half.leaflet = profile_curve(shape.leaflet, h_l);
   half.bending = profile_curve(shape.bending, h_b);
 
-  // The sinus curve is a quadratic. The sinus curve runs from the root point to the leaflet's end, and passes through the bending
-  // curve's end at s.
+  // The sinus curve is a quadratic from the root point to the leaflet's end, and passes through the bending curve's end at s.
   const Vec3 root{R, 0, 0}, L = half.leaflet.last(), B = half.bending.last();
   const Vec3 through = (1.0 / (2 * s * (1 - s))) * (B - (1 - s) * (1 - s) * root - s * s * L);
   std::tie(half.sinus_below, half.sinus_above) = split_through(Bezier::quadratic(root, through, L), s, B);
 
-  // The symmetry curve is a cubic. The symmetry curve runs from the root point to the leaflet's middle, and passes through the
-  // bending curve's middle at s.
+  // The symmetry curve is a cubic from the root point to the leaflet's middle, and passes through the bending curve's middle at
+  // s.
   const Vec3 b = half.bending.first(), D3 = half.leaflet.first();
   const Vec3 D1{0.5 * (R + b.x) + shape.xq * (R - b.x), 0, 0.5 * h_b + shape.zq * h_b};
   const double a = 1 - s;
@@ -245,7 +244,7 @@ void add_unequal_cusps(PatchSet &set, const Vector<UnequalCusp> &cusps, Vec3 shi
     placed.push_back({turned(cusp.halves[0], {Mirror::none, turn, {0, 0, 0}, 0, 0}),
                       turned(cusp.halves[1], {Mirror::in_y, turn, {0, 0, 0}, 0, 0})});
   }
-  // Each turn rounds differently, so one of two curves takes its end from the other.
+  // Each turn rounds differently, so one of two curves takes its end from the other curve.
   Vector<Side> commissures;
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const auto &[here, there] = placed[k];

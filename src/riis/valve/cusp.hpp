@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Half a semilunar cusp: its curves, the shape to which it opens, and its two patches (docs/theory/aortic.md).
-// In: lengths, angles and exponents of one cusp. Out: Bézier curves in the cusp's frame, and patches in a set.
+// Half a semilunar cusp: its curves, the shape to which it opens, and its two patches (docs/theory/aortic.md). The lengths,
+// angles and exponents of a cusp give Bézier curves in the cusp's frame. The curves give patches in a set.
 #pragma once
 
 #include <array>
@@ -44,12 +44,12 @@ struct HalfCusp {
 };
 HalfCusp half_cusp(const CuspShape &shape);
 HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);
-// Returns the derivatives of the control points with respect to the opening, from two states that are this far apart.
+// Returns the derivatives of the control points with respect to the opening, from two states whose openings differ by `apart`.
 HalfCusp rate(const HalfCusp &closed, const HalfCusp &open, double apart = 1);
 
-// Refuses curves that extend far away. Values that are each acceptable can together make such curves. Examples are a high
-// power with a long tangent, and a bending curve near the root. `state` and `cusp` begin the message, for example "" and "the
-// right cusp". `also` is the end of the message's list of parameters.
+// Refuses curves that extend far away. Values within their ranges can together make such curves: for example a high power with a
+// long tangent, or a bending curve near the root. `state` and `cusp` begin the message, for example "" and "the right cusp".
+// `also` is the end of the message's list of parameters.
 void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state, const char *cusp, const char *also);
 
 // The position of a cusp. The cusp is turned and then shifted. The id of its leaflet also numbers its patches.
@@ -60,29 +60,29 @@ struct CuspPlace {
 };
 
 // Half a cusp in parts that lie side by side from the symmetry plane to the commissure, with the rates of their curves. The sinus
-// curves of a part are the symmetry curves of the next one.
+// curves of a part are the symmetry curves of the next part.
 struct MovingHalf {
   Vector<HalfCusp> parts, rates;
 };
 
 // Adds the lower and the upper patch of each part. At each place, all patches get images for both halves of the cusp, with
-// y >= 0 first. The upper patch of the last part becomes the last of the set. The side v1 of this last patch is the free edge,
-// which ends at the commissure, u = 1. Patches of a second part have ids behind those of all places.
+// y >= 0 first. The upper patch of the last part becomes the last patch of the set. The side v1 of this last patch is the free
+// edge, which ends at the commissure, u = 1. The ids of patches of a second part follow the ids of the first parts at all places.
 void add_cusps(PatchSet &set, const MovingHalf &half, const Vector<CuspPlace> &places);
 inline std::size_t top_patch(const PatchSet &set) { return set.patches.size() - 1; }
 
-// Returns the places of equal cusps. Equal cusps follow each other round the axis, from the x axis on, and are then shifted.
+// Returns the places of equal cusps. Equal cusps follow each other around the axis, from the x axis on, and are then shifted.
 Vector<CuspPlace> equal_places(std::size_t n_cusps, Vec3 shift);
 // Sews the images of a patch of equal cusps together. The half y < 0 of each cusp meets the half y >= 0 of the cusp before it.
 void sew_equal_cusps(PatchSet &set, std::size_t patch, SeamPlace place);
 
-// A cusp that is not equal to its neighbours, or whose halves y >= 0 and y < 0 differ. Each half is given as for y >= 0.
+// A cusp that differs from its neighbours, or whose halves y >= 0 and y < 0 differ. Each half is given as for y >= 0.
 struct UnequalCusp {
   double turn_degrees;
   std::array<MovingHalf, 2> halves;
 };
-// Adds the patches of cusps that follow each other round the axis, with ids as of equal cusps. The halves of a cusp have their
-// middle in common, and neighbours their commissure, to the last bit.
+// Adds the patches of cusps that follow each other around the axis, with the ids that equal cusps have. To the last bit, the
+// halves of a cusp share their middle, and neighbours share their commissure.
 void add_unequal_cusps(PatchSet &set, const Vector<UnequalCusp> &cusps, Vec3 shift);
 
 }  // namespace riis

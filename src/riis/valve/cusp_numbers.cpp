@@ -14,16 +14,18 @@
 namespace riis {
 namespace {
 
-// The open free edge: how far the inner control point by the commissure hangs, as a share of the middle.
+// In the open free edge, the inner control point beside the commissure hangs `open_sag` times as deep as the middle.
 constexpr double open_sag = 1.0 / 3;
-// An edge that would be too short for open_radius_ratio opens until this share of its length is used, without sag.
+// An edge that would be too short for open_radius_ratio opens until `used_of_edge` of its length is used, without sag.
 constexpr double used_of_edge = 0.97;
-// The open edge leaves the commissure round, as an arc of a circle does, if it reaches this share of the arc's height.
+// The open edge leaves the commissure as an arc of a circle does, if it reaches `round_from` of the arc's height.
 constexpr double round_from = 0.7;
-// Equal cusps of three are always round. The edge of another cusp is the rounder, the less the cosine of its half sector differs
-// from an equal cusp's, up to this difference.
+// The edges of three equal cusps are always round. The edge of another cusp is less round, the more the cosine of its half sector
+// differs from the cosine of 60 degrees. If the cosines differ by `not_of_three` or more, the sector does not make the edge
+// round.
 constexpr double not_of_three = 0.22;
-// The attachment of a cusp with a wider sector, in degrees, has two pieces, because one cubic would leave the cylinder.
+// If a cusp has a sector of more than `most_of_one_piece` degrees, its attachment has two pieces, because one cubic would leave
+// the cylinder.
 constexpr double most_of_one_piece = 210;
 
 std::array<double, 4> blend(const std::array<double, 4> &from, const std::array<double, 4> &to, double share) {
@@ -33,7 +35,7 @@ std::array<double, 4> blend(const std::array<double, 4> &from, const std::array<
 }
 
 // Blends the numbers of two halves. Early in the motion, the leaflet becomes upright at the root and flatter beside the
-// commissure. With an even blend, the leaflet would fold beside the attachment.
+// commissure. If all numbers were blended evenly, the leaflet would fold beside the attachment.
 HalfNumbers blend(const HalfNumbers &a, const HalfNumbers &b, double opening) {
   const double early = opening * (2 - opening);
   const auto mixed = [&](double from, double to) { return riis::blend(from, to, opening); };
@@ -74,13 +76,13 @@ double arc_reach(double degrees) {
   return 4.0 / 3.0 * sine / cosine;
 }
 
-// The start tangent of an attachment of one cubic, in radii, whose middle lies on the cylinder.
+// The start tangent, in radii, with which the middle of a single-cubic attachment lies on the cylinder.
 double tangent_on_cylinder(double sine, double cosine) {
   const double middle = (1 + cosine) / 2;
   return 8.0 / 3 * (std::sqrt(1 - middle * middle) - sine / 2);
 }
 
-// Returns the parameter at which y of a curve has this value. It ascends along the curve.
+// Returns the parameter at which y of a curve has this value. y ascends along the curve.
 double parameter_at_y(const Bezier &curve, double y) {
   double low = 0, high = 1;
   for (int i = 0; i < 60; ++i) {
@@ -90,8 +92,8 @@ double parameter_at_y(const Bezier &curve, double y) {
   return low;
 }
 
-// Splits the closed half in a part that opens and a fused part. The middle of its edge is at the height `low`. The free and the
-// fused part meet in a vertical line of the zone.
+// Splits the closed half into a part that opens and a fused part. The middle of the half's edge is at the height `low`. The free
+// and the fused part meet in a vertical line of the zone.
 void fuse(HalfNumbers &half, double fusion, double low) {
   const HalfCusp whole = coapting_half(half, half.edge_top - low, low).front();
   const auto [free, fused] = split(whole.leaflet, 1 - fusion);
@@ -139,9 +141,9 @@ HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
   return half;
 }
 
-// Returns the closed numbers with the open free edge. The edge is round, like an arc of a circle seen along the axis. The
-// less an edge opens that is too short for an arc, the straighter it leaves the commissure. A fused edge is shorter than the arc,
-// and its straight direction leads to the inner control point at the middle.
+// Returns the numbers of the closed half with the free edge of the open half. Seen along the axis, the edge is round like an arc
+// of a circle. An edge that is too short for an arc leaves the commissure straighter, the less it opens. A fused edge is shorter
+// than the arc, and its straight direction leads to the inner control point at the middle.
 HalfNumbers with_open_edge(const CuspSizes &sizes, const CuspSizes::Side &side, const HalfNumbers &closed,
                            double ratio) {
   const HalfSector &sector = sizes.sector;
@@ -220,14 +222,15 @@ CuspNumbers open_cusp(const CuspSizes &sizes) {
 }  // namespace
 
 HalfSector half_sector(double sector_degrees) {
-  // The rounded root gives equal cusps of a valve of three the bits that they have always had.
+  // Three equal cusps take this rounded root as the sine of 60 degrees.
   const double sine_60 = std::sqrt(0.75), on_cylinder_60 = tangent_on_cylinder(sine_60, 0.5);
   if (sector_degrees == 120) return {sine_60, 0.5, 4.0 / 3.0 * (2 - std::sqrt(3.0)), 1, std::nullopt};
   const auto [sine, cosine] = sine_cosine_degrees(sector_degrees / 2);
   HalfSector made{sine, cosine, arc_reach(sector_degrees / 2), tangent_on_cylinder(sine, cosine) / on_cylinder_60,
                   std::nullopt};
   if (sector_degrees > most_of_one_piece) {
-    // The arc ends at the middle of the one cubic. The second piece is built as the one cubic of a narrower cusp.
+    // The arc ends at the middle of the single cubic. After the arc, the attachment continues with a cubic, which is built like
+    // the single cubic of a narrower cusp.
     const double arc_cosine = (1 + cosine) / 2, arc_sine = std::sqrt(1 - arc_cosine * arc_cosine);
     const double on_cylinder =
         tangent_on_cylinder(sine * arc_cosine - cosine * arc_sine, cosine * arc_cosine + sine * arc_sine);
@@ -267,9 +270,9 @@ EdgeLength::Value EdgeLength::at(double depth) const {
   return value;
 }
 
-// The length grows with the depth, and it is convex. Newton's method starts at too large a depth. The method therefore comes down
-// to the solution and never passes the solution. A half is at least as long as the line between its ends. The start is therefore
-// deep enough if one half alone has the whole length there.
+// The length is a growing and convex function of the depth. Newton's method starts at a depth that is too large. Newton's method
+// therefore descends to the solution and never passes it. A half is at least as long as the line between its ends. At the
+// starting depth, the line of one half alone has the whole length, so this depth is large enough.
 double edge_depth(const CuspNumbers &cusp) {
   Vector<EdgeLength> halves(cusp.begin(), cusp.end());
   const double wanted = total_length(cusp), first_top = cusp.front().edge_top;

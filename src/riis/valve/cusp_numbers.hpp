@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers that change as a coapting cusp opens, and the length of its free edge (docs/theory/coapting.md).
-// In: the sizes of a cusp. Out: its numbers in the closed and in the open state and between them, and the depth of its edge.
+// The numbers that change as a coapting cusp opens, and the length of its free edge (docs/theory/coapting.md). The sizes of a
+// cusp give its numbers in the closed state, in the open state and between these states, and the depth of its free edge.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ inline constexpr std::array<Abscissa, 4> gauss_4{{{0.06943184420297371239, 0.173
                                                   {0.66999052179242813240, 0.32607257743127307131},
                                                   {0.93056815579702628761, 0.17392742256872692869}}};
 
-// The first piece of the attachment of a wide cusp: an arc of this angle from the symmetry plane.
+// The arc with which the attachment of a wide cusp begins at the symmetry plane, given by the arc's angle.
 struct AttachmentArc {
   double sine, cosine;
   double reach;  // the length of its end tangents, divided by the second piece's start tangent
@@ -34,14 +34,14 @@ inline constexpr double least_sector = 50, most_sector = 240;
 // Half of a cusp's sector: the angle theta from its symmetry plane to a commissure.
 struct HalfSector {
   double sine, cosine;
-  // The distance of the inner control points from the ends of a cubic that approximates an arc of theta, in radii.
+  // In a cubic that approximates an arc of theta, the distance of the inner control points from the ends, in radii.
   double arc_reach;
   double attachment_factor;  // factor of the attachment's start tangent, which keeps its middle on the cylinder
   std::optional<AttachmentArc> arc;
 };
 HalfSector half_sector(double sector_degrees);
 
-// The sizes of a cusp. Lengths are the parameters of these names.
+// The sizes of a cusp. Lengths are the parameters with the same names.
 struct CuspSizes {
   HalfSector sector;
   double root_radius, commissure_radius, effective_height, coaptation_height, gap, bottom_angle, belly, edge_rise;
@@ -57,8 +57,8 @@ struct CuspSizes {
   Vector<Side> sides;  // y >= 0 and y < 0, or one side for both
 };
 
-// The part of half a cusp that is fused to the neighbour and stays as in the closed valve. The edge leads from the end of the
-// free edge to the commissure, and the coaptation line from the point below this end.
+// The part of half a cusp that is fused to the neighbour and stays as in the closed valve. The fused edge leads from the end of
+// the free edge to the commissure. The coaptation line begins below the end of the free edge.
 struct FusedPart {
   Bezier edge, line;
   Vec3 commissure;  // of the closed valve
@@ -84,14 +84,14 @@ struct HalfNumbers {
   std::optional<FusedPart> fused = {};
 };
 
-// The halves of a cusp in the order of its sides. All halves have one middle.
+// The halves of a cusp in the order of its sides. All halves share one middle.
 using CuspNumbers = Vector<HalfNumbers>;
 
 // Blends the numbers of two states.
 CuspNumbers blend(const CuspNumbers &a, const CuspNumbers &b, double opening);
 
 // The length of half a free edge as a function of the depth of its middle below its end. A fixed quadrature rule computes this
-// length, and thus makes it a smooth function of the cusp.
+// length, so the length is a smooth function of the cusp's sizes.
 class EdgeLength {
  public:
   explicit EdgeLength(const HalfNumbers &half);
@@ -111,20 +111,20 @@ class EdgeLength {
   double chord_;
 };
 
-// Returns how far the middle of the free edge hangs below the end of the first half, so that all halves together have their
-// length. The halves must be at least as long as at depth 0.
+// Returns how far the middle of the free edge hangs below the end of the first half. At the returned depth, all halves together
+// have the length that is given for them. The halves must be at least as long as at depth 0.
 double edge_depth(const CuspNumbers &cusp);
 // Returns the length of the free edge whose middle is as high as its lower end.
 double least_edge_length(const CuspNumbers &cusp);
 
-// Returns the area between the free edge and the axis, seen along the axis, of all halves.
+// Returns the area between the free edges of all halves and the axis, seen along the axis.
 double area_inside(const CuspNumbers &cusp);
 
-// Returns the lower part of the symmetry curve. The curve ends at `end`. Its direction there is `up`, the vector from `end` to
-// the free edge.
+// Returns the lower part of the symmetry curve. The curve ends at `end`. At `end`, the curve has the direction `up`, the vector
+// from `end` to the free edge.
 Bezier symmetry_curve(const HalfNumbers &half, Vec3 end, Vec3 up);
 
-// The states between which a cusp moves: its closed and its open state or, at a bump, states between these.
+// The states between which a cusp moves: its closed and its open state. At a bump, the end states lie between these two states.
 struct EndStates {
   CuspNumbers closed, open;
 };

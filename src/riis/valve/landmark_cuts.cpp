@@ -12,12 +12,12 @@
 namespace riis {
 namespace {
 
-// A landmark lies on a curve if it is at most this share of the curve's length away.
+// A landmark lies on a curve if its distance is at most `share_on_curve` of the curve's length.
 constexpr double share_on_curve = 0.01;
-// A curve is not cut nearer than this to the end of a span or to another cut, in the span's parameter. The warped curve has the
-// right point and direction at a landmark, so the curve beside the landmark is also right.
+// In the span's parameter, a cut has at least the distance `least_part` from the ends of the span and from other cuts. The warped
+// curve has the right point and direction at a landmark, so the curve beside the landmark is also right.
 constexpr double least_part = 1.0 / 256;
-// The nearest point of a span is sought beside the best of this number of even steps.
+// The nearest point of a span is searched beside the best of `n_search_steps` even steps.
 constexpr int n_search_steps = 16;
 
 double polygon_length(const Bezier &span) {
@@ -47,7 +47,7 @@ double nearest_parameter(const Bezier &span, Vec3 p) {
   }
   constexpr double step = 1.0 / n_search_steps;
   double low = std::max(0.0, t - step), high = std::min(1.0, t + step);
-  // The derivative of half of the squared distance changes its sign between both ends, or the nearest point is an end.
+  // Either the derivative of half of the squared distance changes its sign between the ends, or the nearest point is an end.
   for (int i = 0; i < 60 && high - low > 1e-15; ++i) {
     const auto d = derivatives(span, t);
     const Vec3 apart = evaluate(span, t) - p;
@@ -63,7 +63,7 @@ double nearest_parameter(const Bezier &span, Vec3 p) {
 
 bool is_before(const PointOnSpan &a, const PointOnSpan &b) { return a.span != b.span ? a.span < b.span : a.t < b.t; }
 
-// Adds a cut to an ascending list, unless it is too near another cut.
+// Adds a cut to an ascending list if no other cut is too near.
 void add_cut(Vector<PointOnSpan> &cuts, const PointOnSpan &cut) {
   const auto at = std::lower_bound(cuts.begin(), cuts.end(), cut, is_before);
   const auto is_too_near = [&](const PointOnSpan &other) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cuts of a valve's curves at landmarks (docs/theory/warp.md, "Warped valves").
-// In: patches before a warp, the landmarks of a map. Out: where the curves are cut before they are warped.
+// The landmarks of a map determine where the curves of the patches are cut before they are warped.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 namespace riis {
 
 // The places at which landmarks lie on the curves of a valve. A warped curve is cut there, so that it meets the map's landmarks.
-// The places are found at rest, so they move neither with the warp's targets nor with the opening.
+// The places are found at rest, so they do not depend on the warp's targets or on the opening.
 class LandmarkCuts {
  public:
   // Adds the landmarks of a map that lie on the curves of this state. All states must have the same build.
@@ -28,8 +28,8 @@ class LandmarkCuts {
   Vector<Vector<PointOnSpan>> on_sides_;
 };
 
-// Returns the cuts of each copy. Two patches may share a curve in one state only, so each side has cuts of its own. A copy takes
-// the cuts of all its sides.
+// Returns the cuts of each copy. Two patches may share a curve in one state only, so each side has cuts of its own. A copy of a
+// curve has the cuts of all sides that use the copy.
 Vector<Vector<PointOnSpan>> cuts_by_copy(Unfolding &unfolding, const LandmarkCuts &cuts);
 
 // Returns the spans, or their rates, with each cut span replaced by its parts.

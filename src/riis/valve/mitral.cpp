@@ -188,7 +188,7 @@ HalfValve blend(const HalfValve &closed, const HalfValve &open, double opening) 
   return half;
 }
 
-// Checks lengths against the depth of the annulus.
+// Compares lengths with the depth of the annulus.
 void check_values(const ParameterValues &values) {
   const Vector<ParameterSpec> &specs = mitral_valve_kind().parameters;
   const Reference depth{"AP_diameter", values[AP_diameter][0]};
@@ -318,7 +318,7 @@ std::array<Bezier, 3> half_annulus(const MitralAnnulus &annulus) {
 }
 
 const ValveKind &mitral_valve_kind() {
-  // The kind is made when it is first used, and it is never destroyed. The kind thus serves during the whole life of the process.
+  // The kind is made when it is first used, and is never destroyed, so it serves until the process ends.
   static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::vertical));
   return kind;
 }

@@ -40,11 +40,11 @@ inline Vec3 place(const PatchImage &image, Vec3 p) {
          image.translation;
 }
 
-// Returns the image without its translation, which places directions.
+// Returns the image without its translation. The result places directions.
 inline PatchImage turn_of(const PatchImage &image) { return {image.mirror, image.rotation, {0, 0, 0}, 0, 0}; }
 
 // A curve as the side of a patch. The curve is given by its position in PatchSet::curves, and runs from its first point or from
-// its last.
+// its last point.
 struct Side {
   std::size_t curve;
   bool reversed = false;
@@ -66,7 +66,7 @@ struct Patch {
   Side v0, v1, u0, u1;
   Vector<PatchImage> images;
   // The factor of a patch of arcs, or 0. If it is 0, the patch is the Coons patch of its sides. With another factor it is the
-  // patch of arcs from v0 to v1 with this factor (geometry/bulge.hpp), and u0 and u1 must be such arcs.
+  // patch of arcs from v0 to v1 with this factor (geometry/bulge.hpp), and u0 and u1 must be arcs with this factor.
   double bulge = 0;
   AttachedSide attached = AttachedSide::none;
   AxisLine axis = {{0, 0, 0},
@@ -81,8 +81,8 @@ struct Patch {
 enum class SeamPlace : std::uint8_t { corner, side_v1, side_u1 };  // the corner is u = v = 1
 
 // Two images, of one patch or of two patches, that have points in common. Before both images are placed, these points are the
-// same points of the patches. The image `image` takes these points from the image `twin`, because to turn both images
-// separately would round differently.
+// same points of the patches. The image `image` takes these points from the image `twin`, because turning both images separately
+// would round differently.
 struct Seam {
   std::size_t patch, image, twin;
   SeamPlace place;
@@ -94,12 +94,12 @@ struct Seam {
   }
 };
 
-// A curve of a warped valve follows the points of the original curve. At this many even shares of the original
-// curve's length, from its first to its last point, these points are known.
+// A curve of a warped valve follows the points of the original curve. These points are known at `n_material` evenly spaced shares
+// of the original curve's length, ends included.
 inline constexpr std::size_t n_material = 7;
 constexpr double material_share(std::size_t k) { return static_cast<double>(k) / (n_material - 1); }
 
-// The places to which the map takes these points, and the corresponding points of the warped curve. The warped curve
+// The places to which the map takes points of a curve, and the corresponding points of the warped curve. The warped curve
 // approximates the mapped curve at equal parameters.
 struct MaterialPoints {
   std::array<Vec3, n_material> mapped;
@@ -134,9 +134,9 @@ struct AttachedEnd {
   std::size_t patch;
   bool is_last;
 };
-// Two such ends of different leaflets that are neighbours but are not joined. Round the axis of the attachment, one side ends
-// where the next side begins. Some valves have skirts that are turned at such ends only after a warp. Such valves have the turns,
-// in radians, by which their skirts would be turned at both ends before the warp.
+// Two ends of attached sides that are neighbours but are not joined, because they belong to different leaflets. Around the axis
+// of the attachment, one side ends where the next side begins. In some valves a skirt is turned at such ends only after a warp.
+// Such valves store the angles, in radians, by which the skirt would be turned at both ends before the warp.
 struct NeighbourEnds {
   AttachedEnd before, after;
   std::optional<std::array<double, 2>> turns_at_rest = {};
@@ -151,14 +151,14 @@ struct PatchSet {
   Vector<Curve> curves;
   Vector<Patch> patches;
   Vector<Seam> seams = {};  // at most one for each image
-  // Bounds the Hausdorff distance of the patches from the valve's shape. This bound is not 0 if curves approximate arcs of
+  // Bounds the Hausdorff distance of the patches from the valve's shape. The bound is not 0 if curves approximate arcs of
   // circles.
   double deviation = 0;
   // The derivatives of the spans' control points with respect to the opening, or nothing if the valve does not blend control
-  // points. The list serves the first curves. The curves of a skirt come after these and have no entry.
+  // points. The list has entries for the first curves. The curves of a skirt come later and have no entry.
   Vector<Vector<Bezier>> rates = {};
-  // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. On these lines
-  // equal shares stand for the same points without an entry.
+  // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. These lines need
+  // no entry, because equal shares of their lengths stand for the same points.
   Vector<std::optional<MaterialPoints>> material = {};
   // Only warped patches have this list. For each patch, the list says to which places the map takes points inside the patch.
   Vector<MappedInside> mapped_inside = {};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rim of a valve: the sides that a patch shares neither with another patch nor with another image of a patch. An image is a
-// turned or mirrored copy.
-// In: patches; an edge of a triangle. Out: the sides on the rim, and whether the edge lies on one of them.
+// The rim of a valve: the sides that only one image of one patch has. An image is a turned or mirrored copy.
+// This file finds the sides on the rim, and tells whether an edge of a triangle lies on the rim.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,7 @@
 namespace riis {
 
 // Bits of an entry of TriangleSet::rim_sides. The bit free_v1 marks a side v1 of only one patch of the leaflet. The marked side
-// is a part of the leaflet's free edge, even if closed leaflets meet in it. A skirt has no free edge. The bit `held` marks a
+// is a part of the leaflet's free edge, even if closed leaflets meet there. A skirt has no free edge. The bit `held` marks a
 // patch whose attached side belongs to no other patch, except perhaps to a skirt.
 enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8, free_v1 = 16, held = 32 };
 

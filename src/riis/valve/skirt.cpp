@@ -15,24 +15,26 @@
 namespace riis {
 namespace {
 
-// A skirt of one length has this many parts on each side of a patch. The outer edge is then accurate to a thousandth of the
+// A skirt of one length has `n_even_parts` parts on each side of a patch. The outer edge is then accurate to a thousandth of the
 // length (tests/surface/test_skirt.c).
 constexpr std::size_t n_even_parts = 8;
-// Two ends of cusps that are not joined are neighbours if their distance is at most this multiple of the longest side.
+// Two ends of cusps that are not joined are neighbours if their distance is at most `most_between_ends` times the longest side.
 constexpr double most_between_ends = 0.5;
 // The line through two neighbouring ends has an angle to the outward direction. If the angle's sine is in this range, the skirts
-// lead along the line. The sine is positive if the ends have passed each other. Outside of the range, the sine falls back to 0.
+// lead along the line. The sine is positive if the ends have passed each other. Outside of the range, the sine that is used falls
+// back to 0.
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
-// The sine also falls to 0 if the sine of the line's angle to the axis is below this.
+// The sine that is used also falls to 0 if the sine of the line's angle to the axis is below `least_sine_to_axis`.
 constexpr double least_sine_to_axis = 0.2;
-// If the sine of a side's angle to the plane across the axis is at least this, the skirt leans as the side's tangent does. Beside
-// a flatter side it leans less, and beside a side in that plane it does not lean.
+// If the sine of a side's angle to the plane across the axis is at least `least_rise`, the skirt leans as the side's tangent
+// does. Beside a flatter side the skirt leans less, and beside a side in the plane across the axis the skirt does not lean.
 constexpr double least_rise = 0.5;
-// A skirt that is turned at rest keeps its place, up to this turn by the warp. In between it goes over.
+// If a skirt is turned at rest, small turns by the warp are added to its place at rest. If the warp turns the skirt by
+// `most_turn_as_at_rest` or more, the whole turn counts. In between, the skirt changes gradually from one rule to the other.
 constexpr double most_turn_as_at_rest = pi / 4;
-// A disc about the axis has this many corners when it is warped.
+// A disc about the axis has `n_corners` corners when it is warped.
 constexpr int n_corners = 24;
-// The derivative of a direction that was turned is a difference over two such shares of the length.
+// The derivative of a turned direction is a difference over two steps of `direction_step` times the length.
 constexpr double direction_step = 1e-4;
 
 Vec3 without_placement(const PatchImage &image, Vec3 p) {
@@ -65,8 +67,8 @@ Vector<Step> steps_of_attachment(const PatchSet &set, const Vector<HeldSide> &si
     const Vector<Step> of_side = steps_of(along(set, held.side));
     for (const PatchImage &image : set.patches[held.patch].images) {
       const PatchImage turn = turn_of(image);
-      // Triangles are turned over in a mirror image, and in a patch that a warp made of one. In such a patch the sides run the
-      // other way.
+      // Triangles are turned over in a mirror image, and in a patch that a warp has made of a mirror image. In a patch made of a
+      // mirror image, the sides run in the opposite direction.
       const double sign = points_upstream(image) ? -1 : 1;
       for (const Step &step : of_side) steps.push_back({place(image, step.at), sign * place(turn, step.by)});
     }
@@ -74,16 +76,16 @@ Vector<Step> steps_of_attachment(const PatchSet &set, const Vector<HeldSide> &si
   return steps;
 }
 
-// Returns the axis of a patch as an image has it.
+// Returns the axis of a patch after an image is placed.
 AxisLine placed(const AxisLine &axis, const PatchImage &image) {
   return {place(image, axis.centre), place(turn_of(image), axis.direction)};
 }
 
 bool are_equal(const AxisLine &a, const AxisLine &b) { return a.centre == b.centre && a.direction == b.direction; }
 
-// Returns the line that the map makes of an axis. The attachment's steps lie about the axis. A disc about the axis, at the
-// points' mean height and as wide as the points on average, becomes a warped disc. The middle and the vector area of the warped
-// disc give the line.
+// Returns the line to which the map takes an axis. `steps` has points of the attachment around the axis. The map warps a disc
+// about the axis, whose height and radius are the points' mean height and mean radius. The middle and the vector area of the
+// warped disc give the line.
 AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const BlendedWarp &warp) {
   double whole = 0, height = 0, radius = 0;
   for (const Step &step : steps) {
@@ -110,7 +112,7 @@ AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const Blen
 }
 
 // Returns the line through the centroid of the attachment. The line of a vertical axis is vertical, and each other line leads
-// along the attachment's vector area. A direction has length 0 if the attachment encloses no area, and otherwise length 1.
+// along the attachment's vector area. The direction has length 0 if the attachment encloses no area, and otherwise length 1.
 AxisLine axis_of_attachment(const PatchSet &set, const Vector<HeldSide> &sides, SkirtAxis axis) {
   const Vector<Step> steps = steps_of_attachment(set, sides);
   double whole = 0;
@@ -185,8 +187,8 @@ class SkirtMaker {
     return found->second;
   }
 
-  // For each step, returns the growth of the length at one of the shares. Between two shares, the length then stays between the
-  // lengths at the shares, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
+  // Returns the derivative of the length at one of the shares, per step between shares. Between two shares, the length then stays
+  // between the lengths at the shares, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
   static double growth_at(const Vector<double> &lengths, std::size_t i) {
     const double before = i == 0 ? 0 : lengths[i] - lengths[i - 1];
     const double after = i + 1 == lengths.size() ? 0 : lengths[i + 1] - lengths[i];
@@ -231,7 +233,7 @@ class SkirtMaker {
     return Curve(std::move(spans));
   }
 
-  // Returns the material points of the outer side. The outer points lie outwards of the inner side's points.
+  // Returns the material points of the outer side. The outer points lie outwards from the inner side's points.
   MaterialPoints material_of_outer(const Curve &inner, const Side &side, const Curve &outer) const {
     const MaterialPoints &given = *set_.material[side.curve];
     const MaterialPoints points = side.reversed ? given.reversed(inner.spans().size()) : given;
@@ -304,7 +306,7 @@ Vector<PlacedEnd> placed_ends(const PatchSet &set, const Vector<HeldSide> &sides
       for (const bool is_last : {false, true}) {
         const PatchImage &image = patch.images[i];
         const bool is_last_of_curve = is_last != held.side.reversed;
-        // As seen along the axis, the side of a patch that points upstream runs the other way round.
+        // If a patch points upstream, its side runs in the opposite sense around the axis.
         places.push_back({{first_number[held.patch] + i, is_last},
                           place(image, is_last_of_curve ? curve.last() : curve.first()),
                           image.leaflet_id,
@@ -486,7 +488,8 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
 }
 
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp) {
-  // Sides about one line keep one line, so that strips meet. Cusps with own lines at rest get own lines after the warp.
+  // Sides that have the same line at rest also have the same line after the warp, so that strips meet. Cusps with separate lines
+  // at rest get separate lines after the warp.
   struct Group {
     AxisLine axis;
     Vector<Step> steps;

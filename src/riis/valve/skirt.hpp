@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The skirt of a valve: a strip that leads outwards from the attachment to the wall (docs/theory/skirt.md).
-// In: the patches of a valve, the length of the skirt. Out: the same patches and the patches of the skirt.
+// The skirt of a valve: a strip that leads outwards from the attachment to the wall (docs/theory/skirt.md). The patches of the
+// skirt are added to the patches of the valve.
 #pragma once
 
 #include <array>
@@ -24,8 +24,9 @@ enum class SkirtAxis : std::uint8_t {
 
 // Gives every attached patch its axis.
 void aim_skirt(PatchSet &set, SkirtAxis axis);
-// Gives every attached patch of a warped valve the line that the map makes of its axis before the warp. `at_rest` has the patches
-// before the warp, with their axes. The identity keeps all axes, and a map without scale turns them as a placement does.
+// Gives every attached patch of a warped valve the line to which the map takes its axis before the warp. `at_rest` has the
+// patches before the warp, with their axes. The identity keeps all axes, and a map without scale turns the axes as a placement
+// does.
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp);
 
 // A side at which a patch is attached. No other patch has this side.
@@ -42,11 +43,11 @@ using SkirtLengths = Vector<Vector<double>>;
 inline constexpr std::size_t n_skirt_parts = 32;  // parts of each side with such lengths
 
 // Returns the attached ends of different leaflets that are neighbours but not joined, such as two aortic cusps at a commissure.
-// Numbers the patches as they are after a warp, where each image is a patch of its own. With `wants_turns`, the ends have their
-// turns before the warp. The patches must then have their axes.
+// Patches are numbered as after a warp, where each image is a patch of its own. With `wants_turns`, the ends also get their turns
+// before the warp. The patches must then have their axes.
 Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns);
 
-// An end of a side, with the unit tangent there. The sign of the tangent does not matter.
+// An end of a side, with the unit tangent there, which may point either way along the side.
 struct SideEnd {
   Vec3 point, tangent;
 };
@@ -56,8 +57,8 @@ struct SideEnd {
 // continuously on the points and the tangents.
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after);
 
-// The direction in which a skirt leads away from its attachment. This direction is outwards from the axis, except near
-// neighbouring ends.
+// The direction in which a skirt leads away from its attachment. A skirt leads outwards from the axis, except near neighbouring
+// ends.
 class SkirtDirections {
  public:
   SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides);
@@ -76,23 +77,24 @@ class SkirtDirections {
   Vector<std::array<End, 2>> ends_;  // for each side: its first and its last end
 };
 
-// Returns the mean distance of the attachment from its axis. Fails with RIIS_INVALID_PARAMETER unless every side has an outward
+// Returns the mean distance of the attachment from its axis. Fails with RIIS_INVALID_PARAMETER if a side has no outward
 // direction.
 double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides);
-// The least and the largest length of a skirt, in such distances.
+// The least and the largest length of a skirt, as multiples of attachment_radius.
 inline constexpr double least_skirt = 1e-4, most_skirt = 10;
-// The least length of a skirt to a wall, in such distances. The vertices of the outer edge are at even shares of the edge's
-// length, and thus not exactly beside the attachment's vertices. A thinner strip along a round attachment would go through
-// itself.
+// The least length of a skirt to a wall, as a multiple of attachment_radius. The vertices of the outer edge are at even shares of
+// the edge's length, and thus not exactly beside the attachment's vertices. A thinner strip along a round attachment would go
+// through itself.
 inline constexpr double least_skirt_to_wall = 0.01;
 
 // Returns the unit vector from the axis through the point, perpendicular to the axis. The vector is 0 if the point is on the
 // axis.
 Vec3 outwards(const AxisLine &axis, Vec3 point);
 
-// Adds the patches of a skirt. If `lengths` is empty, the length is `length`. The patches continue the leaflets outwards. Their
-// leaflet_id is skirt_leaflet, and their patch_id is the patch_id of the leaflet's patch plus the number of these ids. Fails with
-// RIIS_INVALID_PARAMETER for an attachment without an outward direction, and for a length that does not fit the attachment.
+// Adds the patches of a skirt. If `lengths` is empty, the length is `length`. The patches continue the leaflets outwards. The
+// patches of a skirt have the leaflet_id skirt_leaflet. Their patch_id is the patch_id of the leaflet's patch plus the number of
+// the leaflets' patch ids. Fails with RIIS_INVALID_PARAMETER for an attachment without an outward direction, and for a length
+// that does not fit the attachment.
 void add_skirt(PatchSet &set, double length, const SkirtLengths &lengths);
 
 // Returns the leaflet_id that a skirt of these patches has.

@@ -22,7 +22,7 @@ enum Parameter {
 // Half the angle of a cusp in degrees, from its symmetry plane to the end of its free edge.
 constexpr double half_angle = 60;
 
-// The rules for sizes that the caller did not set. If other sizes change without these, the cusps cross
+// The rules for sizes that the caller did not set. If other sizes change without these sizes, the cusps cross
 // (docs/theory/trileaflet.md).
 using Rule = std::array<double, 3>;
 Rule bending_height_rule(const ParameterValues &values) { return {0.5 * values[leaflet_height][0]}; }
@@ -109,7 +109,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   const Vec3 shift = riis::blend(vector_of(closed.values[translation]), vector_of(open.values[translation]), opening);
   PatchSet set;
   add_cusps(set, {{blend(closed_half, open_half, opening)}, {rate(closed_half, open_half)}}, equal_places(3, shift));
-  // At opening 0 sews the cusps together along their free edges, otherwise only at the commissures.
+  // At opening 0 the cusps are sewn together along their free edges. At other openings they are sewn together only at the
+  // commissures.
   sew_equal_cusps(set, top_patch(set), opening == 0 ? SeamPlace::side_v1 : SeamPlace::corner);
   return set;
 }
@@ -117,7 +118,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }  // namespace
 
 const ValveKind &trileaflet_valve_kind() {
-  // The kind is made when it is first used, and it is never destroyed. The kind thus serves during the whole life of the process.
+  // The kind is made when it is first used, and is never destroyed, so it serves until the process ends.
   static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::of_cusp));
   return kind;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patches whose images are patches of their own, because a warp has no symmetry (docs/theory/warp.md, "Warped valves").
-// In: patches with images. Out: the same patches with one image each, and the copies of curves that they need.
+// Patches whose images are patches of their own, because a warp has no symmetry (docs/theory/warp.md, "Warped valves"). This file
+// makes the copies of curves that patches with one image each need.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's own valve, given by boundary curves with control points, and by patches with four sides. In: arrays as in
-// riis_patches, which this file checks completely. Out: a patch set, and the kind for valves from patches.
+// The caller's own valve, given by boundary curves with control points, and by patches with four sides. This file checks the
+// arrays of riis_patches completely, and makes a patch set. This file also has the kind for valves from patches.
 #pragma once
 
 #include <riis/riis.h>
@@ -20,14 +20,15 @@ PatchSet patches_from_arrays(const riis_patches &arrays);
 const ValveKind &patches_valve_kind();
 
 // The patches of a valve in arrays, as callers read them.
-// In: patches. Out: arrays in the layout of riis_valve_patches.
+// The arrays have the layout of riis_valve_patches.
 struct PatchArrays {
   std::vector<std::int64_t> first_span;
   std::vector<std::int32_t> degree, curve_id, reversed, leaflet_id, patch_id, attached;
   std::vector<double> control, bulge;
 };
 
-// Every image becomes a patch of its own. Patches that point upstream are exchanged at u, so that S_u x S_v points downstream.
+// Every image becomes a patch of its own. In patches that point upstream u runs the other way, so that S_u x S_v points
+// downstream.
 PatchArrays arrays_of(const PatchSet &set);
 // Returns pointers to the arrays, which are valid as long as the arrays.
 riis_valve_patches view_of(const PatchArrays &arrays);

@@ -18,7 +18,7 @@ namespace {
 // Shortens a name for a message, because it may have any length.
 std::string_view shown(std::string_view name) { return name.substr(0, 80); }
 
-// Returns the part of a name behind the leaflet's name.
+// Returns the part of a name after the leaflet's name.
 std::string_view without_leaflet(std::string_view name) {
   const std::size_t dot = name.rfind('.');
   return dot == std::string_view::npos ? name : name.substr(dot + 1);
@@ -37,7 +37,7 @@ std::string_view nearest_parameter(const ValveKind &kind, std::string_view name)
   return nearest.nearest();
 }
 
-// Returns whether the name is that of a bump's parameter. Kinds with bumps have these parameters at the end of their lists.
+// Returns whether a name is the name of a bump's parameter. Kinds with bumps have these parameters at the end of their lists.
 bool is_of_bump(std::string_view name) { return name.substr(0, 5) == "bump_"; }
 
 [[noreturn]] void fail_unknown(const ValveKind &kind, std::string_view name) {
@@ -56,7 +56,7 @@ bool is_of_bump(std::string_view name) { return name.substr(0, 5) == "bump_"; }
 
 bool is_of_a_leaflet(const ParameterSpec &spec) { return spec.name.find('.') != std::string::npos; }
 
-// Whether a name belongs to a parameter, and what it stands for.
+// Whether a name belongs to a parameter, and what the name stands for.
 struct Naming {
   bool names_it = false;
   bool is_whole = false;  // it names no other parameter
@@ -258,8 +258,8 @@ void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {
     warp_.reset();
     return;
   }
-  // The copies are complete before they replace the old maps, because assignment member by member could fail half way. The memory
-  // of the copies comes from maps that were dropped before.
+  // The copies are complete before they replace the old maps, because assignment member by member could fail half way. The copies
+  // use the memory of maps that the valve had earlier.
   Warp made{*closed, {}, warp_ ? warp_->known : nullptr};
   if (open) made.open = *open;
   warp_ = std::move(made);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Valves: a kind, named parameters, and optionally a second state to which the valve opens.
-// In: names and values as users write them. Out: checked values, and the patches at an opening.
+// A valve takes names and values as users write them, checks them, and makes the patches at an opening.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ namespace riis {
 using ParameterValues = Vector<std::array<double, 3>>;  // one entry for each spec
 inline Vec3 vector_of(const std::array<double, 3> &values) { return {values[0], values[1], values[2]}; }
 
-// Computes the value of a parameter that was not set from other parameters' values. Those parameters come earlier in the list, so
+// Computes the value of an unset parameter from the values of other parameters. The other parameters come earlier in the list, so
 // their values are known already.
 struct ParameterRule {
   const char *text = nullptr;  // such as "0.5 leaflet_height", or null without a rule
@@ -34,8 +34,8 @@ struct ParameterRule {
   }
 };
 
-// A second name for a parameter, under which the value is a multiple of the parameter's. The factor is a power of 2, so no value
-// is rounded.
+// A second name for a parameter, under which the value is a multiple of the parameter's value. The factor is a power of 2, so no
+// value is rounded.
 struct OtherName {
   const char *name;
   double factor;
@@ -52,8 +52,8 @@ struct ParameterSpec {
   OtherName other = {nullptr, 0};  // the other name without the leaflet's name
 };
 
-// A name that a user may expect, and why the kind has no parameter of this name. A name without a leaflet stands for the name
-// with any leaflet too.
+// A name that a user may expect, and why the kind has no parameter of this name. A name without a leaflet also stands for the
+// name with any leaflet.
 struct AbsentName {
   const char *name, *reason;
 };
@@ -79,12 +79,12 @@ struct ValveKind {
   // Refuses another state whose curves or patches are not built like the valve's. The message calls that state by `name`, such
   // as "the open state". NULL if all states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
-  // True if leaflets meet only at common vertices of their triangles, such as at commissures. If false, leaflets may touch
-  // anywhere, and their triangles may then go through each other by as much as the triangles' error.
+  // True if leaflets meet only at common vertices of their triangles, such as at commissures. If this is false, leaflets may
+  // touch anywhere. Their triangles may then go through each other by as much as the triangles' error.
   bool has_exact_contacts = false;
-  // True if the orifice is seen along the valve's z axis. If false, the orifice is seen along the vector area of the edges that
-  // are farthest from its middle. The vector area would be oblique for different cusps whose open edges reach beyond the
-  // attachment.
+  // True if the orifice is seen along the valve's z axis. If this is false, the orifice is seen along the vector area of the
+  // edges that are farthest from its middle. The vector area would be oblique for different cusps whose open edges reach beyond
+  // the attachment.
   bool is_seen_along_z = false;
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
@@ -99,8 +99,8 @@ struct ValveKind {
 // Adds the parameter "skirt_length" to a kind.
 ValveKind with_skirt(ValveKind kind, SkirtAxis axis);
 
-// The kinds of valves that are defined by parameters. Each kind is in a file of its name, except that valve/coapting.cpp has the
-// kinds with two to four coapting cusps, and valve/atrioventricular.cpp the kinds with coapting leaflets on an annulus.
+// The kinds of valves that are defined by parameters. Each kind is in a file of its name, with two exceptions. valve/coapting.cpp
+// has the kinds with two to four coapting cusps. valve/atrioventricular.cpp has the kinds with coapting leaflets on an annulus.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bicuspid_valve_kind();
 const ValveKind &bileaflet_valve_kind();
@@ -122,10 +122,10 @@ class Valve {
   const ValveKind &kind() const { return *kind_; }
   const ParameterValues &values() const { return state_.values; }
 
-  // A name without a leaflet that is no parameter of the valve itself sets the parameter of every leaflet that has the name.
+  // If a name without a leaflet is no parameter of the valve itself, it sets the parameter of this name in every leaflet.
   void set(std::string_view name, std::int64_t n_values, const double *new_values);
   void get(std::string_view name, std::int64_t n_values, double *out) const;
-  // Returns the least and the largest value of the one parameter of that name.
+  // Returns the least and the largest value of a parameter. The name must mean only one parameter.
   std::array<double, 2> range_of(std::string_view name) const;
   // Returns a parameter to its default or to its rule.
   void unset(std::string_view name);
@@ -153,14 +153,14 @@ class Valve {
   // Returns whether make_patches adds a skirt.
   bool has_skirt() const { return kind_->skirt_axis != SkirtAxis::none && state_.values[kind_->skirt_length][0] != 0; }
   // Replaces the skirt by a skirt with these lengths (valve/skirt.hpp). The parameter "skirt_length" becomes the largest of these
-  // lengths. Setting that parameter removes the lengths.
+  // lengths. If "skirt_length" is set later, the skirt loses these lengths.
   void set_skirt_lengths(SkirtLengths lengths);
 
-  // Compares with another valve. Fails unless the other valve equals this valve in everything but the opening and the values of a
-  // warp. The message names the first parameter that differs.
+  // Compares this valve with another valve. Fails if they differ in anything except the opening and the values of a warp. The
+  // message names the first parameter that differs.
   void check_same_but_for_opening(const Valve &other) const;
 
-  // Returns whether all parameters but the opening have the kind's defaults.
+  // Returns whether all parameters except the opening have the kind's defaults.
   bool has_default_shape() const;
   // Returns a digest of the shape without the opening, and of the landmarks of a warp without their targets. It is never 0. Two
   // different shapes practically never have the same digest.
@@ -172,15 +172,15 @@ class Valve {
   // patches of that state if they have been made already, or is null.
   PatchSet make_patches_before(const Valve &before, const PatchSet *known) const;
   // Returns a number that every change of the valve changes, and that copies take over. Valves with the same number have the same
-  // patches, to the last bit. It is not 0.
+  // patches, to the last bit. The number is not 0.
   std::uint64_t revision() const { return revision_; }
-  // Fails unless the valve may be a state of a valve of this kind, with or without a warp.
+  // Fails if this valve cannot be a state of a valve of the given kind, with or without a warp.
   void check_is_state_of(const ValveKind &kind, bool is_warped, const StateNames &names) const;
   // Makes the patches without a search for folds. A message of failure begins with the state's name.
   PatchSet make_patches_unsearched(const char *name) const;
 
  private:
-  // Returns the position of the one parameter of that name.
+  // Returns the position of a parameter. The name must mean only one parameter.
   std::size_t position_of(std::string_view name) const;
   void derive();
   PatchSet make_patches(FoldCheck check) const;
@@ -191,7 +191,8 @@ class Valve {
   void check_open_values() const;
   static std::uint64_t next_revision();
 
-  // The cuts of a shape with its landmarks. Cuts stay the same while the valve opens and the targets move, so cuts are kept.
+  // The cuts of a shape at its landmarks. The cuts are kept, because they stay the same while the valve opens and the targets
+  // move.
   struct KnownCuts {
     std::uint64_t shape_digest;
     LandmarkCuts cuts;
@@ -229,7 +230,7 @@ Bezier rate(const Bezier &closed, const Bezier &open);
 // Returns the spec of the opening. Every kind has this parameter.
 ParameterSpec opening_spec(const char *description, double default_value);
 
-// A value that other values are checked against. The message is, for example, "leaflet_height is 30; it must be from 0.05 to 10
+// A value with which other values are compared. The message is, for example, "leaflet_height is 30; it must be from 0.05 to 10
 // times root_radius, which is 1.29".
 struct Reference {
   const char *name;

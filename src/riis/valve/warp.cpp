@@ -14,11 +14,11 @@
 namespace riis {
 namespace {
 
-// Sources count as planar if their rms distance from their mean plane is below this share of their largest rms extent.
+// Sources count as planar if their rms distance from their mean plane is below `thinnest_share` of their largest rms extent.
 constexpr double thinnest_share = 0.05;
-// Sources also count as planar if noise would change the stretch across the plane by more than this.
+// Sources also count as planar if noise would change the stretch across the plane by more than `largest_stretch_error`.
 constexpr double largest_stretch_error = 0.1;
-// The share of the noise that the residuals should have. This share is below 1, because the map follows a part of the noise. The
+// The share of the noise that the residuals should have. The share is below 1, because the map follows a part of the noise. The
 // attachments of random patients were met best with shares from 0.5 to 0.7 (docs/theory/warp.md, "Equations").
 constexpr double residual_share = 0.6;
 constexpr double line_share = 1e-6, same_place_share = 1e-6;
@@ -148,7 +148,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
       fail(RIIS_INVALID_ARGUMENT, name, ": landmarks ", std::min(i, nearest), " and ", std::max(i, nearest),
            " are in one place, (", sources_[i].x, ", ", sources_[i].y, ", ", sources_[i].z, ")");
     nearest_to.push_back(nearest);
-    // If two landmarks are each other's nearest, the place between them is taken once.
+    // If each of two landmarks is the other's nearest landmark, the place between them is taken once.
     if (nearest > i || nearest_to[nearest] != i)
       probes_.push_back({0.5 * (sources_[i] + sources_[nearest]), static_cast<std::int64_t>(i)});
   }
@@ -162,12 +162,12 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
   reduce();
 }
 
-// Finds the columns U that are orthogonal to the polynomials and make U^T K U tridiagonal, K_ij = |r_ij|^3. K is positive
-// definite on these columns.
+// Finds the columns U that are orthogonal to the polynomials and make U^T K U tridiagonal, where K_ij = |r_ij|^3. U^T K U is
+// positive definite.
 void WarpLandmarks::reduce() {
   const std::size_t n = size(), m = n_terms_;
   const auto term = [&](std::size_t k, Vec3 y) { return k == 0 ? 1.0 : dot(axis_[k - 1], y); };
-  // Makes the polynomials' orthonormal basis by Gram and Schmidt's method. Two passes are enough, because the terms are nearly
+  // Makes an orthonormal basis of the polynomials by the Gram-Schmidt method. Two passes are enough, because the terms are nearly
   // orthogonal.
   Vector<double> orthonormal(m * n), upper(m * m, 0.0);
   for (std::size_t k = 0; k < m; ++k) {
@@ -271,7 +271,7 @@ void WarpLandmarks::tridiagonalise(Vector<double> &matrix) {
   basis_.assign(columns.begin() + static_cast<std::ptrdiff_t>(m * n), columns.end());
 }
 
-// Solves (T + lambda 1) solution = reduced. Returns the sum of squares of lambda * solution, which are the residuals.
+// Solves (T + lambda 1) solution = reduced. The residuals are lambda * solution. Returns the sum of the squares of the residuals.
 double WarpLandmarks::solve(double lambda) {
   solution_ = reduced_;
   double square = 0;
@@ -292,7 +292,7 @@ double WarpLandmarks::solve(double lambda) {
 
 // Returns the lambda at which the sum of squares of all residuals is a given share of its expected value. The noise gives the
 // expected value, 3 noise^2 for each free landmark. The sum grows with lambda, so there is at most one such lambda. Returns
-// infinity if even the affine map is that close.
+// infinity if even the affine map has a smaller sum.
 double WarpLandmarks::smoothing_for_noise() {
   const double noise = noise_ / size_, wanted = residual_share * 3 * noise * noise * static_cast<double>(n_free_);
   if (wanted == 0) return 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A smooth map of space from landmarks (docs/theory/warp.md): affine plus a radial function |r|^3 at each landmark.
-// In: landmarks at rest, and their present places. Out: the map's values and derivatives.
+// A smooth map of space that landmarks determine (docs/theory/warp.md): an affine map plus a function |r|^3 for each landmark.
+// From the landmarks at rest and their present places, this file computes the map's values and derivatives.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ class WarpMap {
   Vec3 shift{0, 0, 0};
   Vec3 linear_x{0, 0, 0}, linear_y{0, 0, 0}, linear_z{0, 0, 0};  // the columns of `linear`
   // The coordinates of sources and weights lie in arrays of their own, so that the processor handles eight at a time. Sources
-  // with the weight 0 make their number a multiple of eight.
+  // with the weight 0 make the number of sources a multiple of eight.
   Vector<double> source_x, source_y, source_z, weight_x, weight_y, weight_z;
   std::size_t n_sources = 0;
 
@@ -86,11 +86,11 @@ class WarpLandmarks {
   // across the plane as the landmarks stretch the plane.
   bool is_planar() const { return is_planar_; }
 
-  // Returns the matrix, (n, n), by which displacements give the weights of a map that meets its targets. Displacements count in
-  // the unit of the map's `size`. Displacements times weights are the map's bending.
+  // Returns an (n, n) matrix. The product of this matrix and the displacements gives the weights of a map that meets its targets.
+  // Displacements are measured in the map's `size`. The product of displacements and weights is the map's bending.
   Vector<double> bending_matrix();
 
-  // Writes the map to these targets, and its quality. The same targets give the same bits. Accepts a map of any quality.
+  // Writes the map to the targets, and the map's quality. The same targets give the same bits. Accepts a map of any quality.
   void fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &quality);
 
  private:
@@ -112,7 +112,7 @@ class WarpLandmarks {
   Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values
   Vector<double> of_kernel_;          // (n_terms_, n): the same for values of sums of |r|^3, by their weights
   Vector<double> diagonal_, beside_;  // diagonals of the tridiagonal matrix U^T |r|^3 U
-  // The places half way from each landmark to the nearest other one. A map that folds between landmarks changes most there.
+  // The places half way from each landmark to the nearest other landmark. A map that folds between landmarks changes most there.
   struct Probe {
     Vec3 place;
     std::int64_t landmark;
@@ -123,17 +123,18 @@ class WarpLandmarks {
   Vector<double> pivot_;
 };
 
-// Patches in space: every image becomes a patch of its own, and a warp may move its curves (docs/theory/warp.md).
-// In: the patches of a kind of valve, a map. Out: patches that are their own images.
+// Every image of a patch becomes a patch of its own, and a warp may move its curves (docs/theory/warp.md). The patches of a valve
+// become patches with one image each.
 
-// Returns the patches with every image as a patch of its own. The order and the labels u and v stay. Patches that met still share
-// their curves. Patches that are their own images already keep the numbers of their curves.
+// Returns the patches with every image as a patch of its own. The patches keep their order and their labels u and v. Patches that
+// met still share their curves. Patches that already have one image each keep the numbers of their curves.
 PatchSet without_images(const PatchSet &set);
 
 // Returns the same patches with warped curves. Curves are cut at landmarks first. Each warped part has the warped ends and the
-// directions of the warped end tangents. The lengths of these tangents bring the warped part nearest to the warped points, by
-// least squares. Arcs are bent anew between warped curves. With `check`, fails with RIIS_INVALID_PARAMETER for a warp that folds
-// at a patch or turns a part of the patch over. The message names the place and the value.
+// directions of the warped end tangents. The lengths of these tangents are chosen by least squares, so that the warped part is as
+// near as possible to the warped points. Arcs are bent anew between warped curves. With `check`, fails with
+// RIIS_INVALID_PARAMETER for a warp that folds at a patch or turns a part of the patch over. The message names the place and the
+// value.
 enum class FoldCheck { no, yes };
 PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts &cuts,
                 FoldCheck check = FoldCheck::yes);

@@ -17,17 +17,18 @@
 namespace riis {
 namespace {
 
-// The warped points of a curve are taken at this many even steps of its parameter.
+// The warped points of a curve are taken at `n_curve_steps` even steps of its parameter.
 constexpr int n_curve_steps = 6;
-// A tangent's length may change by this factor at most, in addition to the warp's stretch at the tangent.
+// In addition to the warp's stretch at the tangent, a tangent's length may change by a factor from `least_factor` to
+// `most_factor`.
 constexpr double least_factor = 0.2, most_factor = 5, most_of_missing = 0.5;
-// A patch is searched for folds on a grid of this many cells each way.
+// A patch is searched for folds on a grid of `n_fold_cells` by `n_fold_cells` cells.
 constexpr std::size_t n_fold_cells = 3;
-// The sine of the angle between the diagonals of a cell that has no side, because it is hardly wider than a line. Half opened,
-// leaflets of the coapting kind have such cells beside the attachment. In such cells the chords of a curve are no guide to the
-// surface. In 20,000 states of valves with rough warps, cells with a sine up to 0.067 turned over although no triangle did.
-// Triangles of at most 0.6 mm^2 turned over without a wider cell. One cell of the default valve has the sine 0.041 at the opening
-// 0.9.
+// A cell is a sliver if the sine of the angle between its diagonals is below `sliver_sine`. A sliver is hardly wider than a line,
+// so it faces no clear direction. Half-open coapting leaflets have slivers beside the attachment. The chords of a curve in a
+// sliver do not show the direction of the surface. In 20,000 states of valves with rough warps, cells with a sine up to 0.067
+// turned over although no triangle did. Where triangles but no wider cells turned over, the triangles had at most 0.6 mm^2. One
+// cell of the default valve has the sine 0.041 at the opening 0.9.
 constexpr double sliver_sine = 0.07;
 
 Bezier raised_to_cubic(const Bezier &span) {
@@ -69,8 +70,8 @@ double within_limits(double factor, double own) {
 // The mapped points of a span at even parameters.
 using MappedSpan = std::array<Vec3, n_curve_steps + 1>;
 
-// Returns the cubic with the warped ends and end tangents whose lengths fit the warped points best. The map is known at the ends.
-// Writes the warped points.
+// Returns the cubic with the warped ends and the warped directions there. The lengths of its end tangents fit the warped points
+// best. `first` and `last` give the map at the ends. Also writes the warped points.
 Bezier warped_span(const Bezier &given, const MapAt &first, const MapAt &last, const BlendedWarp &warp,
                    MappedSpan &mapped) {
   mapped.fill(first.value);
@@ -97,8 +98,8 @@ Bezier warped_span(const Bezier &given, const MapAt &first, const MapAt &last, c
   return Bezier::cubic(first.value, first.value + of_a * a.warped, last.value + of_b * b.warped, last.value);
 }
 
-// Returns the cubic through the rates of the warped points at 0, 1/3, 2/3 and 1. The map's derivative is taken as linear between
-// the ends, where it is known. Rates only decide where a curve needs further vertices.
+// Returns the cubic through the rates of the warped points at 0, 1/3, 2/3 and 1. The map's derivative is known at the ends, and
+// is taken as linear between them. Rates only decide where a curve needs further vertices.
 Bezier warped_rate(const Bezier &curve, const Bezier &rate, const MapAt &first, const MapAt &last,
                    const BlendedWarp &warp) {
   if (rate.is_point() && rate.control[0] == Vec3{0, 0, 0} && !warp.changes_with_opening()) return rate;
@@ -148,7 +149,7 @@ struct MaterialOfCurve {
     weigh();
   }
 
-  // Returns the same points of the curve after it was cut at these places, which ascend.
+  // Returns the same points after the curve was cut at these ascending places.
   MaterialOfCurve after_cuts(const Vector<PointOnSpan> &cuts) const {
     MaterialOfCurve made = *this;
     for (PointOnSpan &at : made.on_curve) {
@@ -193,8 +194,8 @@ struct MaterialOfCurve {
   }
 };
 
-// Estimates the length of a span between two near parameters by Gauss's rule of 3 points. The two states take the same rule, so a
-// slide of 0 is exact.
+// Estimates the length of a span between two near parameters by Gauss's rule of 3 points. Both states use the same rule, so a
+// point that does not slide gets exactly the slide 0.
 double length_near(const Bezier &span, double from, double to) {
   const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * 0.77459666924148337704;
   return (to - from) / 18 *
@@ -290,7 +291,7 @@ class LabelGrid {
 // Points of a mapped patch on the same grid.
 using MappedGrid = std::array<Vec3, (n_fold_cells + 1) * (n_fold_cells + 1)>;
 
-// The normal of a cell, as long as twice its area, and whether the cell is too narrow for a normal to mean anything.
+// The normal of a cell, with twice the cell's area as its length, and whether the cell is too narrow for a meaningful normal.
 struct CellNormal {
   // `at` gives the points of the grid. The cell begins at point (i, j).
   template <class At>
@@ -306,8 +307,8 @@ struct CellNormal {
   bool is_sliver;
 };
 
-// Maps the inner points of the grid. `image` places the patch before the warp. With `check` yes, a warp that folds there makes
-// the function fail.
+// Maps the inner points of the grid. `image` places the patch before the warp. With FoldCheck::yes, the function fails if the
+// warp folds at one of these points.
 void map_inner_points(const LabelGrid &before, const PatchImage &image, const BlendedWarp &warp, FoldCheck check,
                       MappedGrid &mapped) {
   for (std::size_t j = 1; j < n_fold_cells; ++j)
@@ -327,7 +328,7 @@ void map_inner_points(const LabelGrid &before, const PatchImage &image, const Bl
     }
 }
 
-// Maps the points of the grid at the patch's sides. Points of the sides that have been mapped are known.
+// Maps the points of the grid at the patch's sides. Points of the sides that were mapped earlier are given.
 void map_outer_points(const PatchSet &made, const Patch &patch, const LabelGrid &before, const PatchImage &image,
                       const BlendedWarp &warp, bool has_arcs, MappedGrid &mapped) {
   constexpr std::size_t last = n_material - 1, step = last / n_fold_cells;
@@ -341,14 +342,14 @@ void map_outer_points(const PatchSet &made, const Patch &patch, const LabelGrid 
   for (std::size_t j = 1; j < n_fold_cells; ++j)
     for (const bool is_end : {false, true}) {
       const std::size_t i = is_end ? n_fold_cells : 0;
-      // On an arc, v is no share of the length.
+      // The known points lie at shares of the length of a side, but along an arc v is not the share of the length.
       mapped[j * (n_fold_cells + 1) + i] =
           has_arcs ? warp.value(place(image, before.at(i, j))) : known(is_end ? patch.u1 : patch.u0, step * j);
     }
 }
 
-// Fails if a part of the warped patch is turned over against the map of the patch. Slivers are not
-// checked: cells that are slivers before the warp, after it, or when only their corners are mapped.
+// Fails if a part of the warped patch is turned over relative to the mapped patch. Slivers are not checked: cells that are
+// slivers before the warp, after it, or when only their corners are mapped.
 void check_turns(const LabelGrid &before, const PatchImage &image, const LabelGrid &now, const MappedGrid &mapped) {
   const auto at_mapped = [&](std::size_t i, std::size_t j) -> const Vec3 & {
     return mapped[j * (n_fold_cells + 1) + i];
@@ -430,7 +431,7 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts
   bend_arcs(made);
   for (std::size_t i = 0; i < material.size(); ++i) locate_on_curve(made.curves[i], *material[i]);
   made.material = std::move(material);
-  // Only kinds without rates have arcs. An arc may be straight at an opening, so all patches of arcs count.
+  // Only kinds without rates have arcs. The arcs themselves are not checked, because an arc may be straight at an opening.
   const bool has_arcs = set.rates.empty();
   const auto at_rest = [&](std::size_t curve) -> const std::array<PointOnSpan, n_material> & {
     return of_curves[curve]->on_curve;
