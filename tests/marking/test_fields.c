@@ -287,8 +287,7 @@ TEST(fields_of_valves_are_those_of_single_queries) {
  * triangles share corners. */
 TEST(fields_of_arrays_are_those_of_single_queries) {
   enum { side = 9, max_vertices = 6 * side * side };
-  riis_surface *surface =
-      surface_of_kind("mitral", NULL); /* an update from arrays must replace the mitral valve's rim */
+  riis_surface *surface = surface_of_kind("mitral", NULL); /* arrays must replace the mitral valve's rim */
   for (int trial = 0; trial < trials_of(72); ++trial) {
     const int owned_before = n_owned();
     static double height[side + 1][side + 1], xyz[3 * max_vertices];
