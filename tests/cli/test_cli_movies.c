@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --movie makes one frame for each time, all with one camera. ffmpeg reads the frames back. Other tests use a small program
- * with the same name, which counts the frames. */
+ * --movie makes one frame for each time. All frames share one camera. ffmpeg reads the frames again. Other tests use a small
+ * program named ffmpeg, which counts the frames. */
 #include <dirent.h>
 #include <signal.h>
 #include <stdio.h>
@@ -25,7 +25,7 @@ static void run_movie(const char *movie) {
            "--movie-view", "side", "--picture", scratch_path("first.png"), "--view", "side", "--quiet");
 }
 
-/* Expects that no frame is left in TMPDIR, which is the scratch folder. */
+/* Checks that TMPDIR, which is the scratch folder, has no frame. */
 static void expect_no_frames(void) {
   const char *place = getenv("TMPDIR");
   DIR *folder = opendir(place);
@@ -67,7 +67,7 @@ static void expect_whole_picture(const char *name) {
   assert_true(n_coloured[0] > 20000 && n_coloured[1] > 20000);
 }
 
-/* Uses a fake encoder that copies the frames it gets. */
+/* Uses a fake encoder that copies its frames. */
 TEST(test_frames) {
   static const char *const names[n_frames] = {"f/frame_000000.png", "f/frame_000001.png", "f/frame_000002.png",
                                               "f/frame_000003.png"};
@@ -96,7 +96,7 @@ TEST(test_frames) {
   free(first);
 }
 
-/* If the encoder fails, the refusal quotes its last lines. Neither a movie nor frames are left. */
+/* If the encoder fails, the refusal quotes its last lines. The movie and the frames are removed. */
 TEST(test_failing_encoder) {
   use_scratch_for_frames();
   scratch_write_text("kept.gif", "before");
@@ -143,7 +143,7 @@ TEST(test_interruption) {
   assert_true(scratch_exists("cut.pvd") && scratch_exists("cut/cut_0001.vtu"));
 }
 
-/* If the real ffmpeg is installed, it decodes as many frames as there are times. */
+/* If the real ffmpeg is installed, the movie decodes to one frame for each time. */
 TEST(test_movie) {
   char command[1024], words[64] = "";
   if (system("command -v ffmpeg ffprobe >/dev/null") != 0) skip();

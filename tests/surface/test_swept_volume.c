@@ -50,8 +50,7 @@ static void random_placement(riis_surface_options *options) {
   options->rotation_angle = between(-180, 180);
 }
 
-/* Returns the volume of one step: the integral of u . n over the triangles at the step's middle, times the step's time. n over
- * the triangles in the middle of the step, times the step's time. */
+/* Returns the volume of one step: the integral of u . n over the triangles at the step's middle, times the step's time. */
 static double rate_on(const riis_surface *surface, int32_t leaflet_id) {
   const riis_triangles all = triangles_of(surface);
   double sum = 0;

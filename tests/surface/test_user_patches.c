@@ -97,7 +97,7 @@ static void bezier_point(const shape *from, int64_t curve, double t, double *p) 
 enum { n_steps = 4000, n_dense = 120 };
 
 /* Gives the points of the curve at the fractions 0, 1 / n_dense, 2 / n_dense, ... of its length. The length is measured along
- * n_steps chords. of the curve's length, measured along n_steps chords. */
+ * n_steps chords. */
 static void points_by_length(const shape *from, int side, double (*points)[3]) {
   static double fine[n_steps + 1][3], length[n_steps + 1];
   const int64_t curve = from->curve_id[side];
