@@ -78,7 +78,7 @@ shell() {
       status=1
     fi
   done
-  # macOS has bash 3.2, and `run` begins before it can refuse that.
+  # macOS has bash 3.2. `run` starts in it, before it can refuse it.
   ! grep -snE 'mapfile|readarray|(declare|local) -[An]|\$\{[a-z_]+(,|\^)|&>>|\|&|coproc|;;&|wait -n' run |
     sed 's/^/bash 3.2 lacks: run:/' | grep . >&2 || status=1
   # Scripts that `run` reads are checked together with `run`, because they use its variables.
@@ -104,7 +104,7 @@ includes() {
     g++ -std=c++17 -fopenmp -DRIIS_X86_KERNELS -Iinclude -Isrc/riis -Isrc -w -fsyntax-only
 }
 
-# clang-tidy finds no unused using-declarations in batches of files.
+# In batches of files, clang-tidy does not find unused using-declarations.
 usings() {
   local file name status=0
   ending '^(src|bench)/.*\.cpp$'
@@ -119,13 +119,13 @@ usings() {
 # compiled_files: prints the files of build-lint/compile_commands.json.
 compiled_files() { sed -nE 's/^ *"file": "(.*)",?$/\1/p' build-lint/compile_commands.json | sort -u; }
 
-# The benchmarks. The programs of ./run figures and the study of accuracy are read like the library.
+# Reads the benchmarks. The programs of ./run figures and the study of accuracy are checked like the library.
 of_bench='/bench/(accuracy/accuracy|(peers|proofs|scale|shared|stages|steps)/)'
 
 bench() {
   mapfile -t found < <(compiled_files | grep -E "$of_bench")
-  # clang-tidy needs a check beside clang's warnings. CMake gives no option for a standard that gcc has by itself, and clang 14
-  # has another one.
+  # clang-tidy needs a check in addition to clang's warnings. If a standard is gcc's default, CMake gives no option for it. The
+  # default of clang 14 differs.
   printf '%s\0' "${found[@]}" | xargs -0 -P "$(nproc)" -n 1 clang-tidy-14 -p build-lint --quiet --header-filter="^$PWD/bench/" \
     --checks='-*,clang-diagnostic-*,modernize-use-override' --extra-arg=-std=gnu++17 >&2 2>/dev/null
 }
@@ -154,7 +154,7 @@ check() {
   echo "$part: fine, ${#found[@]} files, $((SECONDS - start)) s"
 }
 
-# All parts run at the same time, because some of them use only one processor. What they say is printed in turn.
+# All parts run at the same time, because some of them use only one processor. Their output is printed in turn.
 said=$(mktemp -d)
 trap 'rm -rf "$said"' EXIT
 declare -A running=()
