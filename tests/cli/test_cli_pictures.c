@@ -303,7 +303,7 @@ static void draw_case(const char *first, const char *second) {
   assert_int_equal(program_exit_code, 0);
 }
 
-/* A surface from a file has no opening, so the title and the summary show none. Movies have this title, too. Any valve may give
+/* A surface from a file has no opening, so the title and the summary show none. Movies also have this title. Any valve may give
  * the unit of the scale bar. Two valves must not contradict each other. */
 TEST(test_cases) {
   static const char aortic[] = "{\"name\": \"aortic\", \"valve\": \"aortic\", \"opening\": 0.5}",

@@ -192,7 +192,7 @@ static void expect_note_and_warning(const char *text) {
   memmove(program_err, end + 1, strlen(end + 1) + 1);
 }
 
-/* The mesh's edges suggest millimetres. A large and coarse mesh in centimetres would have these edges too, so a unit that the
+/* The mesh's edges suggest millimetres. A large and coarse mesh in centimetres would also have these edges, so a unit that the
  * user names decides. */
 TEST(test_coarse_or_other_unit) {
   assert_int_equal(

@@ -47,7 +47,7 @@ void call_status_functions(Input &in) {
 
 namespace {
 
-// Checks that an init function fills exactly as much as the caller has room for, or nothing.
+// Checks that an init function either fills exactly the caller's room, or nothing.
 template <class Struct>
 void init(Input &in, riis_status (*init_function)(Struct *, int64_t)) {
   static const int64_t sizes[] = {sizeof(Struct),     0,         8,        -8, sizeof(Struct) - 8, sizeof(Struct) + 8,
@@ -152,7 +152,7 @@ void destroy_something(Input &in, State &state) {
 
 namespace {
 
-// An input without choices, which consists of zero bytes, makes all these calls in this order, and all succeed.
+// An input of zero bytes has no choices. It makes all these calls in this order, and all succeed.
 void (*const calls[])(Input &, State &) = {make_valve,
                                            make_surface,
                                            make_mesh,
