@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the geometry into one page, beginning with the paper's figures. Next come valves at the openings in the KIND.csv tables
-of `riis states`, then the pictures that the GIVEN.json files name.
+"""Draws the geometry into one page. First come the paper's figures, then valves at the openings in the KIND.csv tables of `riis
+states`. The pictures that the GIVEN.json files name are last.
 
 draw_page.py FOLDER FILE.html [GIVEN.json|KIND.csv...]: FOLDER has the programs riis and riis-figures."""
 

@@ -1,6 +1,6 @@
 c     SPDX-License-Identifier: Apache-2.0
 c     Runs valve.usr: held openings, steps of the beat, and the source
-c     in the band, if its value is known.
+c     in the band where its value is known.
       program test_valve
       include 'SIZE'
       include 'TOTAL'
