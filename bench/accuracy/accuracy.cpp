@@ -30,7 +30,7 @@ using namespace riis::accuracy;
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-// The tolerance of the triangles that check true distances. It gives about two million triangles per leaflet.
+// The tolerance of the triangles that check true distances. This tolerance gives about two million triangles per leaflet.
 constexpr double fine_tolerance = 5e-5;
 constexpr std::uint64_t seed = 1;
 // For this fraction of the points, sampling may have an error above the tolerance.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Evaluates the smooth surface to which tolerances refer (docs/theory/triangles.md). The surface consists of Coons patches and
-// patches of arcs. The patches are made from the Bézier curves themselves. Their parameter is the fraction of the exact length.
-// The surface has no polylines, no grid and no tolerance. Input: curves and patches of a valve. Output: points, normals and
-// curvatures anywhere.
+// patches of arcs. The patches are made from the Bézier curves themselves. The parameter of a curve is the fraction of its exact
+// length. The surface has no polylines, no grid and no tolerance. Input: curves and patches of a valve. Output: points, normals
+// and curvatures anywhere.
 #pragma once
 
 #include <cstddef>

@@ -85,7 +85,8 @@ json paintings(const accuracy::Leaflet &leaflet, bool is_part, Numbers &numbers)
   json made = json::array();
   for (const Setting &setting : painted) {
     const MeasuredSurface surface(patches, setting.method, setting.tolerance);
-    // Minimisation is slow, and its errors change over larger distances than those of sampling. Its cells are therefore larger.
+    // Minimisation is slow, and its errors change over larger distances than those of sampling. The cells of minimisation are
+    // therefore larger.
     const double cell = is_part ? 0.001 : setting.method == RIIS_MEASURE_MINIMIZATION ? 0.007 : 0.0035;
     const Painter painter{smooth, surface, cell, numbers};
     json images = json::array();

@@ -87,7 +87,7 @@ def bezier_figure():
 
 # ---------------------------------------------------------------------------------------------------------------- a Coons patch
 
-# The tolerance of the upper patch of half a cusp. It is so coarse that the grid lines can be distinguished.
+# The tolerance of the upper patch of half a cusp. This tolerance is so coarse that the grid lines can be distinguished.
 COARSE = 0.2
 SIDES = (
     (BLUE, "v = 0, bending curve"), (VERMILION, "v = 1, leaflet curve"), (GREEN, "u = 0, symmetry curve"),

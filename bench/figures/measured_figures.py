@@ -35,7 +35,7 @@ def mesh_cylinder(middle, radius, height):
     n_across, n_up = math.ceil(2 * radius / EDGE), math.ceil(height / EDGE)
     across, up = 2 * np.arange(n_across + 1) / n_across - 1, 2 * np.arange(n_up + 1) / n_up - 1
     z, y, x = np.meshgrid(up, across, across, indexing="ij")
-    # Maps a square to a disc. Its grid lines become parts of ellipses.
+    # Maps a square to a disc. The square's grid lines become parts of ellipses.
     on_disc = radius * x * np.sqrt(1 - 0.5 * y * y), radius * y * np.sqrt(1 - 0.5 * x * x), 0.5 * height * z
     nodes = middle + np.stack(on_disc, axis=-1).reshape(-1, 3)
     number_of = np.arange(len(nodes)).reshape(x.shape)

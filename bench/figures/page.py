@@ -19,7 +19,7 @@ class Panel(NamedTuple):
 
 
 class Figure(NamedTuple):
-    """A figure. Its texts are HTML. Their numbers are counted while the figures are drawn."""
+    """A figure. The texts are HTML, and the numbers in the texts are counted while the figures are drawn."""
 
     title: str
     columns: int

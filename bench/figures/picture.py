@@ -89,7 +89,7 @@ def held_display():
 
 
 class Picture:
-    """The picture contains all points of `to_fit`. They keep at least the margin from the edges and the title."""
+    """The picture contains all points of `to_fit`. The points keep at least the margin from the edges and the title."""
 
     def __init__(self, size, view, to_fit, margin=60):
         self.width, self.height = size

@@ -291,8 +291,8 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
     is_right = is_right && is_equal(marks[name]) && marks[name]["largest_anywhere"] <= 1e-12;
   };
   add_right("riis, every distance", n_slow_turns, all_distances);
-  // Times a marking with a limit that includes every node. It runs over the clusters of a prepared mesh, and node by node with
-  // Embree.
+  // Times a marking with a limit that includes every node. The marking runs over the clusters of a prepared mesh, and node by
+  // node with Embree.
   const auto marking = [&](const riis_surface *of, std::int32_t search) {
     riis_mark_options options;
     check(riis_mark_options_init(&options, sizeof options));

@@ -9,8 +9,8 @@
 
 namespace bench {
 
-// A competitor for every distance: FCPW's tree with eight branches and eight triangles at a time. It is built if RIIS_FCPW_DIR is
-// FCPW's source folder. FCPW's package on PyPI has only four branches (peers.py).
+// A competitor for every distance: FCPW's tree with eight branches and eight triangles at a time. This competitor is built if
+// RIIS_FCPW_DIR is FCPW's source folder. FCPW's package on PyPI has only four branches (peers.py).
 class FcpwQuery {
  public:
   explicit FcpwQuery(const Triangles &triangles);

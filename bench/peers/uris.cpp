@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run uris: reads exports and marks the nodes of a cylinder by the rule of svMultiPhysics. By this rule, a node's distance is
 // the distance to the nearest middle of a triangle. The program compares these distances with the library's distances to the
-// triangles themselves. It prints rows of the table in docs/export.md.
+// triangles themselves. The program prints rows of the table in docs/export.md.
 //   argv[1]   the kind of the valve
 //   argv[2]   thousands of nodes
 //   argv[3..] the output of riis export

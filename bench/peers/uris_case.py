@@ -5,8 +5,8 @@
     uris_case.py drop FOLDER AREA FORECAST                   # prints the drop over (R/eps) u; AREA is the area of the leaflets
 
 duct_of_edge of uris.sh makes the duct. Blood enters at the top and flows down, so the valve stays closed. Units are CGS. The drop
-is refused if it changed by more than a thousandth in the last step. It is also refused if it differs from the forecast by more
-than 3 %.
+is refused if it changed by more than a thousandth in the last step. A drop is also refused if it differs from the forecast by
+more than 3 %.
 """
 import collections
 import pathlib
@@ -102,8 +102,8 @@ def write_mesh(msh, folder):
 
 
 def valve_of(block):
-    """Returns the valve of a block that `riis export` printed. Its paths become absolute, because the solver runs in another
-    folder."""
+    """Returns the valve of a block that `riis export` printed. The valve's paths become absolute, because the solver runs in
+    another folder."""
     valve = re.search("<Add_URIS_mesh.*</Add_URIS_mesh>", pathlib.Path(block).read_text(encoding="utf-8"), re.S)
     if not valve:
         sys.exit(f"uris_case.py: {block} has no Add_URIS_mesh")
@@ -158,7 +158,7 @@ def write(msh, block, folder, time_step):
 
 
 def last_rows(path):
-    """Returns the values of the last two steps in a table of face averages. They are listed by the names of the faces."""
+    """Returns the values of the last two steps in a table of face averages. The values are listed by the names of the faces."""
     lines = [line.split() for line in path.read_text(encoding="ascii").splitlines() if line.strip() and line[0] != "#"]
     (names,) = [line[2:] for line in lines if line[:2] == ["step", "time"]]
     if int(lines[-1][0]) != STEPS:

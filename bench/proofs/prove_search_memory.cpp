@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench proof, its third part: every search marks a small mesh many times, and the memory of the process must not grow. It
-// runs with 1, 2 and 4 threads, on processors that other processes keep busy. Threads then join a search of less than a
-// millisecond late, and TBB keeps the memory that it allocated for them. The program prints a table and fails if memory grows.
+// ./run bench proof, its third part: every search marks a small mesh many times, and the memory of the process must not grow.
+// Each search runs with 1, 2 and 4 threads, on processors that other processes keep busy. Threads then join a search of less than
+// a millisecond late, and TBB keeps the memory that it allocated for them. The program prints a table and fails if memory grows.
 // argv[1]: another number of markings. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive). Otherwise the run
 // takes many times as long.
 #include <sched.h>
@@ -22,8 +22,8 @@ namespace {
 
 using namespace bench;
 
-// Processes that keep the processors busy, one for each processor that this process may use. They end with this object. If this
-// process ends before (by exit or a signal), the system kills them.
+// Processes that keep the processors busy, one for each processor that this process may use. These processes end with this
+// object. If this process ends before (by exit or a signal), the system kills them.
 class BusyProcessors {
  public:
   BusyProcessors() {

@@ -332,7 +332,7 @@ def floor_values(data):
 
 
 def design_values(data):
-    """Returns the gains of design changes. They were measured once, and are kept in design_steps.json."""
+    """Returns the gains of design changes. These gains were measured once, and are kept in design_steps.json."""
     if not data.marking:
         return None
     design = data.design
@@ -406,8 +406,8 @@ STEP_STAGES = (
 
 
 def peak_ns(peak, stage, unit, case):
-    """Returns the least time that the machine needs for a stage. It is the longer of the times for its operations and for its
-    bytes."""
+    """Returns the least time that the machine needs for a stage. The operations need one time and the bytes another, and the
+    longer time counts."""
     by_memory = case["bytes"][stage] / peak["bytes"]
     return max(by_memory, case["operations"][stage] / peak[unit]) if unit else by_memory
 

@@ -4,8 +4,8 @@
 import re
 import textwrap
 
-# The colours of lines and bars are those of the program's pictures (src/riis_vtk/picture/drawing.hpp), and a dark one. They are
-# distinct for all kinds of colour vision.
+# The colours of lines and bars are those of the program's pictures (src/riis_vtk/picture/drawing.hpp), and a dark one. These
+# colours are distinct for all kinds of colour vision.
 COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#2d2d2d")
 
 _TAG = re.compile(r"^[ \t]*\{\{([#^/])(\w+)\}\}[ \t]*\n|\{\{([#^/]?)(\w+)\}\}", re.MULTILINE)

@@ -151,7 +151,7 @@ class Study:
         self.run("accuracy", [self.program("riis_accuracy"), "OUT", "20000" if full else "2000"])
 
     def peers(self):
-        # Earlier results of the Python packages belong to an earlier run of the peers. They are therefore removed.
+        # Earlier results of the Python packages belong to an earlier run of the peers. Such results are therefore removed.
         if os.path.exists(self.path("peers_python")):
             os.remove(self.path("peers_python"))
         os.makedirs(os.path.join(self.out, "peers"), exist_ok=True)

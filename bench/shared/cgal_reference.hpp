@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares a competitor of the library's marking, which is built if CGAL was found. It uses CGAL's tree of boxes around triangles
-// (AABB_tree).
+// Declares a competitor of the library's marking, which is built if CGAL was found. The competitor uses CGAL's tree of boxes
+// around triangles (AABB_tree).
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@ class Contest {
   // run.
   void add(
       const std::string &name, int n_turns, Work work, Work before = [] {});
-  // Records a contender that cannot take part here. Its bars are left out, and the reason is printed.
+  // Records a contender that cannot take part here. The contender's bars are left out, and the reason is printed.
   void leave_out(const std::string &name, const std::string &why) { left_out_[name] = why; }
   // Runs all contenders that were added since the last run. Before the first turn, each contender works once without timing.
   void run();

@@ -49,8 +49,8 @@ class PointQuery {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// The paper's neighbour search (4.2.2). It goes breadth first through marked nodes. For every leaflet it begins at the node that
-// is nearest to the leaflet. It takes its queue level by level, so that threads can share a level.
+// The paper's neighbour search (4.2.2). The search goes breadth first through marked nodes. For every leaflet the search begins
+// at the node that is nearest to the leaflet. The queue is processed level by level, so that threads can share a level.
 class PaperSearch {
  public:
   PaperSearch(std::int64_t n_nodes, const double *xyz, const riis_csr &rows)

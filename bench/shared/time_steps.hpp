@@ -48,7 +48,7 @@ class TimeSteps {
     else
       check(riis_valve_set_scalar(valve_.get(), "leaflet_angle", 30 + 30 * position));
   }
-  // Moves the valve by a sixtieth of the range of positions. It goes back and forth within a twelfth of this range.
+  // Moves the valve by a sixtieth of the range of positions. The valve goes back and forth within a twelfth of this range.
   void move() {
     step_ = (step_ + 1) % 10;
     move_to(0.5 + (step_ < 5 ? step_ : 10 - step_) / 60.0);

@@ -187,8 +187,9 @@ void search_every_triangle(benchmark::State &state) {
   count_time_per(state, "time/pair", static_cast<double>(n_sample) * n_triangles_of(surface));
 }
 
-// Runs the first of the paper's two searches, in plain code (references.hpp). It measures an evenly spaced sample of about 2,000
-// nodes against every triangle. Each node takes the same time, so "all_nodes_ms" is the extrapolated time of all nodes.
+// Runs the first of the paper's two searches, in plain code (references.hpp). The search measures an evenly spaced sample of
+// about 2,000 nodes against every triangle. Each node takes the same time, so "all_nodes_ms" is the extrapolated time of all
+// nodes.
 void search_paper_exhaustive(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const Triangles triangles(valve_of(state).first());
@@ -216,8 +217,8 @@ void search_paper_exhaustive(benchmark::State &state) {
       shortest.milliseconds() * static_cast<double>(mesh.n_nodes()) / static_cast<double>(n_sample);
 }
 
-// Runs the paper's second search, also in plain code. It walks from marked nodes to their neighbours, and measures each node on
-// its way against every triangle.
+// Runs the paper's second search, also in plain code. The search walks from marked nodes to their neighbours, and measures each
+// node on its way against every triangle.
 void search_paper_neighbor(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const Triangles triangles(valve_of(state).first());

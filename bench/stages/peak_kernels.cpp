@@ -8,7 +8,7 @@
 namespace bench {
 namespace {
 
-// Twelve independent chains of operations keep all units of a core busy. They fit into sixteen registers.
+// Twelve independent chains of operations keep all units of a core busy. The chains fit into sixteen registers.
 constexpr int n_chains = 12;
 
 template <class Register, class Scalar, class Step>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench roofline: compares the time of each stage of a step with the machine's limits. A step makes the surface of a valve
-// that moved, and marks by the search over clusters, on one thread. The search first runs with kernels that read a clock. It then
-// runs with kernels that count operations and pairs, and record which memory they use.
+// that moved, and marks by the search over clusters, on one thread. The search first runs with kernels that read a clock. The
+// search then runs with kernels that count operations and pairs, and record which memory they use.
 //   argv[1]  the file for counts, times and peaks as JSON
 //   argv[2]  the number of nodes in thousands, 1000 by default
 #include <riis/riis.h>

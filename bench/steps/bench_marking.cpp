@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench marking: measures the cost of a time step, of an adjacency, and of their competitors in one run. A step makes the
-// surface and the scene of a valve that moved, and marks nodes. It then reads the list of marked nodes with distances and
-// triangles (time_steps.hpp). The program prints the times and the bars. It fails if a competitor marks other nodes or makes
-// other rows.
+// surface and the scene of a valve that moved, and marks nodes. The step then reads the list of marked nodes with distances and
+// triangles (time_steps.hpp). The program prints the times and the bars. The program fails if a competitor marks other nodes or
+// makes other rows.
 //   argv[1]  a file for the times and bars as JSON, optional
 //   argv[2]  the number of nodes in thousands, 1000 by default
 #include <riis/riis.h>

@@ -66,7 +66,7 @@ std::vector<idx_t> partition(Graph &graph, idx_t n_parts, std::vector<idx_t> &we
   std::exit(1);
 }
 
-// A rank. It has its own copies of the whole surfaces, and the nodes of one part.
+// A rank of the partitioned mesh. The rank has separate copies of the whole surfaces, and the nodes of one part.
 class Rank {
  public:
   Rank(const CylinderNodes &nodes, std::vector<std::int64_t> ids)

@@ -91,8 +91,8 @@ def profile(run):
 
 
 def profiles(runs, path):
-    """Draws profiles of the axial speed behind the open and the half-open trileaflet valve. They are computed with walls, and
-    with bands at two offsets. Draws nothing if a case is missing."""
+    """Draws profiles of the axial speed behind the open and the half-open trileaflet valve. The profiles are computed with walls,
+    and with bands at two offsets. Draws nothing if a case is missing."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt

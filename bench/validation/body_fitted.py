@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the tables, rows and pictures of body_fitted.sh. They compare the effective areas of open leaflets in two forms: as walls
-without thickness, and as obstacles of riis. body_fitted.py FOLDER [--quick] reads the cases in FOLDER and prints the tables. It
-writes body_fitted.json and pictures into FOLDER. Rows of all.json without cases are kept, but not with --quick."""
+"""Makes the tables, rows and pictures of body_fitted.sh. The results compare the effective areas of open leaflets in two forms:
+as walls without thickness, and as obstacles of riis. body_fitted.py FOLDER [--quick] reads the cases in FOLDER and prints the
+tables. The script writes body_fitted.json and pictures into FOLDER. Rows of all.json without cases are kept, but not with
+--quick."""
 import json
 import pathlib
 import re
@@ -343,8 +344,8 @@ def blood_beside(run, area, walls, found):
 
 
 def merged(rows, kept, now):
-    """Returns the rows with the commits on which they were measured. Their order is that of `kept`, then that of `rows`. A row
-    that equals the kept row keeps its commit."""
+    """Returns the rows with the commits on which they were measured. The order of the rows is that of `kept`, then that of
+    `rows`. A row that equals the kept row keeps its commit."""
     new = {row["id"]: {**row, "commit": now} for row in rows}
     for key, row in kept.items():
         if {**new.get(key, {}), "commit": row["commit"]} == row:

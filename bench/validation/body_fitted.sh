@@ -19,7 +19,7 @@ out=$(readlink -f -- "$1")
 quick=${2:-}
 cd -- "$here/../.."
 
-# openfoam.sh fetches OpenFOAM's headers and builds the plug-in. It uses the variables and functions that are set here.
+# openfoam.sh fetches OpenFOAM's headers and builds the plug-in. The script uses the variables and functions that are set here.
 build=build n_jobs=$(nproc)
 say() { printf '==> %s\n' "$*"; }
 step() {

@@ -2,8 +2,8 @@
 """Computes plane jets from a slit in a plate across a channel with slip walls: contraction, drop, and pressure downstream.
 
 Units are SI. The slit's half width is B, and the mean speed in the slit is SPEED. The viscosity is small near the slit
-(REYNOLDS). It grows downstream (MIXING), because it stands for turbulent mixing. Slip walls have no friction, so the balance of
-momentum holds with any viscosity."""
+(REYNOLDS). The viscosity grows downstream (MIXING), because it stands for turbulent mixing. Slip walls have no friction, so the
+balance of momentum holds with any viscosity."""
 
 import numpy as np
 

@@ -15,8 +15,8 @@ from stokes import BOX, consistent
 
 
 class _Side:
-    """One direction of the grid. It has the sizes and centres of its n cells, and the distances between the centres beside faces
-    0 to n."""
+    """One direction of the grid. A direction has the sizes and centres of its n cells, and the distances between the centres
+    beside faces 0 to n."""
 
     def __init__(self, edges):
         self.edge, self.size, self.centre = edges, np.diff(edges), (edges[1:] + edges[:-1]) / 2
@@ -70,7 +70,7 @@ def effective_radius(library, kind, eps, per_eps, rim, tolerance=1e-6):
             return sum(d @ lu.solve(d.T @ p) for d, lu in zip(D, A))
 
         # The velocity u = started + A^-1 D^T p must be free of divergence. This gives the equation S p = mass. The Schur
-        # complement S is close to the cell volumes if viscosity dominates. It is close to `rough` if K dominates.
+        # complement S is close to the cell volumes if viscosity dominates. S is close to `rough` if K dominates.
         p = _conjugate_gradients(schur, mass, lambda x: rough.solve(x) + x / size, tolerance)
         u = [x + lu.solve(d.T @ p) for x, lu, d in zip(started, A, D)]
         if kind == "disc":
@@ -90,8 +90,8 @@ def effective_radius(library, kind, eps, per_eps, rim, tolerance=1e-6):
 
 
 class _Component:
-    """The equation of one velocity component. It has the matrix A, the component's part D of the divergence, and boundary
-    values."""
+    """The equation of one velocity component. The equation has the matrix A, the component's part D of the divergence, and
+    boundary values."""
 
     def __init__(self, library, surface, side, c, eps, rim):
         self.c, self.side = c, side
@@ -117,8 +117,8 @@ class _Component:
         self.D = _kron(*[jump if d == c else sp.diags(side[d].size) for d in range(3)])
 
     def given(self, kind, a):
-        """Returns the prescribed velocities on the box's faces normal to c. They are 0 on all other faces. Also returns the
-        friction of the other faces."""
+        """Returns the prescribed velocities on the box's faces normal to c. The velocities are 0 on all other faces. Also returns
+        the friction of the other faces."""
         def velocity(x, y, z):
             r = np.hypot(x, y)
             u_r, u_z, _ = exact.disc(a, r, z) if kind == "disc" else exact.hole(a, r, z)

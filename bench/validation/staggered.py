@@ -5,7 +5,7 @@
 
 x runs along the axis or the stream. y is the radius or the direction across the stream. u lies on faces normal to x, and v on
 faces normal to y. p lies at cell centres. Diffusion uses central differences. Convection extrapolates linearly from two points
-upstream. Newton's method solves for all unknowns at once. Its Jacobian is exact if the flow keeps its direction through each
+upstream. Newton's method solves for all unknowns at once. The Jacobian is exact if the flow keeps its direction through each
 face. Stokes flow needs only one solution of linear equations."""
 
 import numpy as np

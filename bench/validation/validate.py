@@ -126,8 +126,8 @@ def table_of(rows):
 
 
 def offsets_of(rows):
-    """Returns the short table of the rows of bands with an offset. It has the deviations of area and drop for each opening, half
-    thickness and offset."""
+    """Returns the short table of the rows of bands with an offset. The table has the deviations of area and drop for each
+    opening, half thickness and offset."""
     import report_text
 
     offsets = sorted({row["offset"] for row in rows})

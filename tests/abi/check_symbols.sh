@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The list has a line "NAME VERSION" for every released function, and a line "NAME = VALUE VERSION" for every constant. VERSION is
 # the release that introduced the name. Compiled callers contain these names and values. The list must therefore equal the names
-# of the library. It must also equal those of the header and of the headers that it includes by name.
+# of the library. The list must also equal the names of the header and of the headers that it includes by name.
 set -euo pipefail
 list=$1 header=$2 library=$3
 mapfile -t headers < <("$(dirname "$0")/headers.sh" "$header")

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_symbols_judged.sh LIBRARY SCRATCH
 # check_symbols.sh must refuse a function or constant that was removed, renamed or given another value, in the library or the
-# header. It must also refuse a name that the list lacks.
+# header. The script must also refuse a name that the list lacks.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$here/../.. library=$1 scratch=$2

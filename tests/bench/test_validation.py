@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs a tiny ./run validate. Its rows must meet their bars, and planted errors must make rows miss the bars. argv[1] is the
-program of marks.c.
+"""Runs a tiny ./run validate. Rows must meet their bars, and planted errors must make rows miss the bars. argv[1] is the program
+of marks.c.
 
 Invented rows also test the order of a series, the reading of committed rows and the page."""
 

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_placed_lines.sh RIIS FOLDER INCLUDE LIBRARY CC [FC MODULES FORTRAN_LIBRARY]
-# The lines of C and Fortran that riis place writes must compile and run. They must make the surface that the command's JSON
+# The lines of C and Fortran that riis place writes must compile and run. The lines must make the surface that the command's JSON
 # makes. LIBRARY is the file libriis.so. Without FC only C is checked.
 set -euo pipefail
 riis=$1 folder=$2 include=$3 library=$4 cc=$5 fc=${6-} modules=${7-} fortran_library=${8-}

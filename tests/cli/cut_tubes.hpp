@@ -44,8 +44,8 @@ Triangles surface_of(const std::function<double(const Vector3 &)> &function, con
 CutEnd cut(Triangles &triangles, const Vector3 &point, const Vector3 &outward, double radius, Cap cap,
            random_source &random);
 
-// Makes random vessels that meet in the middle, with radii of about 1. Their ends lean by up to 40 degrees. The height of the
-// wall's waves is a share of the radius.
+// Makes random vessels that meet in the middle, with radii of about 1. The vessels' ends lean by up to 40 degrees. The height of
+// the wall's waves is a share of the radius.
 CutVessels draw_vessels(random_source &random, int n_ends, double waves, Cap cap);
 
 // Turns, scales and moves points.

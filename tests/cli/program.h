@@ -33,7 +33,7 @@ void finish_program(pid_t process);
 #define RUN_FINE(...) (run_program(__VA_ARGS__, NULL), expect_run_fine(__FILE__, __LINE__))
 /* Runs the program on a mesh without volume cells. The run must succeed and report leaks as unknown. */
 #define RUN_WITHOUT_CELLS(...) (run_program(__VA_ARGS__, NULL), expect_run_without_cells(__FILE__, __LINE__))
-/* Runs the program, which must end with this exit code. It must print nothing on stdout, and one line with this text on
+/* Runs the program, which must end with this exit code. The program must print nothing on stdout, and one line with this text on
  * stderr. */
 #define RUN_REFUSED(exit_code, text, ...) \
   (run_program(__VA_ARGS__, NULL), expect_run_refused(exit_code, text, __FILE__, __LINE__))
@@ -47,7 +47,7 @@ double json_number(const char *json, const char *key);
 int json_has_text(const char *json, const char *key, const char *value);
 
 /* Fails the test if the text does not begin with this point's coordinates and continue with `follows`. The coordinates may be off
- * by a tenth of an edge. They must have no digits below a hundredth of an edge. */
+ * by a tenth of an edge. The coordinates must have no digits below a hundredth of an edge. */
 void expect_place(const char *text, const double point[3], double edge, const char *follows);
 
 /* A set-up of CMocka: writes in.vtu, a box around the valve with n_box nodes, into the scratch folder. */

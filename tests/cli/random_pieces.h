@@ -168,7 +168,7 @@ static const char *piece_name(int piece) {
   return name;
 }
 
-/* Writes a piece. Its nodes are in a random order. Ghosts are cells of other pieces that share a node with this piece. */
+/* Writes a piece, with its nodes in a random order. Ghosts are cells of other pieces that share a node with this piece. */
 static void write_piece(int piece) {
   char *has_node = calloc((size_t)whole.n_nodes, 1);
   int *cells = malloc(sizeof(int) * (size_t)whole.n_cells), *ghosts = calloc((size_t)whole.n_cells, sizeof(int)), n = 0;

@@ -156,8 +156,8 @@ class Advice(unittest.TestCase):
         self.assertEqual(self.advised(refused, r"set RIIS_PYTHON=(\S+)"), ["~/venv/bin/python"])
 
     def test_packages_of_python(self):
-        """A message of Python advises `pip install`. It names packages that pyproject.toml names, and all packages of the extra
-        `view`."""
+        """A message of Python advises `pip install`. The message names packages that pyproject.toml names, and all packages of
+        the extra `view`."""
         sources = pathlib.Path(__file__).resolve().parents[2]
         extras = tomllib.loads((sources / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
         known = {name: {re.split("[>=]", package)[0] for package in packages} for name, packages in extras.items()}

@@ -440,7 +440,7 @@ TEST(test_statistics_of_series) {
   free(out);
 }
 
-/* A series may have only one time. Its mesh has the marks of the opening at this time, and no velocities. */
+/* A series may have only one time. The mesh of such a series has the marks of the opening at this time, and no velocities. */
 TEST(test_one_time_of_series) {
   static double one[n_box], two[n_box];
   scratch_write_text("beat.csv", "0,0\n0.2,1\n");

@@ -213,7 +213,7 @@ TEST(test_meshio) {
   scratch_write_text(
       "tet.su2", "NDIME= 3\nNELEM= 1\n10 0 1 2 3 0\nNPOIN= 4\n-1 -1 -1 0\n1 -1 -1 1\n0 1 -1 2\n0 0 1 3\nNMARK= 0\n");
   scratch_write_text("skin.off", "OFF\n3 1 0\n-1 -1 -1\n1 -1 -1\n0 1 -1\n3 0 1 2\n");
-  /* meshio writes the format of Ansys. It also writes MED if it has h5py. */
+  /* meshio writes the format of Ansys, and also MED if it has h5py. */
   const char *meshes[] = {"tet.inp", "tet.su2", "tet.msh", "tet.med", "tet.mesh", "tet.avs", "tet.dat", "tet.vol"};
   const char *to[] = {"--output-format ansys", "", "", "", "", ""};
   for (int i = 0; i < 8; ++i) {

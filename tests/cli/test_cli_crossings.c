@@ -11,8 +11,8 @@
 #include "program.h"
 #include "scratch.h"
 
-/* A unit square lies at z = 0. A second square stands upright at x = 0.5. Its lower side is at z = 0.245 when closed and at z =
- * -0.755 when open. */
+/* A unit square lies at z = 0. A second square stands upright at x = 0.5. This square's lower side is at z = 0.245 when closed
+ * and at z = -0.755 when open. */
 static const char squares[] =
     "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]], \"d\": "
     "[[1,0,0],[1,1,0]],\n"

@@ -605,7 +605,7 @@ TEST(test_without_scipy) {
   free(with);
 }
 
-/* The closed flap fills the tube from -1 to 1. It turns about the side y = -1. A second flap jumps far away. */
+/* The closed flap fills the tube from -1 to 1. The flap turns about the side y = -1. A second flap jumps far away. */
 static int make_files(void **state) {
   const char *const flap =
       "{\"curves\": {\"a\": [[-1,-1,0],[1,-1,0]], \"b\": [[-1,1,0],[1,1,0]], \"c\": [[-1,-1,0],[-1,1,0]],"

@@ -53,7 +53,7 @@ TEST(test_xdmf) {
   RUN_REFUSED(2, "o.doc must end in .vtu", "mark", scratch_path("in.vtu"), "--output", scratch_path("o.doc"));
 }
 
-/* The .h5 file of an .xdmf is an output. It is also an input of each .xdmf that names it. */
+/* The .h5 file of an .xdmf is an output. The .h5 file is also an input of each .xdmf that names it. */
 TEST(test_numbers_of_xdmf) {
   RUN_REFUSED(2, "o.h5 is also the file of --output", "mark", scratch_path("in.vtu"), "--half-thickness", "0.3",
               "--output", scratch_path("o.xdmf"), "--stats", scratch_path("o.h5"));

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Runs the program on structured grids. Its reports and files equal those for a .vtu with the grid's nodes and cells. */
+ * Runs the program on structured grids. The program's reports and files equal those for a .vtu with the grid's nodes and
+ * cells. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -107,7 +108,7 @@ TEST(test_marks) {
   expect_same("grid.vti", &grid, "--search", "neighbor");
 }
 
-/* Runs by cells, series and parts of the mesh need points. Their files equal those of the .vtu. */
+/* Runs by cells, series and parts of the mesh need points. The files of these runs equal those of the .vtu. */
 TEST(test_cells_and_series) {
   const shim_grid grid = image_with(0.21);
   assert_int_equal(shim_write_grid(scratch_path("grid.vti"), SHIM_RAW, &grid), 1);

@@ -33,7 +33,7 @@ static int make_files(void **state) {
   return 0;
 }
 
-/* Checks the leaflet of every node within the limit. It must be that of the square nearest to the node's height. */
+/* Checks the leaflet of every node within the limit. The leaflet must be that of the square nearest to the node's height. */
 static void expect_leaflets(const char *path, const int leaflets[3]) {
   static double xyz[3 * n_box], leaflet[n_box];
   int n_of[3] = {0, 0, 0};

@@ -14,7 +14,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* Writes a box around the valve. The longest edges are the diagonals of cubes. They have the length `longest`. */
+/* Writes a box around the valve. The longest edges are the diagonals of cubes. These diagonals have the length `longest`. */
 static void write_mesh(const char *name, const riis_surface *surface, double longest) {
   riis_surface_info info;
   double lower[3], upper[3], extent = 0;
@@ -391,7 +391,7 @@ TEST(test_quadratic_cells) {
   plain_free(&corners);
 }
 
-/* Hexahedra may be stored as polyhedra in two layouts. Their leaks and passage equal those of plain hexahedra. */
+/* Hexahedra may be stored as polyhedra in two layouts. The leaks and the passage equal those of plain hexahedra. */
 TEST(test_polyhedra) {
   static const char *const names[3] = {"cells.vtu", "streams.vtu", "lists.vtu"};
   static char said[3][2][1000];
@@ -431,7 +431,8 @@ TEST(test_unknown) {
       RUN_REFUSED(2, reasons[i], "check", "leaks", scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none",
                   "--between", "0.1,0,0.6", "0,0.1,0.6");
   }
-  /* A tetrahedron joins its nodes, even if the edges of another cell are unknown. It does not join nodes of other cells. */
+  /* A tetrahedron joins its nodes, even if the edges of another cell are unknown. A tetrahedron does not join nodes of other
+   * cells. */
   run_program("check", "leaks", scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none", "--between",
               "0.1,0,0.6", "0,0.1,0.6", NULL);
   assert_non_null(strstr(program_out, "\npassage   open: at "));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests valve parameters from JSON and from --set. They are checked by `riis params` and by the surface's area. */
+ * Tests valve parameters from JSON and from --set. The parameters are checked by `riis params` and by the surface's area. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdio.h>

@@ -380,7 +380,8 @@ TEST(test_closed_area_of_plates) {
 }
 
 /* Where two leaflets touch, they count once. Half of their coaptation within half a half thickness therefore does not count. The
- * half tube around the free edges also counts. Its width is 0.467 half thicknesses, the integral of K there over R / eps. */
+ * half tube around the free edges also counts. The tube's width is 0.467 half thicknesses, the integral of K there over R /
+ * eps. */
 TEST(test_closed_area_of_a_coaptation) {
   const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 2.3};
   assert_int_equal(shim_write_box(scratch_path("wide.vtu"), SHIM_RAW, 32, lower, upper, 0), 1);

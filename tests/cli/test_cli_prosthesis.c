@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The example of a user-defined valve exists as prosthesis.json, .c and .f90. All three files define one valve. Its leaflets
- * never cross, and the closed valve has no hole. */
+ * The example of a user-defined valve exists as prosthesis.json, .c and .f90. All three files define one valve. The valve's
+ * leaflets never cross, and the closed valve has no hole. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -394,7 +394,7 @@ TEST(test_shared_sides) {
 
 /* ---- Skirts, surfaces from files ---- */
 
-/* Writes a square tube around the z axis. Its sides are 2 units away from the axis. */
+/* Writes a square tube around the z axis. The tube's sides are 2 units away from the axis. */
 static void write_wall(const char *name, double unit) {
   const double corner[4][2] = {
       {2 * unit, 2 * unit}, {-2 * unit, 2 * unit}, {-2 * unit, -2 * unit}, {2 * unit, -2 * unit}};

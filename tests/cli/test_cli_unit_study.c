@@ -197,7 +197,7 @@ static int advises(const char *line, const char *unit) {
   return found && (found[strlen(wanted)] == 0 || found[strlen(wanted)] == ' ');
 }
 
-/* Checks the run with the true unit. It must say how many nodes each advised unit marks, and both numbers must be right. */
+/* Checks the run with the true unit. The run must say how many nodes each advised unit marks, and both numbers must be right. */
 static void check_counts(const char *kind, int true_unit, const int is_advised[n_units]) {
   static char line[1024];
   run_on_mesh(kind, units[true_unit]);

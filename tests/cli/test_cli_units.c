@@ -274,8 +274,8 @@ TEST(test_half_thickness) {
   expect_warning(program_exit_code, "the half thickness is 0.001, the median edge of the mesh 0.1");
   expect_warning(program_exit_code, ": write --half-thickness 0.1\n");
   expect_cured(meshes[1], NULL);
-  /* If no power of ten suits a coarse mesh, the program advises the mesh's edge length. It does not do so if this length is also
-   * too large. */
+  /* If no power of ten suits a coarse mesh, the program advises the mesh's edge length. A length that is also too large is not
+   * advised. */
   const double far = 1.6;
   assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 6, (double[3]){-far, -far, -far},
                                   (double[3]){far, far, far}, 0),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Tests `riis export uris`. The test reads the files as svMultiPhysics does, and compares their vertices with the library's at
- * the openings of the frames. It also marks nodes by the solver's rule. */
+ * the openings of the frames. The test also marks nodes by the solver's rule. */
 /* clang-format off: test_support.h checks statuses if riis.h comes before it */
 #include <riis/riis.h>
 #include <riis/riis_vtk.h>
@@ -212,8 +212,8 @@ TEST(test_vtk) {
   uris_free(&exported);
 }
 
-/* The solver computes the velocity of a node from two frames. It equals the velocity of the library's vertex. Nodes of the mitral
- * valve also slide along their leaflet with the joints of the annulus. */
+/* The solver computes the velocity of a node from two frames. This velocity equals that of the library's vertex. Nodes of the
+ * mitral valve also slide along their leaflet with the joints of the annulus. */
 TEST(test_velocity) {
   riis_valve *valve = NULL, *before = NULL;
   EXPORT("velocity", RAMPS, "--valve", "trileaflet");
@@ -494,7 +494,7 @@ TEST(test_ring_counts_once) {
 
 /* ---- The solver's box ---- */
 
-/* A frame of the solver. It has, or lacks, the face that enlarges the box. */
+/* A frame of the solver. The frame has, or lacks, the face that enlarges the box. */
 typedef struct {
   int is_closing, n_marked, n_marked_outside, n_of_side[2];
   uris_state all, leaflets; /* n_marked_outside: marked nodes outside the box of the leaflets alone */
@@ -502,8 +502,8 @@ typedef struct {
 
 static random_source rng;
 
-/* Checks a point that is marked or lies in a pressure band. It must lie in the box. Its nearest triangle by the solver's rule
- * must belong to a leaflet. */
+/* Checks a point that is marked or lies in a pressure band. The point must lie in the box. The point's nearest triangle by the
+ * solver's rule must belong to a leaflet. */
 static void look_at(frame *at, const double point[3]) {
   double expected = 0, distance = 0;
   const int leaflet = uris_nearest(&at->leaflets, point, &expected);
@@ -519,8 +519,8 @@ static void look_at(frame *at, const double point[3]) {
   }
 }
 
-/* Checks points around a triangle's middle, along the axes and between the axes. They go from nearly on the triangle to beyond
- * the bands. */
+/* Checks points around a triangle's middle, along the axes and between the axes. The points go from nearly on the triangle to
+ * beyond the bands. */
 static void look_around(frame *at, const double middle[3]) {
   for (int towards = 0; towards < 27; ++towards)
     for (double r = 1e-12; r < 6; r *= 30) {

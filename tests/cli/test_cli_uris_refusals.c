@@ -230,8 +230,8 @@ static void expect_openings(const char *text) {
 }
 
 TEST(test_cycles) {
-  /* The valve opens in 0.22:0.29. It closes in 0.29:0.66, from the key with the largest opening to the next key with the least
-   * opening. */
+  /* The valve opens in 0.22:0.29. The valve closes in 0.29:0.66, from the key with the largest opening to the next key with the
+   * least opening. */
   scratch_write_text("mitral.csv", "0,0\n0.22,0\n0.29,1\n0.40,0.62\n0.50,0.55\n0.57,0.85\n0.66,0\n");
   uris_valve valve = EXPORTED("--time-step", "0.01", "--valve", "mitral", "--cycle", scratch_path("mitral.csv"));
   assert_int_equal(valve.face[0].n_open, 8);

@@ -11,8 +11,8 @@
 #include "program.h"
 #include "scratch.h"
 
-/* A flap of two patches that swings open. It has curves of every degree, and one side that is a point. The file lists the curves
- * in another order, also in its "open" state. */
+/* A flap of two patches that swings open. The flap has curves of every degree, and one side that is a point. The file lists the
+ * curves in another order, also in its "open" state. */
 static const char *const flap =
     "{\"curves\": {\"hinge\": [[-1, 0, 0], [0, 0, 0]], \"rim\": [[0, 1.2, -0.3], [-1, 1, 0]],\n"
     "  \"left\": [[-1, 0, 0], [-1, 0.5, 0.4], [-1, 1, 0]], \"middle\": [[0, 0, 0], [0, 0.4, 0.4], [0, 0.8, 0.4], [0, "

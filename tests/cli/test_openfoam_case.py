@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""test_openfoam_case.py WRITER: tests the case of OpenFOAM that riis patient writes. It checks the dictionaries, the refusals and
-the scripts.
+"""test_openfoam_case.py WRITER: tests the case of OpenFOAM that riis patient writes. The test checks the dictionaries, the
+refusals and the scripts.
 
 WRITER is write_solver_case. Allrun runs stand-ins for OpenFOAM's programs, so the test does not need OpenFOAM. If foamDictionary
 is installed, OpenFOAM's parser also reads the dictionaries.
@@ -186,7 +186,7 @@ class OpenfoamCase(unittest.TestCase):
     # ---- Allrun and report.py ----
 
     def tools(self, *names):
-        """Makes a folder for PATH. It has tools of the system, and stand-ins for the named programs of OpenFOAM."""
+        """Makes a folder for PATH. The folder has tools of the system, and stand-ins for the named programs of OpenFOAM."""
         folder = self.folder / "bin"
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()

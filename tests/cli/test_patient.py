@@ -36,7 +36,7 @@ def write_stl(path, triangles, factor=1.0, sign=1.0):
 
 
 def write_landmarks(path, points, factor=1.0, sign=1.0, unit="mm", axes="LPS", **more):
-    """Writes landmarks by name. Their coordinates are given in mm and LPS."""
+    """Writes landmarks by name. The landmarks' coordinates are given in mm and LPS."""
     def turned(point):
         return [sign * factor * point[0], sign * factor * point[1], factor * point[2]]
     text = {"unit": unit, "axes": axes, **more, "landmarks": {
@@ -183,8 +183,8 @@ class Patient(unittest.TestCase):
         return json.loads((self.folder / output / "patient.json").read_text(encoding="utf-8")), done
 
     def refused(self, status, text, *words, output="case", **more):
-        """Runs the command, which must fail. It must print one line on stderr with the text, and leave no folder that looks
-        finished."""
+        """Runs the command, which must fail. The command must print one line on stderr with the text, and leave no folder that
+        looks finished."""
         done = self.patient(*words, output=output, **more)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         self.assertRegex(done.stderr, text)
@@ -264,7 +264,7 @@ class Patient(unittest.TestCase):
                 self.assertAlmostEqual(a, b, delta=1e-3 * abs(a), msg=name)
 
     def leaking_gmsh(self, n):
-        """Returns a PATH with a changed gmsh. Its first n volume meshes have edges that are three times as long."""
+        """Returns a PATH with a changed gmsh. The first n volume meshes of this gmsh have edges that are three times as long."""
         tools = self.folder / f"bin{n}"
         tools.mkdir()
         (tools / "timeout").symlink_to(shutil.which("timeout"))

@@ -226,8 +226,8 @@ class Cases(unittest.TestCase):
         self.write("svmultiphysics", numbers)
         folder = pathlib.Path(numbers["solver"])
         stand_in = self.folder / "solver"
-        # The stand-in has two steps of backward flow and one step of forward flow. It writes the last step twice, as a continued
-        # run does.
+        # The stand-in has two steps of backward flow and one step of forward flow. The stand-in writes the last step twice, as a
+        # continued run does.
         stand_in.write_text("#!/bin/sh\ncp \"$1\" ran.xml && mkdir -p 1-procs && : >1-procs/stFile_last.bin\n"
                             "printf 'step time inlet outlet wall\\n\\n 1 .002 1.5 -1.5 0\\n 2 .004 0.5 -0.5 0\\n"
                             " 3 .006 -100 100 0\\n 3 .006 -400 400 0\\n' >1-procs/B_NS_Velocity_flux.txt\n"
@@ -447,8 +447,8 @@ class Cases(unittest.TestCase):
         self.write("fenicsx", numbers)
         folder = pathlib.Path(numbers["solver"])
         case = json.loads((folder / "case.json").read_text())
-        # After 0.1 s the valve opens in 20 steps, and 200 ml/s pass. After 0.4 s it closes in 20 steps, while 50 ml/s return. It
-        # then leaks at 80 mmHg half as much again as an ideal valve of 9 cm2.
+        # After 0.1 s the valve opens in 20 steps, and 200 ml/s pass. After 0.4 s it closes in 20 steps, while 50 ml/s return. The
+        # valve then leaks at 80 mmHg half as much again as an ideal valve of 9 cm2.
         drop, area = -80 * MMHG, 9e-4
         leak = 1.5 * drop * case["half_thickness"] * area / case["resistance"]
 

@@ -2,7 +2,7 @@
 """test_virtual_display.py PROGRAM: checks that the program draws without a display. The program starts Xvfb itself, and no Xvfb
 remains.
 
-A script named Xvfb on the PATH notes its process. It then becomes the real Xvfb, or fails as a test needs.
+A script named Xvfb on the PATH notes its process. The script then becomes the real Xvfb, or fails as a test needs.
 """
 import os
 import pathlib
@@ -45,7 +45,7 @@ class VirtualDisplay(unittest.TestCase):
         self.server(f'exec {REAL} "$@"')
 
     def server(self, ending):
-        """Makes the script Xvfb. It notes its process, then runs these lines."""
+        """Makes the script Xvfb. The script notes its process, then runs these lines."""
         script = self.folder / "Xvfb"
         script.write_text(f"#!/bin/sh\necho $$ >>{self.folder}/servers\n{ending}\n", encoding="utf-8")
         script.chmod(0o755)
@@ -118,7 +118,7 @@ class VirtualDisplay(unittest.TestCase):
                 self.assertTrue(eventually(lambda: not is_alive(self.servers()[-1])))
 
     def test_ctrl_c(self):
-        """In a terminal, Ctrl-C reaches the program and all its processes. It does not reach Xvfb, which the picture still
+        """In a terminal, Ctrl-C reaches the program and all its processes. Ctrl-C does not reach Xvfb, which the picture still
         needs."""
         self.server(f'sleep 1\nexec {REAL} "$@"')
         running = self.start(start_new_session=True)

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # arm64.sh root FOLDER                   unpacks Debian's packages for 64-bit ARM in FOLDER/root, on the first call only
 # arm64.sh build SOURCE FOLDER           compiles everything for ARM in FOLDER/build
-# arm64.sh test SOURCE FOLDER [WORD...]  runs the tests whose names match a WORD, or the default suite, and judges the results
-# arm64.sh count SOURCE FOLDER           prints the instructions of a marking, by NEON and by the portable code
-# An emulator runs the programs for ARM. It needs 7 to 20 times as long as a processor. apt fetches the packages and dpkg unpacks
-# them. This system's packages stay as they are, and no step needs root rights.
+# arm64.sh test SOURCE FOLDER [WORD...] runs the tests whose names match a WORD, or the default suite, and judges the results
+# arm64.sh count SOURCE FOLDER prints the instructions of a marking, by NEON and by the portable code An emulator runs the
+# programs for ARM. The emulator needs 7 to 20 times as long as a processor. apt fetches the packages and dpkg unpacks them. This
+# system's packages stay as they are, and no step needs root rights.
 set -euo pipefail
 
 triplet=aarch64-linux-gnu
@@ -88,7 +88,7 @@ EOF
 #!/bin/sh
 for file; do LD_TRACE_LOADED_OBJECTS=1 /usr/lib/ld-linux-aarch64.so.1 "$file" || exit; done
 EOF
-  # pkg-config writes ARM's root before each path. It also does so for a riis that a test installed outside this root.
+  # pkg-config writes ARM's root before each path, also for a riis that a test installed outside this root.
   cat >"$bin/pkg-config" <<EOF
 #!/bin/sh
 found=\$(/usr/bin/pkg-config "\$@") || exit
@@ -152,8 +152,8 @@ count() {
   }'
 }
 
-# run_tests SOURCE FOLDER [WORD...]: PRoot shows the tests ARM's libraries at the places that a Debian for ARM has. It starts each
-# program for ARM by the emulator, even if a script or another such program calls it. Programs of this system run as usual.
+# run_tests SOURCE FOLDER [WORD...]: PRoot shows the tests ARM's libraries at the places that a Debian for ARM has. PRoot starts
+# each program for ARM by the emulator, even if a script or another such program calls it. Programs of this system run as usual.
 run_tests() {
   local source=$1 folder=$2 select=(-LE slow) libraries=/usr/lib/$triplet status=0 start=$SECONDS
   shift 2

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # compilers.sh SOURCE FOLDER all|quick|musl|'' [COMPILER...]
 # Builds the core with every compiler and standard library that is installed here, or with the named compilers. Prints a line for
-# each compiler. It says whether 60 states have the bits of tests/process/state_digests.txt in every run, and whether the core
-# compiles as C++20 and C++23. Warnings are errors. With the word all, each compiler also reads all files of the preset default:
-# program, tests and benchmarks. With the word quick, the core is compiled only as C++17 with -O1, and the states are made only
-# three times. With the word musl, clang only reads the core's files, with the headers of the C library musl. FOLDER keeps the
-# compiled files and a log for each line.
+# each compiler. The line says whether 60 states have the bits of tests/process/state_digests.txt in every run, and whether the
+# core compiles as C++20 and C++23. Warnings are errors. With the word all, each compiler also reads all files of the preset
+# default: program, tests and benchmarks. With the word quick, the core is compiled only as C++17 with -O1, and the states are
+# made only three times. With the word musl, clang only reads the core's files, with the headers of the C library musl. FOLDER
+# keeps the compiled files and a log for each line.
 # shellcheck disable=SC2317 # functions are called by their names
 set -euo pipefail
 source=$1 folder=$2 mode=$3

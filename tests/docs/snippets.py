@@ -37,7 +37,7 @@ def documents():
 
 
 def conditions(list_file=None):
-    """Returns the list as a dict. It maps a document and the first line of snippets to their conditions."""
+    """Returns the list as a dict, which maps a document and the first line of snippets to their conditions."""
     found = collections.defaultdict(list)
     for line in (list_file or pathlib.Path(__file__).with_name("snippets.txt")).read_text(encoding="utf-8").splitlines():
         if line and not line.startswith("#"):

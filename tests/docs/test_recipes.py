@@ -2,8 +2,8 @@
 """The recipes for other package managers must agree with the sources: versions, options of CMake, files, compilers' sources,
 workflows.
 
-This test runs in the repository's root. The tests of the workflows and of conda's recipe need the module yaml. They are skipped
-without it.
+This test runs in the repository's root. The tests of the workflows and of conda's recipe need the module yaml. These tests are
+skipped without yaml.
 """
 import ast
 import hashlib

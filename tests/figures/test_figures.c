@@ -24,7 +24,7 @@ static const int n_openings[n_kinds] = {3, 2, 2, 2};
 
 static char *page;
 
-/* Returns a program's exit status. Its output goes to a file in the scratch folder. */
+/* Returns a program's exit status. The program's output goes to a file in the scratch folder. */
 static int run(const char *program, const char *arguments) {
   char command[4096];
   const int n = snprintf(command, sizeof command, "'%s' %s >%s 2>&1", program, arguments, scratch_path("printed"));

@@ -15,7 +15,7 @@
 enum { n_valves = 5 };
 static const char *const valves[n_valves] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
 
-/* Returns the exit status of a program. Its output goes to a file in the scratch folder. */
+/* Returns the exit status of a program. The program's output goes to a file in the scratch folder. */
 static int run(const char *command, const char *word, const char *other_word, const char *kind) {
   char line[2048];
   const int n =

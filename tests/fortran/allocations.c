@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Counts the allocations of Fortran code. Their caller is gfortran's run-time library or the program, which contains the Fortran
- * modules. All allocations of the process call these functions, because symbols of a program come before those of libraries. */
+ * Counts the allocations of Fortran code. The caller of such an allocation is gfortran's run-time library or the program, which
+ * contains the Fortran modules. All allocations of the process call these functions, because symbols of a program come before
+ * those of libraries. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* for dladdr, RTLD_DEFAULT */
 #endif

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! In a step of a moving valve, module riis allocates nothing. Its pointers point to arrays of the library.
+! In a step of a moving valve, module riis allocates nothing. The module's pointers point to arrays of the library.
 program test_allocations
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64

@@ -121,7 +121,7 @@ contains
       all(abs(y - 2 * held) < 1d-9 * (1 + held)) .and. all(abs(z + 3 * held) < 1d-9 * (1 + held)), 'K u_surface')
     held(1:m, 1:m, 1:m) = 0
     call check(maxval(abs(held)) <= 0, 'nothing in the halo')
-    ! The interior is a section of the arrays that is not contiguous. Its nodes are those of the mesh without a halo.
+    ! The interior is a section of the arrays that is not contiguous. The section's nodes are those of the mesh without a halo.
     call marks%add_resistance(R, held(1:m, 1:m, 1:m))
     call check(all(same(reshape(held(1:m, 1:m, 1:m), [n_nodes]), K)), 'a section of the array with a halo')
     call found%destroy()

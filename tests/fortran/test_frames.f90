@@ -95,8 +95,8 @@ contains
     call check(from_c%n_vertices == 4 .and. c_associated(own_velocities, from_c%velocity), 'no copy of velocities')
     call surface%destroy()
 
-    ! The second keyframes also have leaflet ids and cubic interpolation. Their vertex ids are of the other integer kind and count
-    ! from 0.
+    ! The second keyframes also have leaflet ids and cubic interpolation. The vertex ids of these keyframes are of the other
+    ! integer kind and count from 0.
     call others%create(time, frames, int(halves - 1, int64), [7, 8], index_base=0, interpolation=RIIS_INTERPOLATION_CUBIC)
     call surface%create_from_keyframes(others, 0.25d0, 0d0, .true., 0.2d0, 0.1d0, 1d0, [0d0, 0d0, 1d0], 0d0, &
       [0d0, 0d0, 0d0], .false., 1)
@@ -194,8 +194,8 @@ contains
     call keyframes%destroy()
   end subroutine test_bad_keyframes
 
-  ! Velocities are given as xyz or as x, y, z, with ids of either kind. They are given when the surface is made, or later. The
-  ! placement turns the velocities about z and doubles them.
+  ! Velocities are given as xyz or as x, y, z, with ids of either kind. The call that makes the surface gives the velocities, or a
+  ! later call does. The placement turns the velocities about z and doubles them.
 
   ! Landmarks on the attachment of a placed valve are widened and lifted. The warped valve is larger by these factors.
   subroutine test_warps()

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Tests module riis: leaflets, orifice, leak, first passage, cells across and swept volume. They are compared with closed forms
-! and other calls.
+! Tests module riis: leaflets, orifice, leak, first passage, cells across and swept volume. All results are compared with closed
+! forms and other calls.
 program test_measures
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64

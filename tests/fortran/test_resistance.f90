@@ -40,7 +40,7 @@ program test_resistance
 
 contains
 
-  ! Makes the square from -1 to 1 at z = 0. It comes from z = -0.01 in 2 ms, so u is 5 upwards.
+  ! Makes the square from -1 to 1 at z = 0. The square comes from z = -0.01 in 2 ms, so u is 5 upwards.
   subroutine make_plate()
     type(riis_valve) :: square
     real(c_double) :: corners(3, 4)
@@ -146,7 +146,7 @@ contains
     call moving%destroy()
   end subroutine test_placement_before
 
-  ! The triangulation stays the same while a valve opens. Its triangles equal those of riis_c.
+  ! The triangulation stays the same while a valve opens. The triangles equal those of riis_c.
   subroutine test_fixed_triangles()
     type(riis_triangles) :: all_triangles
     type(riis_valve) :: mitral, before

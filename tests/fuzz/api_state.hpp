@@ -115,7 +115,7 @@ struct OwnedAdjacency {
   ~OwnedAdjacency() { riis_adjacency_destroy(&handle); }
 };
 
-// Coordinates in one of several layouts. Their buffer ends with the last coordinate.
+// Coordinates in one of several layouts. The buffer ends with the last coordinate.
 struct Nodes {
   std::int64_t n = 0, stride = 1;
   std::vector<double> buffer;

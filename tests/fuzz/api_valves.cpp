@@ -127,8 +127,8 @@ void set_parameter(Input &in, State &state) {
   }
 }
 
-// Places a valve by landmarks. They are those of a trileaflet valve, points on a circle, or any points. A refused call changes
-// nothing.
+// Places a valve by landmarks. The landmarks are those of a trileaflet valve, points on a circle, or any points. A refused call
+// changes nothing.
 void place_valve(Input &in, State &state) {
   ValveSlot &slot = slot_of(in, state);
   const Given<riis_valve> valve = given(in, state, State::valve, slot.handle);

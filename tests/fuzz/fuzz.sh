@@ -18,8 +18,9 @@ declare -A shares=([api]=8 [grid]=2 [vtk]=4 [vtu]=3 [vtp]=3 [vti]=2 [vtr]=2 [vts
   [json]=3 [stl]=2 [obj]=1 [ply]=2 [command_line]=2 [cycle]=1 [msh]=2 [xdmf]=1 [foam]=2)
 harnesses=(api grid vtk vtu vtp vti vtr vts pvd pvtu json stl obj ply command_line cycle msh xdmf foam)
 
-# options HARNESS SECONDS: prints the options for every run of a harness. The options limit the seconds for a single input. They
-# also limit the memory, most of which the address sanitizer needs. An input of the allowed size should not reach these limits.
+# options HARNESS SECONDS: prints the options for every run of a harness. The options limit the seconds for a single input. The
+# options also limit the memory, most of which the address sanitizer needs. An input of the allowed size should not reach these
+# limits.
 options() {
   local max_len=4096 dictionary=$1
   case $1 in
@@ -83,7 +84,7 @@ run_all() {
     ((mine >= 1)) || mine=1
     given[$name]=$mine
     mkdir -p "$out/$name/corpus" "$out/$name/findings"
-    # The run begins with the earlier findings. It reports a finding again if its fault still exists.
+    # The run begins with the earlier findings. The run reports a finding again if the fault still exists.
     find "$out/$name/findings" -type f -exec mv -t "$out/$name/corpus" {} +
     echo "$name: $mine s"
     fuzz "$name" "$mine" "$out/$name/findings" "$out/$name/corpus" "$here/corpus/$name" >"$out/$name/log" 2>&1 </dev/null &

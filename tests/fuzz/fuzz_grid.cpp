@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes meshes that are the axes of a grid. A grid is made, or refused with a reason. It gives the marks, leaks and open regions
-// that its nodes as points give. A number without a node is in none of them.
+// Fuzzes meshes that are the axes of a grid. A grid is made, or refused with a reason. The grid gives the marks, leaks and open
+// regions that its nodes as points give. A number without a node is in none of them.
 #include <riis/riis.h>
 
 #include <array>
@@ -32,7 +32,7 @@ struct Surface {
   }
 };
 
-// A grid with its axes. Its nodes' numbers are in ascending order.
+// A grid with its axes. The numbers of the nodes are in ascending order.
 struct Case {
   riis_grid grid;
   std::array<std::vector<double>, 3> axes;

@@ -113,7 +113,7 @@ T *mostly(Input &in, T *pointer) {
   return in.one_in(32) ? nullptr : pointer;
 }
 
-// An array of 32-bit or 64-bit integers. Its buffer has exactly their size.
+// An array of 32-bit or 64-bit integers. The array's buffer has exactly their size.
 class Integers {
  public:
   Integers(const std::vector<std::int64_t> &values, bool is_64_bits) : bytes_(values.size() * (is_64_bits ? 8 : 4)) {
@@ -131,7 +131,7 @@ class Integers {
   std::vector<unsigned char> bytes_;
 };
 
-// A file with a fixed name and the fuzzer's bytes. Its folder belongs to this process.
+// A file with a fixed name and the fuzzer's bytes. The file's folder belongs to this process.
 class ScratchFile {
  public:
   explicit ScratchFile(const std::string &name) {

@@ -3,8 +3,8 @@
 #include "oracle.h"
 #include "test_support.h"
 
-/* The sides of a curved square, in the order v0, v1, u0, u1. They meet at their ends. The parameters are 0 0.3 0.6 1 along u and
- * 0 0.5 0.6 1 along v, as in the paper. */
+/* The sides of a curved square, in the order v0, v1, u0, u1. The sides meet at their ends. The parameters are 0 0.3 0.6 1 along u
+ * and 0 0.5 0.6 1 along v, as in the paper. */
 static const double side_v0[12] = {0, 0, 0, 3, 0, 0, 6, 0, 0, 10, 0, 0};
 static const double side_v1[12] = {0, 8, 2, 5, 8, 2, 6, 8, 2, 10, 8, 2};
 static const double side_u0[9] = {0, 0, 0, 0, 4, 3, 0, 8, 2};

@@ -7,7 +7,7 @@ static random_source rng;
 
 enum { max_pieces = 5 };
 
-/* Makes cubics that continue each other's direction. Their speeds differ, and the curvature jumps between them. */
+/* Makes cubics that continue each other's direction. The cubics' speeds differ, and the curvature jumps between the cubics. */
 static int64_t random_chain(double *control) {
   const int64_t n = 1 + (int64_t)(random_bits(&rng) % max_pieces);
   double at[3] = {0, 0, 0}, along[3] = {1, 0, 0};

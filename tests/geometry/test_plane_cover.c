@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests the area and the edge of the part of an outline that triangles leave uncovered. They are compared with closed forms and
- * with counts of points. */
+ * Tests the area and the edge of the part of an outline that triangles leave uncovered. Area and edge are compared with closed
+ * forms and with counts of points. */
 #include "plane_cover_shim.h"
 #include "test_support.h"
 
@@ -107,7 +107,7 @@ TEST(test_open_lines) {
   CHECK_NEAR(shim_uncovered_inside(3, lines[0], 0, NULL, n_lines), 0.5, 1e-12);
   assert_true(shim_uncovered_inside(2, lines[0], 0, NULL, n_lines) == -1);
   assert_true(shim_uncovered_inside(0, NULL, 0, NULL, n_lines) == -1);
-  /* Triangles that are seen edge on cover nothing. They lie in three directions: along x, along y and slanted. */
+  /* Triangles that are seen edge on cover nothing. These triangles lie in three directions: along x, along y and slanted. */
   for (int i = 0; i < 4; ++i) {
     const double x = i % 2 ? 0.3 : 0, y = i / 2 ? 0.7 : 0;
     const double flat[3][6] = {{0, 0, 0, x, y, 0}, {x, y, 0, 2 * x, 2 * y, 1}, {2 * x, 2 * y, 1, 0, 0, 0}};
@@ -166,7 +166,7 @@ TEST(test_growing) {
   }
 }
 
-/* A turned square plate grows. Its edge then includes arcs round the corners. */
+/* A turned square plate grows. The plate's edge then includes arcs round the corners. */
 TEST(test_growing_square) {
   random_source random = random_start("test_plane_cover");
   const int64_t ids[6] = {0, 1, 2, 0, 2, 3};

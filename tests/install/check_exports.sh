@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_exports.sh LIBRARY SONAME HEADER [MORE_NAMES...]
 # The shared library must export the functions of the header, those of the headers that it includes by name, and the given names.
-# It must export nothing else.
+# The library must export nothing else.
 set -euo pipefail
 library=$1 soname=$2 header=$3
 mapfile -t headers < <("$(dirname "$0")/../abi/headers.sh" "$header")

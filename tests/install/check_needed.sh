@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_needed.sh LIBRARY
-# The core may link to Embree, TBB, OpenMP and the C and C++ runtimes. It must not link to anything else, such as VTK or Fortran.
-# It must not have a run path.
+# The core may link to Embree, TBB, OpenMP and the C and C++ runtimes. Links to anything else, such as VTK or Fortran, are a
+# fault. The core must not have a run path.
 set -euo pipefail
 library=$1
 needed=$(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\].*/\1/p')

@@ -22,7 +22,7 @@ both=$(comm -12 <(cat <<<"$slow") <(cat <<<"$plain"))
 both=$(comm -23 <(cat <<<"$quick") <(cat <<<"$plain"))
 [[ ! $both ]] || problem "in ./run quick and not in ./run test: $both"
 
-# A fake `run` tests continuous integration. It records its arguments, and fails for a chosen argument.
+# A fake `run` tests continuous integration. This fake records its arguments, and fails for a chosen argument.
 rm -rf "$scratch"
 mkdir -p "$scratch/.ci"
 cp "$source/.ci/run" "$scratch/.ci/run"

@@ -145,7 +145,7 @@ TEST(when_an_adjacency_goes) {
   csr.n_all = n + 2;
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   assert_int_equal(has_adjacency(surface, mesh), 1);
-  /* The adjacency stays if the number of nodes stays the same, or if an update is refused. It is removed if the number
+  /* The adjacency stays if the number of nodes stays the same, or if an update is refused. The adjacency is removed if the number
    * changes. */
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(has_adjacency(surface, mesh), 1);

@@ -187,7 +187,7 @@ TEST(nodes_at_the_limit_are_found) {
 
 /* --- Surfaces -------------------------------------------------------------------------------------------------------- */
 
-/* Makes a sphere around the origin. It has 2 n by n quads, each of two triangles except at the poles. */
+/* Makes a sphere around the origin. The sphere has 2 n by n quads, each of two triangles except at the poles. */
 static riis_surface *sphere(int n, double radius, double half_thickness) {
   double *at = own(malloc((size_t)(2 * n) * (size_t)(n + 1) * 3 * sizeof *at));
   int32_t *ids = own(malloc((size_t)(4 * n * n) * 3 * sizeof *ids));

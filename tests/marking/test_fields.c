@@ -110,8 +110,8 @@ static void mark_corners(rims *r) {
 }
 
 /* Marks the rim by the numbers of patches. On aortic valves the rim is u = 1 (the sinus) of all patches and v = 1 (the free edge)
- * of the upper patches. On mitral valves the rim contains v = 0 (the annulus) of all patches. It also contains v = 1 (the free
- * edge) where the leaflets do not meet. */
+ * of the upper patches. On mitral valves the rim contains v = 0 (the annulus) of all patches. The rim also contains v = 1 (the
+ * free edge) where the leaflets do not meet. */
 static rims rims_of_valve(const riis_surface *surface, int is_mitral, double opening) {
   rims r = new_rims(surface);
   for (int64_t e = 0; e < 3 * r.c.n_triangles; ++e) {

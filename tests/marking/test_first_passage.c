@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests riis_find_first_passage. The opening that the call finds is compared with riis_find_passage at many openings. It is also
- * compared with a slit of known width. */
+ * Tests riis_find_first_passage. The opening that the call finds is compared with riis_find_passage at many openings. The opening
+ * is also compared with a slit of known width. */
 #include <riis/riis.h>
 
 #include "test_support.h"

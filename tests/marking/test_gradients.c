@@ -93,7 +93,7 @@ static change random_parameter(const riis_valve *valve) {
   return made;
 }
 
-/* A valve of one bent patch that opens to another patch. Its skirt aside, it has one parameter, "opening". */
+/* A valve of one bent patch that opens to another patch. The skirt aside, the valve has one parameter, "opening". */
 static riis_valve *bent_patches(void) {
   shape closed = unit_square(), open;
   for (int i = 0; i < 4; ++i) {
@@ -216,7 +216,7 @@ static double area_rate_of(const riis_surface *surface, int64_t direction_id) {
   return direction.area_rate;
 }
 
-/* Computes the derivative of a surface's area if its vertices move at these rates. It sums over corners: the rate times the
+/* Computes the derivative of a surface's area if its vertices move at these rates. The sum goes over corners: the rate times the
  * derivative of the area by the corner. */
 static double rate_of_area(const riis_surface *surface, const double *rate) {
   const riis_triangles c = triangles_of(surface);

@@ -462,8 +462,7 @@ TEST(lower_bounds_and_boxes_lose_nothing) {
 }
 
 /* The pairs contain the closest triangle of every node within the limit. If several triangles are equally near, the pairs contain
- * them all. This holds with a buffer for all pairs. It also holds with a buffer so small that the filter must stop and
- * continue. */
+ * them all. The buffer has room for all pairs, or is so small that the filter must stop and continue. */
 TEST(no_pair_that_matters_is_lost) {
   static const int32_t rooms[] = {100000, 16, 64, 65, 79, 200};
   for (int set = 0; set < n_kernel_sets; ++set) {
@@ -729,9 +728,9 @@ TEST(points_are_placed) {
 
 /* --- Without any instruction set ------------------------------------------------------------------------------------- */
 
-/* The portable code is for processors without any of these instruction sets. It does the operations of the baseline set. If the
- * baseline fuses multiplications and additions, its filter rounds differently. The groups are equal even then, and the tests
- * above check each filter separately. */
+/* The portable code is for processors without any of these instruction sets. This code does the operations of the baseline set.
+ * If the baseline fuses multiplications and additions, its filter rounds differently. The groups are equal even then, and the
+ * tests above check each filter separately. */
 TEST(portable_kernels_have_the_bits_of_the_baseline) {
   if (!kernels_there(portable_set)) skip();
   const int rounds_twice = kernels_baseline_rounds_twice();

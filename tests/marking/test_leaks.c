@@ -23,7 +23,7 @@ static int one_in(int64_t n) { return random_integer(1, n) == 1; }
 
 enum { max_nodes = 60, max_triangles = 48, max_columns = 12 * max_nodes };
 
-/* A random case. Its coordinates are whole numbers times 2^exponent. */
+/* A random case. The coordinates are whole numbers times 2^exponent. */
 typedef struct whole_case {
   int64_t n_nodes, n_vertices, n_triangles;
   int64_t node[3 * max_nodes], vertex[9 * max_triangles];

@@ -194,8 +194,8 @@ static void add_expected(const riis_loads *loads, int64_t n, const double *nodes
   free_one_owned(w);
 }
 
-/* Gives the edges that hold the leaflets of a surface. They are its attachment, or two rows of open edges as a caller would give
- * them. */
+/* Gives the edges that hold the leaflets of a surface. These edges are the attachment, or two rows of open edges as a caller
+ * would give them. */
 static int64_t edges_of(const riis_surface *surface, int kind, double **edges, int32_t **leaflet) {
   riis_attachment held = {0};
   if (kind != 6) CHECK_OK(riis_surface_get_attachment(surface, &held, sizeof held));
@@ -569,7 +569,7 @@ TEST(refused_loads) {
   FORCES_ARE_REFUSED("sums: entry 3 of leaflet 1 is nan; it must come from riis_loads_add_sums");
   sums[14] = kept;
 
-  /* Leaflet 1 has two nodes, then none. Its force would need three nodes. */
+  /* Leaflet 1 has two nodes, then none. The force on the leaflet would need three nodes. */
   weight[2] = 0;
   memset(sums, 0, sizeof sums);
   CHECK_OK(riis_loads_add_sums(&good, &points, weight, sums));

@@ -251,7 +251,7 @@ TEST(separate_coordinate_arrays_are_the_same_mesh) {
   assert_memory_equal(l.node_id, m.node_id, (size_t)l.n * sizeof *l.node_id);
 }
 
-/* The test passes coordinates as doubles and as floats. They are exact in single precision. */
+/* The test passes coordinates as doubles and as floats. The coordinates are exact in single precision. */
 enum { n_exact = 5000 };
 static double exact[3 * n_exact];
 static float single[3 * n_exact];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The neighbour search gives the same result as the exhaustive search, to the last bit. This holds for any mesh, adjacency, mask,
  * limit, number of threads and earlier marking. The paper's own algorithm finds only the connected part of the band where it
- * starts. It reports that nodes may be missing. */
+ * starts. This algorithm reports that nodes may be missing. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -53,7 +53,7 @@ TEST(three_separate_cusps) {
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, 0);
 }
 
-/* The mesh consists of slabs without edges between them. It contains one region twice: the second copy is shifted by half a
+/* The mesh consists of slabs without edges between them. The mesh contains one region twice: the second copy is shifted by half a
  * spacing. */
 TEST(mesh_of_several_components) {
   riis_surface *surface = aortic_surface(NULL);
@@ -387,8 +387,8 @@ TEST(limits_wider_than_the_half_thickness) {
 
 /* --- The paper's algorithm ------------------------------------------------------------------------------------------- */
 
-/* The paper's algorithm starts at the node nearest to the first vertex. It must find exactly the marked nodes that marked
- * neighbours connect to this node. */
+/* The paper's algorithm starts at the node nearest to the first vertex. The algorithm must find exactly the marked nodes that
+ * marked neighbours connect to this node. */
 TEST(paper_finds_the_piece_that_it_starts_in) {
   static const double half_thickness[4] = {0.03, 0.06, 0.1, 0.3};
   for (int k = 0; k < 4; ++k) {

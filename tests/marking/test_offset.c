@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests bands with an offset, for every kind of valve. Marks, K and its derivatives, passages and leaks are compared with an
- * oracle that loops over all triangles. They are also compared with flood fills. RIIS_TEST_LONG=1 tries many more cases. */
+ * oracle that loops over all triangles. Passages and leaks are also compared with flood fills. RIIS_TEST_LONG=1 tries many more
+ * cases. */
 #include <riis/riis.h>
 
 #include "test_support.h"

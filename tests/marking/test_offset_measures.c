@@ -35,7 +35,8 @@ static riis_surface_options banded(double half_thickness, double offset, int fli
 
 enum { n_around = 40, n_rows = 5, n_across = 24 };
 
-/* Returns the leak for R = 1, a drop of 1 and the half thickness eps, divided by eps. It equals the area of the moved surface. */
+/* Returns the leak for R = 1, a drop of 1 and the half thickness eps, divided by eps. This quotient equals the area of the moved
+ * surface. */
 static double moved_area(const riis_surface_arrays *arrays, double eps, double offset, int flips) {
   const riis_surface_options options = banded(flips ? eps : 2 * eps, offset, flips);
   riis_surface *surface = surface_from(arrays, &options);
@@ -56,7 +57,7 @@ TEST(the_leak_of_a_flat_sheet_has_the_sheets_area) {
       CHECK_NEAR(moved_area(&arrays, 0.1, offset, flips), 6, 1e-14);
 }
 
-/* Makes a cylinder of quads. Its normals point outwards, and the normals at its vertices are radial. */
+/* Makes a cylinder of quads. The cylinder's normals point outwards, and the normals at its vertices are radial. */
 TEST(the_leak_of_a_cylinder_grows_with_its_radius) {
   const double radius = 1.5, height = 2, eps = 0.1;
   double xyz[3 * n_around * n_rows];

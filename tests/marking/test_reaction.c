@@ -79,7 +79,7 @@ typedef struct {
   riis_marks *marks;
 } plate;
 
-/* Makes a plate that turns about the hinge a = 0. Its angular velocity is `spin` times the frame's second axis. The flow has the
+/* Makes a plate that turns about the hinge a = 0. The angular velocity is `spin` times the frame's second axis. The flow has the
  * velocity `along` in the frame. */
 static plate new_plate(double spin, const double *along) {
   plate made = {.frame = random_frame(), .n = 2 * n_layers * n_long * n_wide};
@@ -420,8 +420,8 @@ TEST(sums_are_those_of_plain_loops) {
 /* --- Symmetric valves ------------------------------------------------------------------------------------------------ */
 
 /* A symmetric valve stands in a flow along its axis. A turn about the axis maps the force on one leaflet to the force on the next
- * leaflet. It maps moments likewise. The axis is oblique to the rows of nodes. Two closed leaflets touch along a line. A node
- * nearest to this line belongs to the leaflet with the lower id. This changes the forces here by up to 2.5 percent. */
+ * leaflet. The turn maps moments likewise. The axis is oblique to the rows of nodes. Two closed leaflets touch along a line. A
+ * node nearest to this line belongs to the leaflet with the lower id. This changes the forces here by up to 2.5 percent. */
 TEST(leaflets_of_symmetric_valves_share_alike) {
   const struct {
     const char *kind;

@@ -39,7 +39,7 @@ static void into_frame(double a, double b, double c, double *p) {
 static void disc(double s, double t, double *p) {
   into_frame(disc_radius * t * cos(2 * pi * s), disc_radius * t * sin(2 * pi * s), 0, p);
 }
-/* A cylinder. Its angle is slightly wider than half a radian. */
+/* A cylinder. The cylinder's angle is slightly wider than half a radian. */
 static void cylinder(double s, double t, double *p) {
   const double angle = 0.9 * (s - 0.5);
   into_frame(cylinder_radius * cos(angle), cylinder_radius * sin(angle), 0.7 * t, p);
@@ -109,9 +109,9 @@ static double integral_of(const riis_surface *surface, const riis_resistance *re
   return sum * volume;
 }
 
-/* Without the rim, the integral of K is the area times R / eps. This is exact for a plane. It is also exact for a cylinder,
- * because the excess outside balances the deficit inside. For a sphere, the integral has an additional factor 1 + c eps^2 / r^2.
- * The constant c = 1/3 - 2/pi^2 is the integral of x^2 (1 + cos pi x) from 0 to 1. */
+/* Without the rim, the integral of K is the area times R / eps. This is exact for a plane. The integral is also exact for a
+ * cylinder, because the excess outside balances the deficit inside. For a sphere, the integral has an additional factor 1 + c
+ * eps^2 / r^2. The constant c = 1/3 - 2/pi^2 is the integral of x^2 (1 + cos pi x) from 0 to 1. */
 TEST(the_integral_is_the_area) {
   const double c = 1.0 / 3 - 2 / (pi * pi);
   CHECK_NEAR(c, 0.1307, 1e-4);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * This program does not link riis. It loads and unloads a plug-in that links riis. Threads that marked nodes for the plug-in
- * outlive it, so their code must stay in memory. */
+ * This program does not link riis. The program loads and unloads a plug-in that links riis. Threads that marked nodes for the
+ * plug-in outlive it, so their code must stay in memory. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* for usleep */
 #endif

@@ -26,7 +26,7 @@ ends 2 "./run openfoam: '1.6' is not a size of edges" run_openfoam --size 1.6
 ends 2 "./run openfoam: '0.00' is not a size of edges" run_openfoam --size 0.00
 ends 2 "./run openfoam: '0.1 0.2' is not a size of edges" run_openfoam --size 0.1 0.2
 
-# --headers compiles the plug-in that fits the headers. It ends with the compiler's result.
+# --headers compiles the plug-in that fits the headers. The script ends with the compiler's result.
 ends 2 "./run openfoam: '' lacks src/finiteVolume or src/meshTools" run_openfoam --headers
 ends 2 "./run openfoam: '/nowhere' lacks src/finiteVolume or src/meshTools" run_openfoam --headers /nowhere
 fake_cxx() { [[ "$*" != *"$refused_file" ]] && printf '%s\n' "$*" >>"$work/compiled"; }

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests the numbers and refusals of examples/left_heart without OpenFOAM. Flows and tables are invented.
 
-RIIS_VOLUME_SEARCH is the library of examples/left_heart/coupled/volumeSearch.C. It is empty if Python cannot load the library.
+RIIS_VOLUME_SEARCH is the library of examples/left_heart/coupled/volumeSearch.C. The variable is empty if Python cannot load the
+library.
 """
 import contextlib
 import io
@@ -105,7 +106,8 @@ class Dilated(unittest.TestCase):
     AXIAL = BASE / LENGTH  # the apex rests
 
     def case(self):
-        """Returns a case whose mesh is half an ellipsoid below z = 0. Its last points are the apex and the middle of the base."""
+        """Returns a case whose mesh is half an ellipsoid below z = 0. The mesh's last points are the apex and the middle of the
+        base."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         case = pathlib.Path(folder.name)
@@ -200,8 +202,8 @@ class Tables(unittest.TestCase):
         """Without a pressure difference and inertia, opening leaflets push the blood that they displace. This happens step by
         step, in the heart in space.
 
-        At the end of each step, the leaflets are in that step's position. They therefore move half a step later than in the heart
-        without space.
+        At the end of each step, the leaflets are in that step's position. The leaflets therefore move half a step later than in
+        the heart without space.
         """
         orifice = self.read(WELL)
         valve = zero_d.Valve("aortic", orifice)
@@ -307,7 +309,8 @@ class Search(unittest.TestCase):
             self.assertLess(residuals.max(), 66, f"echo {echo}")  # 0.5 mmHg
             self.assertLessEqual(trials[10:].max(), 9, f"echo {echo}")
             self.assertAlmostEqual(found, echo, delta=0.02)
-            # The second trial of a step does not know the change before it. Its Z is therefore too large, which is safe.
+            # The second trial of a step does not know the change before it. Z is therefore too large in this trial, which is
+            # safe.
             self.assertTrue(0.99 <= slope / self.INERTANCE <= 2, f"echo {echo}: {slope}")
 
 

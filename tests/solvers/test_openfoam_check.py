@@ -477,8 +477,8 @@ class Expected(Files):
         self.stopped("there are 12 cases, not 11", check.expected, *self.cases[1:])
 
     def test_cubes_have_the_sum_of_harmonic_means(self):
-        """Cells are cubes of 1 mm. Their centres lie 1.3, 0.3, ... -1.2 mm from the leaflet, and the cells at the four faces are
-        omitted."""
+        """Cells are cubes of 1 mm. The cells' centres lie 1.3, 0.3, ... -1.2 mm from the leaflet, and the cells at the four faces
+        are omitted."""
         heights = numpy.array([-1.8, -0.8, 0.2, 1.2])
         k = numpy.where(abs(heights) < 1.5, (1 + numpy.cos(numpy.pi * heights / 1.5)) / 3, 0)
         form = 2 / (1 / k[1] + 1 / k[2]) + 2 / (1 / k[2] + 1 / k[3])

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""check_palette.py FOLDER: all pictures must take their colours from one palette. Its colours must be distinct in every kind of
-colour vision.
+"""check_palette.py FOLDER: all pictures must take their colours from one palette. The palette's colours must be distinct in every
+kind of colour vision.
 
 The palette is distinct_colours of src/riis_vtk/picture/drawing.hpp. The matrices of Machado, Oliveira, Fernandes (2009) for the
 severity 1 give the colours that protanopes, deuteranopes and tritanopes see. Two colours count as distinct if their difference in

@@ -154,7 +154,7 @@ check() {
   echo "$part: fine, ${#found[@]} files, $((SECONDS - start)) s"
 }
 
-# All parts run at the same time, because some of them use only one processor. Their output is printed in turn.
+# All parts run at the same time, because some of them use only one processor. The output of the parts is printed in turn.
 said=$(mktemp -d)
 trap 'rm -rf "$said"' EXIT
 declare -A running=()

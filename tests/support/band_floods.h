@@ -4,7 +4,8 @@
 #ifndef RIIS_TEST_BAND_FLOODS_H
 #define RIIS_TEST_BAND_FLOODS_H
 
-/* The triangles of a surface with another half thickness. They do not move, because the half thickness can shift triangles. */
+/* The triangles of a surface with another half thickness. The triangles stay the same, although another half thickness could
+ * shift them. */
 static inline riis_surface *same_triangles(const riis_surface *surface, double half_thickness, double offset) {
   const riis_triangles all = triangles_of(surface);
   riis_surface_arrays arrays = triangle_arrays(all.n_vertices, all.xyz, all.n_triangles, NULL);

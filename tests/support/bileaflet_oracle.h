@@ -41,7 +41,7 @@ static inline riis_surface *bileaflet_surface(const bileaflet *of, const riis_su
   return surface;
 }
 
-/* Makes a valve with random values that are valid together. Its leaflets close to an angle below most_closed. */
+/* Makes a valve with random values that are valid together. The leaflets close to an angle below most_closed. */
 static inline bileaflet random_bileaflet(random_source *random, double most_closed) {
   bileaflet made = bileaflet_defaults();
   made.radius = random_between(random, 0.5, 2);
@@ -93,8 +93,8 @@ static inline double to_rim_sq(const bileaflet *of, double stretch, double x, do
 }
 
 /* Returns the distance from a point outside the leaflet to its outline, within the leaflet's plane. (x, y) is the point's
- * position on the closed leaflet, seen along the axis. The middle edge is a segment. The rim is an ellipse. Its nearest point is
- * searched by golden sections between samples. */
+ * position on the closed leaflet, seen along the axis. The middle edge is a segment. The rim is an ellipse. The rim's nearest
+ * point is searched by golden sections between samples. */
 static inline double to_outline(const bileaflet *of, double x, double y) {
   const double stretch = 1 / cos(degree * of->closed_angle), x0 = of->gap / 2, R = of->radius;
   const double y_end = sqrt(R * R - x0 * x0), whole = atan2(y_end, x0);

@@ -42,8 +42,8 @@ static inline int oracle_meet_in_plane(const int64_t *a, const int64_t *b, const
   return low * high_of <= high * low_of;
 }
 
-/* Returns the answer for any segment and triangle. The magnitudes in a[3], b[3] and abc[9] are at most 2^38. They are at most
- * 2^28 if all points lie in one plane. The triangle's area must be positive. */
+/* Returns the answer for any segment and triangle. The magnitudes in a[3], b[3] and abc[9] are at most 2^38. The magnitudes are
+ * at most 2^28 if all points lie in one plane. The triangle's area must be positive. */
 static inline int oracle_segment_meets_triangle(const int64_t *a, const int64_t *b, const int64_t *abc) {
   const wide3 e1 = wide_difference(abc + 3, abc), e2 = wide_difference(abc + 6, abc), along = wide_difference(b, a);
   const wide3 normal = wide_cross(e1, e2), from_corner = wide_difference(a, abc), p = wide_cross(along, e2),

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Lets C code use common/elementary.hpp. Its sines, cosines and arc tangents have the same bits on every machine. */
+ * Lets C code use common/elementary.hpp. The sines, cosines and arc tangents of this header have the same bits on every
+ * machine. */
 #ifndef RIIS_TESTS_ELEMENTARY_SHIM_H
 #define RIIS_TESTS_ELEMENTARY_SHIM_H
 

@@ -51,7 +51,7 @@ void quad_grid_free(quad_grid *grid);
 double quad_kappa(const double *p00, const double *p10, const double *p11, const double *p01);
 double quad_split_error(const double *p00, const double *p10, const double *p11, const double *p01);
 
-/* The decision kernel. It returns the squared distance from a point to a triangle. */
+/* The decision kernel. The kernel returns the squared distance from a point to a triangle. */
 double kernel_point_triangle(const double *p, const double *abc, double *point, double *barycentric);
 
 /* Returns 1 if the segment from a to b and the triangle have a point in common. */

@@ -47,7 +47,8 @@ double mitral_oracle_annulus_length(const mitral_oracle *oracle);
 double mitral_oracle_anterior_length(const mitral_oracle *oracle);             /* the length of the curve L_at */
 double mitral_oracle_scallop_length(const mitral_oracle *oracle, int scallop); /* scallops 0, 1, 2 from pm to al */
 
-/* Returns the area of triangles, with n_u steps between neighbouring breaks and n_v steps of v. Its error is O(n^-2). */
+/* Returns the area of triangles, with n_u steps between neighbouring breaks and n_v steps of v. The error of the area is
+ * O(n^-2). */
 double mitral_oracle_area(const mitral_oracle *oracle, int n_u, int n_v);
 
 #endif

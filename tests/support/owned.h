@@ -36,7 +36,7 @@ static inline void free_owned_after(int n) {
   }
 }
 
-/* Takes an object off the list and returns the entry. Its `destroy` is NULL if the object was not on the list. */
+/* Takes an object off the list and returns the entry. The entry's `destroy` is NULL if the object was not on the list. */
 static inline owned_object disown(void *object) {
   int i = owned.n - 1;
   while (i >= 0 && owned.at[i].object != object) --i;

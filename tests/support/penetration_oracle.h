@@ -118,7 +118,7 @@ static inline int add_piercing(quad3 p, quad3 q, const quad3 *t, quad3 *points, 
   return n + 1;
 }
 
-/* Returns the length of the common segment of two triangles, and gives its middle. Their depth must be above 0. */
+/* Returns the length of the common segment of two triangles, and gives its middle. The triangles' depth must be above 0. */
 static inline double oracle_segment(const double *a, const double *b, double *middle) {
   const quad_pair pair = quad_pair_of(a, b);
   quad3 points[6], first = {{0, 0, 0}}, last = first;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Computes the motion of a smooth valve from one state to another, for tests of velocities. The library only provides the valve's
- * curves. Their lengths come from a separate quadrature. A search for a point begins at the label (patch, u, v). */
+ * curves. The curves' lengths come from a separate quadrature. A search for a point begins at the label (patch, u, v). */
 #ifndef RIIS_TEST_SMOOTH_MOTION_H
 #define RIIS_TEST_SMOOTH_MOTION_H
 

@@ -59,7 +59,8 @@ double least_on_segment(Vec3 a, Vec3 b) {
   return length(mix(a, b, share));
 }
 
-// Bounds the distance of a function from the straight line between its ends. Its second derivative is at most `second`.
+// Bounds the distance of a function from the straight line between its ends. The function's second derivative is at most
+// `second`.
 double off_line(double width, double second) { return 0.125 * width * width * second; }
 
 // The width of a range of u, and the largest slope of a function on it.
@@ -203,9 +204,9 @@ class SideInBoth {
   double longer() const { return larger(now_.length(), before_.length()); }
   double width(std::size_t i) const { return shares_[i + 1] - shares_[i]; }
 
-  // Returns whether the states are compared on the range after share i. They are not compared if a joint has passed through the
-  // range. They are also not compared on a narrow range without tight bounds. Such ranges lie on a short span at a curve's end.
-  // When a joint approaches the end, the length of this span changes many times over.
+  // Returns whether the states are compared on the range after share i. There is no comparison if a joint has passed through the
+  // range, or if the range is narrow and has no tight bounds. Such ranges lie on a short span at a curve's end. When a joint
+  // approaches the end, the length of this span changes many times over.
   bool is_compared(std::size_t i) const { return are_on_one_span(i) && (width(i) > narrow || compared(i).is_tight); }
 
   // Returns whether a span begins at share i in one of the states.
@@ -379,11 +380,11 @@ double off_line(double width, const Sizes &of) {
   return std::min({0.5 * width * of.slope, off_line(width, of.bend), 2 * of.size});
 }
 
-// The displacement that SideMaterial adds between points at equal shares. It is C(u) - C(u + slide(u)) + rest(u). C is the side's
-// curve in the earlier state.
+// The displacement that SideMaterial adds between points at equal shares. This displacement is C(u) - C(u + slide(u)) + rest(u).
+// C is the side's curve in the earlier state.
 class AddedByMaterial {
  public:
-  // `third` bounds the third derivative of C by the share. It may be infinite.
+  // `third` bounds the third derivative of C by the share. `third` may be infinite.
   AddedByMaterial(const SideMaterial &material, const Curve &before, double third) {
     if (!material.is_warped()) return;
     const Sizes slide = sizes_of_slide(material);

@@ -15,7 +15,7 @@ static double between(double low, double high) { return random_between(&rng, low
 static double radians(double degrees) { return degrees * acos(-1.0) / 180; }
 static double normal(void) { return sqrt(-2 * log(1 - between(0, 1))) * cos(radians(360 * between(0, 1))); }
 
-/* The sizes of an annulus, in millimetres. Its widest points are at y = 0. */
+/* The sizes of an annulus, in millimetres. The annulus is widest at y = 0. */
 typedef struct shape {
   double front, back, half_width;
   double saddle, tilt; /* by saddle +- tilt, the horns are nearer to the atrium than the sides */

@@ -62,7 +62,7 @@ TEST(cusps_are_mirror_images_and_turned) {
     const int cusp = set.leaflet_id[image];
     const double turn = angle[cusp] * degree_in_radians;
     double middle[3], end[3];
-    /* The middle of each free edge points along the cusp's rotation. It has the same bits in both halves of a cusp. */
+    /* The middle of each free edge points along the cusp's rotation. The middle has the same bits in both halves of a cusp. */
     patch_image_place(&set, image, control(cusp, leaflet), middle);
     check_point(middle, radius[cusp] * cos(turn), radius[cusp] * sin(turn), 0.02);
     for (int64_t other = 0; other < image; ++other)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the attachment of valves. Its edges must be the edges of triangles along attached sides, and each edge must belong to
- * only one triangle. The edges must form lines from root to commissure, or one line round the annulus. Mirrored halves must be
+ * Tests the attachment of valves. Attached edges must be the edges of triangles along attached sides, and each edge must belong
+ * to only one triangle. The edges must form lines from root to commissure, or one line round the annulus. Mirrored halves must be
  * equally long, and a parabola must have its known length. */
 #include <riis/riis.h>
 

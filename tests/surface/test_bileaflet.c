@@ -189,8 +189,8 @@ static void area_vector(const riis_triangles *c, int64_t triangle, double *norma
   for (int k = 0; k < 3; ++k) normal[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/* Every triangle's normal is its plane's normal. It points downstream in the closed valve, and towards the axis in the open
- * valve. */
+/* Every triangle's normal is its plane's normal. The normal points downstream in the closed valve, and towards the axis in the
+ * open valve. */
 TEST(normals_point_downstream) {
   for (int trial = 0; trial < trials_of(60); ++trial) {
     const int owned_before = n_owned();

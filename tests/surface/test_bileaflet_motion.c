@@ -95,8 +95,8 @@ TEST(vertices_and_closest_points_turn_exactly) {
       const tied_velocity tied = tied_velocity_at(&c, velocity, xyz + 3 * i, found.distance[i], half_thickness);
       if (tied.n_leaflets > 1 || !tied.is_clear) continue;
       chord_velocity(&of, found.leaflet_id[i], fields.point + 3 * i, now, before, seconds, expected);
-      /* If patches of one leaflet are equally near, the velocity is also a mean. Their closest points may lie apart next to a
-       * seam. */
+      /* If patches of one leaflet are equally near, the velocity is also a mean. The patches' closest points may lie apart next
+       * to a seam. */
       CHECK_AT_MOST(distance(tied.n_places > 1 ? tied.mean : expected, fields.velocity + 3 * i), 10 * rounding);
     }
     free_owned_after(owned_before);
@@ -174,7 +174,7 @@ static int leaks(const bileaflet *of, double spacing, double half_thickness) {
 }
 
 /* If an edge of the grid crosses a leaflet, one of its ends is within half the edge's length of the leaflet. A half thickness of
- * 0.55 spacings therefore seals. It is half a spacing plus the tolerance. */
+ * 0.55 spacings therefore seals. This half thickness is half a spacing plus the tolerance. */
 TEST(a_closed_valve_seals_its_housing) {
   static const double angle[4] = {0, 25, 30, 45};
   for (int trial = 0; trial < trials_of(24); ++trial) {

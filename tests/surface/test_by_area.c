@@ -305,7 +305,8 @@ static riis_valve *blades_at(double opening) {
   return own(valve);
 }
 
-/* If several openings have the area, the call takes the least. Its range `from` and `to` leads to the other openings. */
+/* If several openings have the area, the call takes the least. The range `from` and `to` of the call leads to the other
+ * openings. */
 TEST(turns_are_told) {
   riis_valve *valve = blades_at(0);
   CHECK_OK(riis_valve_set_open_state(valve, blades_at(1)));

@@ -270,8 +270,8 @@ TEST(many_points_in_order_equal_single_queries) {
   check_many_points(is_long_test() ? 3000000 : trials_of(140000), true);
 }
 
-/* The points lie in a plane, on a line, in one place, mostly in a small part of their box, or all but one near the valve. They
- * are sorted into leaves without gaps, and get the results of single queries. */
+/* The points lie in a plane, on a line, in one place, mostly in a small part of their box, or all but one near the valve. The
+ * points are sorted into leaves without gaps, and get the results of single queries. */
 TEST(crowded_points_equal_single_queries) {
   enum { n = 3000 };
   static double xyz[3 * n];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests the coapting valve: its coaptation zone, the computed path of its opening, and its sizes (docs/theory/coapting.md). An
- * oracle makes the curves from the document's formulas. It uses bisection and chords instead of the library's numerical
+ * oracle makes the curves from the document's formulas. The oracle uses bisection and chords instead of the library's numerical
  * methods. */
 #include <riis/riis.h>
 
@@ -148,7 +148,8 @@ static point cross_of(point p, point q) {
 }
 static double dot_of(point p, point q) { return p.x[0] * q.x[0] + p.x[1] * q.x[1] + p.x[2] * q.x[2]; }
 
-/* The crease at t of the coaptation line. It depends on the chord's point, the free edge's point, and the end tangents. */
+/* The crease at t of the coaptation line. The crease depends on the chord's point, the free edge's point, and the end
+ * tangents. */
 typedef struct crease_at {
   double t;
   point chord, edge, tangents;
@@ -421,8 +422,8 @@ static int64_t wrong_sides(const riis_surface *surface, const sizes *v, random_s
 }
 
 /* Returns the number of pairs of triangles that cross because the smooth valve crosses. A leaflet may be nearly tangent to itself
- * beside the root, at a distance of about 1 micrometre. Its triangles may then cross by at most twice their error bound, but
- * finer triangles do not cross. `n_shallow` counts such crossings. */
+ * beside the root, at a distance of about 1 micrometre. The leaflet's triangles may then cross by at most twice their error
+ * bound, but finer triangles do not cross. `n_shallow` counts such crossings. */
 static int64_t true_crossings(const riis_surface *surface, const riis_valve *valve, riis_crossings *crossings,
                               int64_t *n_shallow) {
   const int64_t found = n_pairs_of(surface, crossings);
@@ -624,7 +625,8 @@ TEST(random_valves_open_well) {
 
 /* --- Sealing and opening ----------------------------------------------------------------------------------------------- */
 
-/* A flood fill over a grid finds no way through closed valves with a cylindrical root. It finds a way through open valves. */
+/* A flood fill over a grid finds no way through closed valves with a cylindrical root. The fill finds a way through open
+ * valves. */
 TEST(closes_cylinders) {
   random_source random = random_start("test_coapting");
   const int n = trials(2, 20);

@@ -117,8 +117,8 @@ TEST_WITH(a_valve_that_begins_open_is_named, start_listening, stop_listening) {
 
 static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};
 
-/* Valves of default shapes do not cross at any opening, and neither do other healthy shapes. Closed mitral leaflets touch. Their
- * fixed triangles cross by less than the depth that counts as a crossing. */
+/* Valves of default shapes do not cross at any opening, and neither do other healthy shapes. Closed mitral leaflets touch. The
+ * fixed triangles of such leaflets cross by less than the depth that counts as a crossing. */
 TEST_WITH(sound_shapes_are_not_named, start_listening, stop_listening) {
   for (int kind = 0; kind < 5; ++kind)
     for (int32_t triangulation = 0; triangulation < 2; ++triangulation) {

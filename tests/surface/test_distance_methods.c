@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests distances by sampling and by minimisation. They are compared with known distances of flat and cylindrical patches, with
- * triangles fifty times as fine, and with each other. */
+ * Tests distances by sampling and by minimisation. The results are compared with known distances of flat and cylindrical patches,
+ * with triangles fifty times as fine, and with each other. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -374,7 +374,7 @@ TEST(all_near_patches_are_asked) {
   assert_int_equal(above.leaflet_id, 7);
 }
 
-/* Surfaces are placed, flipped or mirrored. Their normals are those of the triangles, and their distances are proportional to the
+/* Surfaces are placed, flipped or mirrored. The normals are those of the triangles, and the distances are proportional to the
  * scale. */
 TEST(placement_and_normals) {
   random_source rng = random_start("placement_and_normals");

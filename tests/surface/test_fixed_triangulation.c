@@ -50,7 +50,7 @@ static riis_valve *fan(void) {
   return valve;
 }
 
-/* A copy of the arrays that must stay constant. It is compared after the next update. */
+/* A copy of the arrays that must stay constant, for a comparison after the next update. */
 typedef struct topology {
   int64_t n_vertices, n_triangles;
   int64_t vertex_id[3 * 20000], triangle_id[20000];
@@ -83,8 +83,8 @@ static void check_same_topology(const topology *a, const topology *b) {
   assert_memory_equal(a->patch_id, b->patch_id, n * sizeof *a->patch_id);
 }
 
-/* Checks 101 openings. The choice of the grid lines did not use all of them. The triangles stay the same and keep the bound.
- * Their number is at most 1.5 times the largest number of adapted triangles. */
+/* Checks 101 openings. The choice of the grid lines did not use all of them. The triangles stay the same and keep the bound. The
+ * number of triangles is at most 1.5 times the largest number of adapted triangles. */
 static void check_triangles_stay(riis_valve *valve, const char *name) {
   const riis_surface_options options = fixed_options();
   set_opening(valve, 0.5);
@@ -141,8 +141,8 @@ TEST(distances_are_within_the_bound) {
   check_distances(fan());
 }
 
-/* The triangles depend on the valve and on its present opening. They do not depend on the opening at which the surface was made,
- * so a restart gives the same bits. */
+/* The triangles depend on the valve and on its present opening. The opening at which the surface was made has no effect, so a
+ * restart gives the same bits. */
 TEST(a_restart_has_the_same_bits) {
   riis_valve *valves[3] = {new_valve("mitral"), opening_aortic(), fan()};
   const riis_surface_options options = fixed_options();
@@ -215,7 +215,7 @@ TEST(a_triangle_without_area_keeps_its_id) {
   check_same_topology(&first, &now);
 }
 
-/* If the surface angle is 0, the leaflets are Coons patches. They share their edges only at opening 0. */
+/* If the surface angle is 0, the leaflets are Coons patches. These patches share their edges only at opening 0. */
 TEST(flat_mitral_leaflets_stay_within_the_bound) {
   rng = random_start("test_fixed_triangulation");
   riis_valve *valve = new_valve("mitral");

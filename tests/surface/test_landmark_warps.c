@@ -26,7 +26,7 @@ static double distance(const double *p, const double *q) {
   return sqrt(pow(p[0] - q[0], 2) + pow(p[1] - q[1], 2) + pow(p[2] - q[2], 2));
 }
 
-/* Three leaflets whose sides u do not meet. Their attachment rises between its ends. */
+/* Three leaflets whose sides u do not meet. The leaflets' attachment rises between its ends. */
 static riis_valve *valve_of_patches(void) {
   shape states[2] = {{0}, {0}};
   for (int state = 0; state < 2; ++state) {

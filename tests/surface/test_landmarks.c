@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests riis_place. Landmarks are made from known sizes by closed forms or by the oracle of the mitral valve. They are then
- * placed and disturbed at random. The fit must recover these sizes, and the noise must explain the errors. Exact landmarks lie on
- * the surface of the placed valve. Prints the table that docs/theory/landmarks.md summarises. */
+ * Tests riis_place. Landmarks are made from known sizes by closed forms or by the oracle of the mitral valve. The landmarks are
+ * then placed and disturbed at random. The fit must recover these sizes, and the noise must explain the errors. Exact landmarks
+ * lie on the surface of the placed valve. Prints the table that docs/theory/landmarks.md summarises. */
 #include <riis/riis.h>
 
 #include <stdbool.h>
@@ -228,7 +228,7 @@ TEST(test_exact_trileaflet) {
   }
 }
 
-/* A coapting valve has the same landmarks. Its further sizes still follow from the fitted sizes. */
+/* A coapting valve has the same landmarks. The valve's further sizes still follow from the fitted sizes. */
 TEST(test_exact_coapting) {
   for (int trial = 0; trial < trials_of(60); ++trial) {
     const double R = between(1, 1.4), Rc = R * between(0.95, 1.05), h = 1.4 * Rc * between(0.97, 1.05);
@@ -759,8 +759,8 @@ TEST(test_noisy_mitral) {
 
 /* ---- Saddles: tricuspid, mitral_coapting ---- */
 
-/* An annulus of four cubics, and the places of the commissures on it. The flat side is at -y for a tricuspid valve. It is at +y
- * for a mitral_coapting valve. */
+/* An annulus of four cubics, and the places of the commissures on it. The flat side is at -y for a tricuspid valve. For a
+ * mitral_coapting valve the flat side is at +y. */
 typedef struct saddle {
   bool is_mitral;
   double width, depth, flatness, height, flat_ratio, anterior_ratio;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Compares the velocity of the mitral valve's surface with the oracle in extended precision. It is compared with the displacement
- * of the point with equal patch, u and v, and with the derivative in time. */
+ * Compares the velocity of the mitral valve's surface with the oracle in extended precision. The velocity is compared with the
+ * displacement of the point with equal patch, u and v, and with the derivative in time. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -129,7 +129,7 @@ TEST(a_key_has_the_rate_after_it_in_every_period) {
   }
 }
 
-/* The last key counts as the first key of the next period. It may even miss the period's end by a billionth. */
+/* The last key counts as the first key of the next period. The last key may even miss the period's end by a billionth. */
 TEST(a_last_key_is_the_first_one_of_the_next_period) {
   const double opening[] = {0.5, 1, 0.5};
   for (int sign = -1; sign <= 1; ++sign) {
@@ -471,8 +471,8 @@ TEST(without_a_drive_friction_stops_the_leaflet) {
   CHECK_NEAR(now.rate, now.angle_rate / 75, 1e-15);
 }
 
-/* The pressure and the flow are constant. Explicit Euler with small steps in long double gives an independent answer. It is
- * accurate to first order. */
+/* The pressure and the flow are constant. Explicit Euler with small steps in long double gives an independent answer. This answer
+ * is accurate to first order. */
 TEST(the_angle_follows_the_published_equation) {
   for (int trial = 0; trial < 6; ++trial) {
     const riis_opening_angle law = aortic_angle();

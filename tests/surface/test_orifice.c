@@ -224,7 +224,7 @@ TEST(orifices_are_those_of_turned_lines) {
   }
 }
 
-/* Unequal cusps are seen along z. Their open edges may reach beyond the attachment. */
+/* Unequal cusps are seen along z. The cusps' open edges may reach beyond the attachment. */
 TEST(unequal_cusps_are_seen_along_z) {
   riis_valve *valve = new_valve("bicuspid");
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 1));

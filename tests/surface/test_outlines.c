@@ -57,8 +57,8 @@ static double edge_length(const double *edge) {
 }
 
 /* Returns the area that the attachment encloses, seen along z. The area is the sum of the triangles between the axis and each
- * edge. The sum uses absolute values, because the edges of mirrored halves run in opposite directions. It is right if each ray
- * from the axis meets the attachment once. */
+ * edge. The sum uses absolute values, because the edges of mirrored halves run in opposite directions. The sum is right if each
+ * ray from the axis meets the attachment once. */
 static double area_of_attachment(const riis_surface *surface) {
   riis_attachment held;
   CHECK_OK(riis_surface_get_attachment(surface, &held, sizeof held));

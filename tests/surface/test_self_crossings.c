@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A search finds the pairs of a surface's triangles that go through each other. It is compared with a check of all pairs in
- * extended precision. Triangles are in general position, touch in every way, lie in one plane, or go through each other by a
+ * A search finds the pairs of a surface's triangles that go through each other. The search is compared with a check of all pairs
+ * in extended precision. Triangles are in general position, touch in every way, lie in one plane, or go through each other by a
  * given depth. RIIS_TEST_LONG=1 tries fifty times as many. */
 #include <riis/riis.h>
 
@@ -346,8 +346,8 @@ TEST(threads_find_the_same) {
 }
 
 /* Two unit squares at right angles cross along a segment as long as a side. Each triangle of one square crosses one triangle of
- * the other square. The shortest way to separate two triangles moves a corner across the other triangle's diagonal. Its length is
- * half a side times sin 45 degrees. */
+ * the other square. The shortest way to separate two triangles moves a corner across the other triangle's diagonal. The length of
+ * this way is half a side times sin 45 degrees. */
 TEST(unit_squares_cross_along_one_unit) {
   const double xyz[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0, -0.5, 0.5, 1, -0.5, 0.5, 1, 0.5, 0.5, 0, 0.5};
   const int32_t ids[] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};

@@ -330,7 +330,7 @@ TEST(random_calls_are_as_the_model) {
   }
 }
 
-/* A valve that gets all values of another valve has the other's shape. Its parameters no longer follow rules. */
+/* A valve that gets all values of another valve has the other's shape. The valve's parameters no longer follow rules. */
 TEST(all_values_are_set_when_read_back) {
   riis_valve *valve = new_valve("trileaflet"), *back = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(valve, "annulus", 2.3));
@@ -693,7 +693,7 @@ static int free_edges_meet(const riis_valve *valve) {
 
 /* Returns whether a cusp's attachment turns back behind the cusp's symmetry plane near the root, in the closed or the open state.
  * The halves of the cusp then go through each other. The attachment is a parabola through three points: the root with y = 0, the
- * bending curve's end at s, and the commissure at 1. Its slope y'(0) is therefore (y(s) - s^2 y(1)) / (s - s^2). */
+ * bending curve's end at s, and the commissure at 1. The parabola's slope y'(0) is therefore (y(s) - s^2 y(1)) / (s - s^2). */
 static int attachment_turns_back(const riis_valve *valve) {
   int turns_back = 0;
   const double s = value_of(valve, "bending_height") / value_of(valve, "leaflet_height"), degree = acos(-1) / 180;

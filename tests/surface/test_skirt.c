@@ -430,7 +430,7 @@ TEST(skirts_move_with_the_attachment) {
   }
 }
 
-/* A wall: a tube with a straight axis, cut by planes at 0 and 1 along the axis. Its triangles have random diagonals. */
+/* A wall: a tube with a straight axis, cut by planes at 0 and 1 along the axis. The wall's triangles have random diagonals. */
 typedef struct tube_wall {
   axis_line axis; /* through the middle */
   double radius, half_length;
@@ -509,8 +509,8 @@ static riis_gap gap_between(const riis_surface *surface, const riis_surface *wal
   return gap;
 }
 
-/* Puts landmark n on a random vertex of the attachment. Its target is at most `most` away along each axis. Returns the number of
- * new landmarks, which is 0 if the vertex is near an earlier landmark. */
+/* Puts landmark n on a random vertex of the attachment. The landmark's target is at most `most` away along each axis. Returns the
+ * number of new landmarks, which is 0 if the vertex is near an earlier landmark. */
 static int add_landmark(const riis_attachment *held, int n, double most, double *sources, double *targets) {
   const double *p = held->edges + 3 * (int64_t)between(0, 2 * (double)held->n_edges - 0.5);
   double nearest = INFINITY;

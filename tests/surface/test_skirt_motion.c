@@ -33,7 +33,7 @@ typedef struct state_of_skirt {
   riis_surface_options placed;
 } state_of_skirt;
 
-/* A leaflet of three patches. Its attachment rises between the patches' ends. */
+/* A leaflet of three patches. The attachment rises between the patches' ends. */
 static shape cone(double radius, double rise, double mouth) {
   shape made = {0};
   const double third = 2 * acos(-1) / 3;
@@ -367,7 +367,8 @@ static riis_warp *warp_at(riis_valve *valve, const riis_surface *rest, double ti
   return warp;
 }
 
-/* The outer side of a strip, as a function of the inner side's share. Its spans belong to equal parts of the inner side. */
+/* The outer side of a strip, as a function of the inner side's share. The spans of the outer side belong to equal parts of the
+ * inner side. */
 typedef struct outer_side {
   int64_t n_pieces;
   double control[8][4][3];

@@ -72,8 +72,8 @@ static void moved_outwards(const line *axis, const double *p, double length, dou
   for (int c = 0; c < 3; ++c) moved[c] = p[c] + length * q[c] / size;
 }
 
-/* Checks each triangle of the skirt. It must have one attached edge, or one outer edge that lies a length outwards. Returns the
- * number of triangles. */
+/* Checks each triangle of the skirt. The triangle must have one attached edge, or one outer edge that lies a length outwards.
+ * Returns the number of triangles. */
 static int64_t check_strip(const riis_surface *surface, int64_t n_given, double length, double rounding) {
   const riis_attachment held = attachment_of(surface);
   const riis_triangles all = triangles_of(surface);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Swept volumes are compared with sums over moving updates. They are also compared with closed forms for leaflets that turn and
- * patches that translate. Volumes of parts must add up. */
+ * Swept volumes are compared with sums over moving updates. Swept volumes are also compared with closed forms, for leaflets that
+ * turn and patches that translate. Volumes of parts must add up. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -113,7 +113,7 @@ static double value_of(const riis_valve *valve, const char *name) {
   return value;
 }
 
-/* A leaflet turns about its hinge. Its volume is the angle times the moment of its area about the hinge. */
+/* A leaflet turns about its hinge. The swept volume is the angle times the moment of its area about the hinge. */
 TEST(rigid_leaflets_sweep_their_moments) {
   for (int trial = 0; trial < trials_of(60); ++trial) {
     riis_valve *valve = new_valve("bileaflet");
@@ -135,7 +135,7 @@ TEST(rigid_leaflets_sweep_their_moments) {
   }
 }
 
-/* A square translates. Its volume is its area times the shift along its normal. */
+/* A square translates. The swept volume is the area times the shift along its normal. */
 TEST(squares_sweep_boxes) {
   for (int trial = 0; trial < trials_of(30); ++trial) {
     const shape closed = unit_square();

@@ -111,7 +111,7 @@ static void set_own_sizes(random_source *random, riis_valve *valve, int n_cusps,
   }
 }
 
-/* Returns a valve of the kind with unequal cusps that the library accepts. Its commissures are fused if `fusion` is not 0. */
+/* Returns a valve of the kind with unequal cusps that the library accepts. The commissures are fused if `fusion` is not 0. */
 static riis_valve *unequal_valve(random_source *random, int kind, double fusion) {
   for (;;) {
     riis_valve *valve = new_valve(kinds[kind]);
@@ -560,7 +560,7 @@ TEST(a_size_of_one_of_equal_cusps_has_derivatives) {
   assert_true(n_off <= 0.02 * n_compared); /* ties, and nodes whose closest triangle changes */
 }
 
-/* A valve goes from equal to unequal cusps and back. Its velocities equal those of a valve whose equal cusps have separate
+/* A valve goes from equal to unequal cusps and back. The velocities equal those of a valve whose equal cusps have separate
  * patches. A bump without effect gives that valve its separate patches. */
 TEST(equal_cusps_become_unequal_in_motion) {
   random_source random = random_start("test_unequal_cusps");

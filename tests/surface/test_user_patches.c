@@ -285,7 +285,7 @@ static double distance_to_polyline(const double *p, const boundary_vertex *line,
 }
 
 /* Makes a patch with the shared curve at u = 1, and a moved copy of this curve at u = 0. The patch's quads are planar and never
- * split. Its vertices at u = 1 therefore form the curve's polyline. */
+ * split. The vertices at u = 1 therefore form the curve's polyline. */
 static shape strip_along_shared_curve(const shape *pair) {
   shape strip = {0};
   double moved[4][3];
@@ -383,7 +383,7 @@ TEST(opening_blends_control_points) {
   for (int64_t i = 0; i < closed.n_curves; ++i)
     for (int k = 0; k <= closed.degree[i]; ++k)
       for (int c = 0; c < 3; ++c) {
-        /* The open state is sheared and lifted. Its sides still meet at the corners. */
+        /* The open state is sheared and lifted. The sides of this state still meet at the corners. */
         open.control[i][k][c] += c == 2 ? 0.5 + closed.control[i][k][0] : 0.25 * closed.control[i][k][2];
         middle.control[i][k][c] = 0.5 * (closed.control[i][k][c] + open.control[i][k][c]);
       }

@@ -162,7 +162,7 @@ TEST(update_replaces_the_content) {
   CHECK_NEAR(closest_to(surface, 0.9, 0.1, 1).distance, 1, 0);
 }
 
-/* An update with vertices alone keeps the faces of the last arrays. It equals an update with faces and vertices. */
+/* An update with vertices alone keeps the faces of the last arrays. Such an update equals an update with faces and vertices. */
 TEST(vertices_alone_keep_the_faces) {
   enum { n = 30 };
   random_source rng = random_start("test_user_surface");
@@ -247,7 +247,7 @@ TEST(vertices_alone_are_refused_without_their_faces) {
 /* A closed body with sharp edges. Points inside are recognised even if the closest point is on an edge or a corner. The normal of
  * a single face would give the wrong side there. */
 TEST(side_at_edges_and_corners_of_a_wedge) {
-  /* A thin tetrahedron. Its dihedral angles are far below and far above 90 degrees. */
+  /* A thin tetrahedron. The dihedral angles are far below and far above 90 degrees. */
   const double points[12] = {0, 0, 0, 4, 0, 0, 2, 0.5, 0, 2, 0.25, 0.3};
   const int32_t faces[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
   riis_surface_arrays arrays = triangle_arrays(4, points, 4, faces);

@@ -63,7 +63,8 @@ static int is_same_side(const patch_side *a, const patch_side *b) {
   return fmin(along, against) < 1e-9 && fabs(a->length - b->length) < 1e-9;
 }
 
-/* Adds the lengths of each leaflet's free edge. It consists of sides that are not attached and that no other patch shares. */
+/* Adds the lengths of each leaflet's free edge. A free edge consists of sides that are not attached and that no other patch
+ * shares. */
 static void lengths_of_edges(riis_valve *valve, double *lengths) {
   riis_valve_patches patches;
   CHECK_OK(riis_valve_get_patches(valve, &patches, sizeof patches));
@@ -125,7 +126,7 @@ static double open_area(const riis_surface *surface, double root_radius) {
   return orifice_area(surface, half_width, n) - (double)n_beside * pow(2.0 * half_width / n, 2);
 }
 
-/* The orifices at the openings 0, 1/4, 1/2, 3/4 and 1, or -1. They come from another implementation of the construction. */
+/* The orifices at the openings 0, 1/4, 1/2, 3/4 and 1, or -1. Another implementation of the construction gave these orifices. */
 typedef struct orifices {
   const char *kind, *settings;
   double area[5];
@@ -171,7 +172,7 @@ TEST(orifices_are_those_of_the_prototype) {
       CHECK_OK(riis_surface_get_orifice(surface, NULL, &orifice, sizeof orifice));
       printf(" %.2f, %.2f for %.2f;", area, orifice.area, of->area[i]);
       off = fmax(off, fabs(area - of->area[i]));
-      /* The library's outline is the attachment. It differs from the disc, because the commissures expand. */
+      /* The library's outline is the attachment. This outline differs from the disc, because the commissures expand. */
       CHECK_NEAR(orifice.area, area, 0.05 * of->area[4]);
     }
     printf(" off by %.1f %% of the open one\n", 100 * off / of->area[4]);

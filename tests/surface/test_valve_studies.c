@@ -38,7 +38,8 @@ static int crosses(riis_valve *valve, riis_crossings *crossings) {
   return 0;
 }
 
-/* If there are few sets, they may exceed a share by chance. Their bounds are therefore wider by three standard deviations. */
+/* If there are few sets, they may exceed a share by chance. The bounds for few sets are therefore wider by three standard
+ * deviations. */
 static double at_most(double share, int n) {
   return n * share + (is_long_test() ? 0 : 3 * sqrt(n * share * (1 - share)));
 }
@@ -197,7 +198,8 @@ static double angle_of(const riis_valve *valve, int n_leaflets, int to) {
   return 360 * angle / sum;
 }
 
-/* Returns how far the vertices of one surface are from the other surface. Their x and y are first multiplied by `side`. */
+/* Returns how far the vertices of one surface are from the other surface. First, x and y of the vertices are multiplied by
+ * `side`. */
 static double farthest(const riis_surface *from, const double *side, const riis_surface *to) {
   const riis_triangles all = triangles_of(from);
   double most = 0;

@@ -260,8 +260,8 @@ TEST(affine_and_planar_maps_are_reproduced) {
   }
 }
 
-/* The derivatives of |r|^3 do not jump. A warped line through a landmark therefore has no kink. Its direction changes little over
- * a short step. */
+/* The derivatives of |r|^3 do not jump. A warped line through a landmark therefore has no kink. The line's direction changes
+ * little over a short step. */
 TEST(a_landmark_adds_no_kink) {
   double worst = 0;
   for (int trial = 0; trial < trials_of(30); ++trial) {
@@ -878,8 +878,8 @@ TEST(folds_are_found_and_named) {
   assert_memory_equal(mapped[0], mapped[1], sizeof mapped[0]); /* a refusal changes nothing */
 }
 
-/* A warp may turn over a part of a patch, or fold at a patch but not at landmarks. It is then refused, and the message names the
- * patch. */
+/* A warp may turn over a part of a patch, or fold at a patch but not at landmarks. Such a warp is refused, and the message names
+ * the patch. */
 TEST(folds_at_patches_are_named) {
   riis_valve *valve = new_valve("trileaflet");
   riis_surface *surface = new_surface(valve, NULL);
@@ -909,8 +909,8 @@ TEST(folds_at_patches_are_named) {
   assert_int_equal(n_refused, 1);
 }
 
-/* The attachment of a random patient, made from a point of the coapting valve's attachment. Its sectors, heights and ellipse
- * agree with examples/patient/make_patient.py. */
+/* The attachment of a random patient, made from a point of the coapting valve's attachment. The patient's sectors, heights and
+ * ellipse agree with examples/patient/make_patient.py. */
 typedef struct {
   double commissure_height, sectors[3], commissure_rise[3], nadir_rise[3], ratio, direction;
 } random_root;
@@ -1028,7 +1028,7 @@ static double least_cosine(const riis_surface *surface) {
 }
 
 /* Some grid cells of the half open coapting valve are hardly wider than a line. Rough landmarks, with errors of up to half a
- * millimetre, turn over such cells. They turn over no triangle. */
+ * millimetre, turn over such cells. Such landmarks turn over no triangle. */
 TEST(slivers_of_rough_warps_are_no_folds) {
   static const struct {
     int roughness;

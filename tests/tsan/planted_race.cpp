@@ -19,8 +19,8 @@ alignas(64) int planted = 0;
 alignas(64) std::atomic<int> n_come{0};
 std::atomic<bool> is_written{false}, is_written_again{false};
 
-// Waits by relaxed loads, which order nothing. It makes few loads, because many loads would push the other access out of the
-// thread's history. If the other thread never comes, the function returns after a while.
+// Waits by relaxed loads, which order nothing. The function makes few loads, because many loads would push the other access out
+// of the thread's history. If the other thread never comes, the function returns after a while.
 template <class Happened>
 bool wait_until(const Happened &happened) {
   const auto start = std::chrono::steady_clock::now();

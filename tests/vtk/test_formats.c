@@ -195,7 +195,7 @@ static const char xdmf[] =
     "</Geometry>\n<Attribute Name=\"p\" Center=\"Node\"><DataItem Dimensions=\"4\" Format=\"XML\">1 2 3 4</DataItem>\n"
     "</Attribute>\n</Grid>\n</Domain>\n</Xdmf>\n";
 
-/* dolfinx 0.9 and ParaView were seen to open files of this form. dolfinx looks for a grid of the name "mesh". It reads the
+/* dolfinx 0.9 and ParaView were seen to open files of this form. dolfinx looks for a grid of the name "mesh". dolfinx reads the
  * topology's DataItem as rows of nodes, and compares its dimensions with the dataset. Numbers are in the HDF5 file beside the
  * text. If riis has no HDF5, they are in the text. */
 TEST(test_xdmf_for_others) {

@@ -407,7 +407,7 @@ TEST(test_words_for_numbers) {
   }
 }
 
-/* Two polyhedra are tetrahedra that share a face. Their faces are in one list, as VTK writes since 9.4. */
+/* Two polyhedra are tetrahedra that share a face. The faces of both are in one list, as VTK writes since 9.4. */
 TEST(test_lists_of_faces) {
   static const char *const corners = "0 1 2 0 1 3 0 2 3 1 2 3 1 2 4 1 3 4 2 3 4";
   const struct {

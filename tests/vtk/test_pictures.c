@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Draws pictures under a virtual display. They must have the requested size and one or two panels. They must not be blank, and
- * each view must differ. */
+ * Draws pictures under a virtual display. The pictures must have the requested size and one or two panels. Blank pictures are a
+ * fault, and each view must differ. */
 #include <riis/riis_vtk.h>
 #include <signal.h>
 #include <stdint.h>
@@ -409,8 +409,8 @@ TEST(test_scale_and_bands) {
   free(picture.rgb);
 }
 
-/* Flat leaflets are seen edge on: closed leaflets from the side, and open leaflets from above. They appear as lines that fill
- * 1/1.08 of the panel, because the camera leaves this margin. */
+/* Flat leaflets are seen edge on: closed leaflets from the side, and open leaflets from above. Such leaflets appear as lines that
+ * fill 1/1.08 of the panel, because the camera leaves this margin. */
 TEST(test_edge_on) {
   const int32_t views[2] = {RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_TOP};
   const double expected[2] = {800 / 1.08, (800 - upper_band - lower_band) / 1.08};
@@ -431,7 +431,7 @@ TEST(test_edge_on) {
   riis_valve_destroy(&valve);
 }
 
-/* The unit follows the number at the scale bar without changes. It replaces the default words. */
+/* The unit follows the number at the scale bar without changes. The unit replaces the default words. */
 TEST(test_unit) {
   for (int with_mesh = 0; with_mesh < 2; ++with_mesh) {
     const riis_vtk_mesh *const drawn = with_mesh ? mesh : NULL;
@@ -624,8 +624,8 @@ static void expect_corners(const char *name, int red, int green, int blue) {
   free(picture.rgb);
 }
 
-/* The background has the colour of the options. A transparent picture can be laid on white and on black. It then equals the
- * pictures drawn on these colours, up to the rounding of each layer. */
+/* The background has the colour of the options. A transparent picture can be laid on white and on black. The transparent picture
+ * then equals the pictures drawn on these colours, up to the rounding of each layer. */
 TEST(test_backgrounds) {
   static const char *const on[2] = {"white.png", "black.png"};
   riis_vtk_picture_options options = looks(0.2, 0.4, 0.6, 1, RIIS_VTK_CAPTIONS_ALL);

@@ -444,7 +444,7 @@ TEST(test_decimal_comma) {
   setlocale(LC_ALL, "C");
 }
 
-/* A surface from arrays with skipped triangles is written without uv. Its triangles have the ids that queries use. */
+/* A surface from arrays with skipped triangles is written without uv. The triangles in the file have the ids that queries use. */
 TEST(test_user_surface_is_written) {
   riis_surface_options options;
   riis_surface_arrays arrays;

@@ -20,7 +20,7 @@ def samples(pieces, n=64):
 
 
 def length_until(piece, end):
-    """Returns the arc length up to a parameter. It is extrapolated from the lengths of chords."""
+    """Returns the arc length up to a parameter, extrapolated from the lengths of chords."""
 
     def chords(n):
         points = [point(piece, end * i / n) for i in range(n + 1)]

@@ -76,8 +76,8 @@ def mitral_curves(images):
 
 
 def mitral_arcs(images):
-    """Returns arcs from the annulus to the free edges on the half x >= 0. They begin at fractions u of the annulus' length from
-    its posterior point. "lines" has the ends of many arcs. "arcs" has the arcs between two patches."""
+    """Returns arcs from the annulus to the free edges on the half x >= 0. The arcs begin at fractions u of the annulus' length
+    from its posterior point. "lines" has the ends of many arcs. "arcs" has the arcs between two patches."""
     half, lines, arcs, u = images[::2], [], [], 0.5  # patches go from the anterior to the posterior point
     whole = 2 * sum(image["lengths"]["v0"] for image in half)
     for image in half:

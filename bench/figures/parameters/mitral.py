@@ -209,8 +209,8 @@ def draw_arc(sheet, valve):
     (edge,) = valve.anterior
     chord = [b - a for a, b in zip(edge[0], edge[3])]
     inner = [b - a for a, b in zip(edge[1], edge[2])]
-    # `share` is the distance of the inner control points from the chord's middle, divided by half the chord. It satisfies 1 -
-    # share = 2/3 (1 - tan(angle / 4)^2).
+    # `share` is the distance of the inner control points from the chord's middle, divided by half the chord. `share` satisfies 1
+    # - share = 2/3 (1 - tan(angle / 4)^2).
     share = sum(a * b for a, b in zip(inner, chord)) / sum(a * a for a in chord)
     height = math.sqrt(1 - 1.5 * (1 - share))  # the tip's height divided by half the chord, if the arc is part of a circle
     angle = 4 * math.atan(height)

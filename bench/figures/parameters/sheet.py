@@ -156,7 +156,7 @@ class Sheet:
 
 
 class Panel:
-    """A view with plane coordinates in centimetres. Its lower left corner is left_bottom. Both axes have one scale, in
+    """A view with plane coordinates in centimetres. The view's lower left corner is left_bottom. Both axes have one scale, in
     centimetres per inch of the sheet."""
 
     def __init__(self, sheet, corner, size, title, left_bottom, centimetres):
@@ -211,8 +211,8 @@ class Panel:
             self.points(to, color=color, size=2.2, zorder=6)
 
     def edge_towards(self, to, *texts):
-        """Returns the point at which a leader leaves texts. It is the point of their bounding box that is nearest to the leader's
-        end."""
+        """Returns the point at which a leader leaves texts. This is the point of the texts' bounding box that is nearest to the
+        leader's end."""
         renderer = self.sheet.figure.canvas.get_renderer()
         boxes = [text.get_window_extent(renderer) for text in texts]
         x, y = self.axis.transData.transform(to)
@@ -237,8 +237,8 @@ class Panel:
     def angle(
         self, name, centre, begin, end, radius, at, ha="left", color=DARK, share=0.5, shown=None, sense=1, value=None, text=None
     ):
-        """Draws an angle at `centre` as an arc from the direction of `begin` to the direction of `end`. It runs anticlockwise
-        if sense is 1."""
+        """Draws an angle at `centre` as an arc from the direction of `begin` to the direction of `end`. The arc runs
+        anticlockwise if sense is 1."""
         start, stop = (math.degrees(math.atan2(p[1] - centre[1], p[0] - centre[0])) for p in (begin, end))
         measured = (stop - start) * sense
         measured = (measured + 180) % 360 - 180

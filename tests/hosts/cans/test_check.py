@@ -18,7 +18,7 @@ VARYING = ["opening", "drop", "flow"]
 
 
 def record(runs):
-    """Writes recorded.json from the runs of ./run cans. It keeps every sixth step of the valve that opens."""
+    """Writes recorded.json from the runs of ./run cans. The file keeps every sixth step of the valve that opens."""
     found = {}
     for folder in sorted(pathlib.Path(runs).iterdir()):
         run = check.read_run(str(folder.parent), folder.name)

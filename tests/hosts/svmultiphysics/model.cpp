@@ -172,7 +172,7 @@ double rounded(double value) { return std::ldexp(std::nearbyint(std::ldexp(value
 const int n_quads = 8;
 const int n_vertices = (n_quads + 1) * (n_quads + 1);
 
-// The vertices of two flaps. They hang on the lines y = -1 and y = 1, and their ends touch in the closed valve.
+// The vertices of two flaps. The flaps hang on the lines y = -1 and y = 1, and touch at their ends in the closed valve.
 Array<double> flaps(double angle, bool box, double scale) {
   Array<double> x(3, 2 * n_vertices + (box ? 9 : 0));
   for (int flap = 0; flap < 2; ++flap) {
