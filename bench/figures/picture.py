@@ -231,7 +231,7 @@ class Picture:
         self.add_text(0.5 * self.width + x + right, 0.5 * self.height + y + above, text, colour, size, True)
 
     def add_label_away(self, at, away_from, text, distance, colour=DARK, size=26):
-        """Adds a text. This camera sees its middle shifted away from another point."""
+        """Adds a text. In this camera's view, the text's middle is shifted away from another point."""
         way = self.in_picture(np.asarray(at) - away_from)
         length = np.hypot(*way)
         self.add_label(at, text, *(distance * way / length if length > 0 else (0, distance)), colour, size)

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reports which benchmarks have become slower than a baseline. The exit status is 1 if there are such benchmarks.
 
-Times are divided by those of the calibration benchmarks of the same run. This makes runs on two machines, or on one machine on
-two days, comparable. There are two calibrations, for memory and for arithmetic. A benchmark may depend on either, so it counts as
-slower only if it is slower relative to both. If the calibrations of the two machines differ by a factor, a smaller loss is not
-noticed. The output states this difference, and --factor should not be below it.
+Times are divided by those of the calibration benchmarks of the same run. The division makes runs on two machines, or on one
+machine on two days, comparable. There are two calibrations, for memory and for arithmetic. A benchmark may depend on either, so
+it counts as slower only if it is slower relative to both. If the calibrations of the two machines differ by a factor, a smaller
+loss is not noticed. The output states this difference, and --factor should not be below it.
 
 Exit status: 0, no benchmark is slower; 1, one is slower, is missing or ended early; 2, a file has the wrong content."""
 

@@ -38,7 +38,7 @@ double distance_sq(const Point &p, const CGAL::Bbox_3 &box) {
 }
 
 // Tells CGAL's traversal which boxes to enter, and what to do with a triangle. CGAL's class for closest points does nearly the
-// same. This class also starts with a limit on the distance.
+// same. The class here also starts with a limit on the distance.
 struct WithinLimit {
   double radius_sq;
   const Triangle *nearest = nullptr;

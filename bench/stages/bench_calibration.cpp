@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures work that does not use the library. compare.py divides every other time by these times. This makes runs on different
-// machines or days comparable.
+// Measures work that does not use the library. compare.py divides every other time by these times. The division makes runs on
+// different machines or days comparable.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>

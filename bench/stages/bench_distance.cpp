@@ -29,8 +29,8 @@ Surface surface_of(const char *kind, std::int32_t measure, double tolerance) {
   return make_surface(make_valve(kind).get(), &options);
 }
 
-// The points are the same in every run. Reference distances are measured to fine triangles. These lie within 1e-3 half
-// thicknesses of the smooth surface.
+// The points are the same in every run. Reference distances are measured to fine triangles. The fine triangles lie within 1e-3
+// half thicknesses of the smooth surface.
 struct Points {
   std::vector<double> xyz, distances;
 

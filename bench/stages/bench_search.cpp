@@ -163,8 +163,8 @@ void search_all_distances(benchmark::State &state) {
 }
 
 // Runs the paper's exhaustive search with the library's kernel, on one thread. The search measures every node against every
-// triangle. Here it measures only every 50th node. Each node takes the same time, so "all_nodes_s" is the extrapolated time of
-// all nodes.
+// triangle. Here the search measures only every 50th node. Each node takes the same time, so "all_nodes_s" is the extrapolated
+// time of all nodes.
 void search_every_triangle(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const riis_surface *surface = valve_of(state).first();
@@ -235,7 +235,7 @@ void search_paper_neighbor(benchmark::State &state) {
   state.counters["triangles"] = static_cast<double>(triangles.n());
 }
 
-// Measures the sorting of a mesh's nodes into balls. The first neighbour search of a mesh sorts them.
+// Measures the sorting of a mesh's nodes into balls. The first neighbour search of a mesh sorts the nodes.
 void search_groups(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const double *xyz = mesh.xyz().data();

@@ -79,7 +79,7 @@ void closest_point(benchmark::State &state) {
   const Surface surface = aortic_surface(static_cast<double>(state.range(0)) * 1e-3);
   std::size_t i = 0;
   riis_closest closest;
-  // The first query of a surface prepares the data for sides. This query is not timed.
+  // The first query of a surface prepares the data for sides. The first query is not timed.
   check(riis_closest_point(surface.get(), nodes().data(), &closest, sizeof closest));
   for (auto _ : state) {
     check(riis_closest_point(surface.get(), nodes().data() + 3 * (i++ % 100000), &closest, sizeof closest));

@@ -16,8 +16,8 @@ struct PeakKernel {
   double (*repeat)(int64_t n);
 };
 struct PeakKernels {
-  // These functions use single precision. The first does multiply-adds, the second multiply-adds and additions, and the third
-  // multiplications and additions.
+  // These functions use single precision. One does multiply-adds, one multiply-adds and additions, and one multiplications and
+  // additions.
   PeakKernel floats[3];
   PeakKernel doubles;  // for double precision: multiplications and additions, because the decision kernel fuses no
                        // operations

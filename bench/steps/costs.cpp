@@ -76,7 +76,7 @@ class Table {
   std::vector<Row> rows_;
 };
 
-// Makes the object as often as the timing needs. Then makes it once more to count the bytes from malloc.
+// Makes the object as often as the timing needs. Then makes the object once more to count the bytes from malloc.
 template <class Handle>
 void add_making(Table &table, const std::string &name, const std::function<riis_status(Handle **)> &make,
                 void (*destroy)(Handle **), Handle **made) {

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # bench/validation/body_fitted.sh FOLDER [--quick]
-# Compares open leaflets in two forms: as walls without thickness in a body-fitted mesh, and as obstacles of riis. Both use the
-# same solver and flow. A piece of the valve between its planes of symmetry lies in a tube. Blood with ten times its viscosity
+# Compares open leaflets in two forms: as walls without thickness in a body-fitted mesh, and as obstacles of riis. Both forms use
+# the same solver and flow. A piece of the valve between its planes of symmetry lies in a tube. Blood with ten times its viscosity
 # enters with a uniform velocity of 0.5 m/s. The effective area is Q / sqrt(2 dp / rho). Here dp is the total pressure at the
 # inlet minus the pressure at the outlet. The jet still exists at the outlet, so it has not regained pressure. FOLDER gets the
 # table body_fitted.txt, the rows body_fitted.json, pictures, and the cases. Only cases whose rows all.json lacks are run, and a

@@ -47,8 +47,8 @@ def contraction(m):
     The formula comes from the theory of free streamlines (Helmholtz, Kirchhoff). Von Mises 1917 has a table of C. The hodograph w
     = (u - i v)/U of half the jet is a quarter of the unit disc. The quarter has a source at k = C m, which is the speed far
     upstream divided by U, and a sink at 1. Therefore W = (Q/pi) (log(w^2 - k^2) + log(w^2 - 1/k^2) - 2 log(w^2 - 1)). dz = dW /
-    (U w) is integrated along the free streamline from the edge, w = i, to w = 1. This gives 1/C = 1 + (2/pi) (1/k - k) arctan
-    k."""
+    (U w) is integrated along the free streamline from the edge, w = i, to w = 1. The integral gives 1/C = 1 + (2/pi) (1/k - k)
+    arctan k."""
     if m == 0:
         return np.pi / (np.pi + 2)
     C = 0.6

@@ -46,7 +46,8 @@ def plate_with_hole(a, outer):
 
 
 def plate_with_slit(b, outer):
-    """Returns a plate in the plane x = 0 from y = b to y = outer, and its mirror image. Both reach from z = -outer to outer."""
+    """Returns a plate in the plane x = 0 from y = b to y = outer, and its mirror image. The plate and the image reach from z =
+    -outer to outer."""
     vertices, faces = [], []
     for sign in (1, -1):
         first = len(vertices)

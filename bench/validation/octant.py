@@ -69,8 +69,8 @@ def effective_radius(library, kind, eps, per_eps, rim, tolerance=1e-6):
         def schur(p):
             return sum(d @ lu.solve(d.T @ p) for d, lu in zip(D, A))
 
-        # The velocity u = started + A^-1 D^T p must be free of divergence. This gives the equation S p = mass. The Schur
-        # complement S is close to the cell volumes if viscosity dominates. S is close to `rough` if K dominates.
+        # The velocity u = started + A^-1 D^T p must be free of divergence. This condition gives the equation S p = mass. The
+        # Schur complement S is close to the cell volumes if viscosity dominates. S is close to `rough` if K dominates.
         p = _conjugate_gradients(schur, mass, lambda x: rough.solve(x) + x / size, tolerance)
         u = [x + lu.solve(d.T @ p) for x, lu, d in zip(started, A, D)]
         if kind == "disc":

@@ -73,8 +73,8 @@ int main(int argc, char **argv) {
   for (int32_t patch = 0; patch < 2; ++patch)
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n; ++j) {
-        // The patches end in points at the root and at the end of the coaptation zone. Both points are left out, because they lie
-        // outside the tube.
+        // The patches end in points at the root and at the end of the coaptation zone. The two end points are left out, because
+        // they lie outside the tube.
         const double v = patch ? (double)i / n : 0.03 + 0.97 * i / n;
         double point[3];
         find(&all, below, patch, 0.97 * j / n, v, point);

@@ -500,7 +500,7 @@ TEST(test_finer_edges) {
   free_mesh(&tube);
 }
 
-/* One valve leaves a gap in its mesh, and one has a drop that is too small. Both are exported with a warning. */
+/* One valve leaves a gap in its mesh, and one has a drop that is too small. Both valves are exported with a warning. */
 TEST(test_warnings) {
   need_scipy();
   write_tube("coarse.vtk", -3.1, 2.9);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Tests meshes in pieces. Random meshes are cut at random, with and without global ids and ghost cells. The program marks the
- * pieces and the joined mesh. Both must give the same marks, counts, leaks, regions and passages. A refusal names the broken list
- * or piece. */
+ * pieces and the joined mesh. Pieces and joined mesh must give the same marks, counts, leaks, regions and passages. A refusal
+ * names the broken list or piece. */
 #include <ctype.h>
 #include <math.h>
 #include <riis/riis_vtk.h>

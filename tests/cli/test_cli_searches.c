@@ -164,8 +164,8 @@ TEST(test_no_cells) {
   assert_true(json_number(program_out, "n_marked") == 1);
 }
 
-/* Some options are refused on a mesh without an adjacency. The same options are then also refused on other meshes, before the
- * mesh is read. */
+/* Some options are refused on a mesh without an adjacency. Such options are then also refused on other meshes, before the mesh is
+ * read. */
 TEST(test_refusals) {
   const char *searches[] = {"neighbor", "paper"};
   for (int i = 0; i < 2; ++i) {

@@ -191,7 +191,7 @@ TEST(measures_leave_the_skirt_out) {
   RUN_FINE("states", "-", "--surface", plain);
   snprintf(bare, sizeof bare, "%s", program_out);
   RUN_FINE("states", "-", "--surface", plain, "--skirt", "0.4");
-  /* The first line has the columns. The skirt's two columns follow those of the leaflets. */
+  /* The table's first line names the columns. The skirt's two columns follow those of the leaflets. */
   char *const columns = strstr(program_out, ",skirt_area,skirt_area_ratio");
   char *const edges = strstr(program_out, ",skirt_edge,skirt_edge_ratio");
   assert_true(columns != NULL || edges != NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The program replaces a file as a whole, or leaves it as it was. This holds even if a write is interrupted or fails. No input is
- * lost, and no temporary file remains. */
+ * The program replaces a file as a whole, or leaves it as it was. No write leaves a part of a file, even if it is interrupted or
+ * fails. No input is lost, and no temporary file remains. */
 #include <linux/capability.h>
 #include <signal.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the reader of numbers for macOS with this system's std::from_chars. Both must give equal results for texts of numbers
-// and for broken texts.
+// Compares the reader of numbers for macOS with this system's std::from_chars. Both readers must give equal results for texts of
+// numbers and for broken texts.
 #include <charconv>
 #include <cinttypes>
 #include <cstdio>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Reads the files of `riis export uris` as svMultiPhysics does, and marks nodes by the solver's rule. This code does not call the
- * library. The test fails if a file is not as the solver expects it. */
+ * Reads the files of `riis export uris` as svMultiPhysics does, and marks nodes by the solver's rule. The code of these functions
+ * does not call the library. The test fails if a file is not as the solver expects it. */
 #ifndef RIIS_TESTS_URIS_FILES_H
 #define RIIS_TESTS_URIS_FILES_H
 

@@ -163,8 +163,8 @@ run_tests() {
   # Random tests make few trials, because same_bits compares all results with those of other processors. If one process starts
   # several programs by posix_spawn at once, they crash under PRoot. Ninja therefore starts one compiler at a time. Without this
   # setting, threads that wait would take the processors from threads that compute. Mesa draws without LLVM, whose machine code
-  # crashes in the emulator. Rarely, qemu 7.2 waits for its own locks for ever. Such a test reaches its time limit, and runs
-  # again.
+  # crashes in the emulator. Rarely, qemu 7.2 waits for its own locks for ever. A test that waits so reaches its time limit, and
+  # runs again.
   env PATH="$folder/bin:$PATH" CMAKE_TOOLCHAIN_FILE="$folder/toolchain.cmake" \
     RIIS_TEST_SHORT=1 CMAKE_BUILD_PARALLEL_LEVEL=1 OMP_WAIT_POLICY=passive GALLIUM_DRIVER=softpipe \
     PKG_CONFIG_SYSROOT_DIR="$folder/root" PKG_CONFIG_LIBDIR="$folder/root$libraries/pkgconfig:$folder/root/usr/share/pkgconfig" \

@@ -69,7 +69,8 @@ class Planted(unittest.TestCase):
         return status, out.getvalue()
 
     def writes(self):
-        """First the generator must report outdated files without writing them. Then the function lets it write them."""
+        """First the generator must report outdated files without writing them. Then the function lets the generator write the
+        files."""
         status, text = self.run_it("--check")
         self.assertEqual(status, 1, text)
         self.assertIn("; ./run bindings writes it anew", text)

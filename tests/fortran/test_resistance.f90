@@ -321,7 +321,7 @@ contains
       if (any(abs(matmul(velocity(:, vertex_id(:, j) + 1), barycentric(:, i)) - fields%velocity(:, i)) >= 1d-10)) &
         n_means = n_means + 1
     end do
-    ! If two patches are equally near, the velocity is the mean of theirs. This happens in a cusp's plane of symmetry.
+    ! If two patches are equally near, as in a cusp's plane of symmetry, the velocity is the mean of the patches' velocities.
     call check(is_interpolated .and. n_means < size(node_id) / 20 .and. any(abs(fields%velocity) > 0.1d0), &
       'patches, u, v and velocities are the triangles''')
     call check(any(fields%rim == 1) .and. any(fields%rim == 0) .and. all(fields%rim == 0 .or. fields%rim == 1), 'the rim')

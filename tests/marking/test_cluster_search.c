@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The search over clusters finds the same nodes as the exhaustive search, to the last bit. This holds for every mesh, surface,
- * limit, mask, instruction set and number of threads, and also without a limit. If clusters cannot be used, the exhaustive search
- * runs, and the statistics report it. */
+ * The search over clusters finds the same nodes as the exhaustive search, to the last bit. The results agree for every mesh,
+ * surface, limit, mask, instruction set and number of threads, and also without a limit. If clusters cannot be used, the
+ * exhaustive search runs, and the statistics report it. */
 #include <omp.h>
 #include <riis/riis.h>
 
@@ -213,8 +213,8 @@ static riis_surface *sphere(int n, double radius, double half_thickness) {
 }
 
 /* Every point of the surface is equally far from the sphere's middle, so the filter leaves far more pairs than its buffer can
- * hold. The test counts the pairs that the filter must leave. These are triangles whose distance exceeds the smallest distance by
- * at most the error of single precision. */
+ * hold. The test counts the pairs that the filter must leave. The triangle of such a pair has a distance that exceeds the
+ * smallest distance by at most the error of single precision. */
 TEST(more_pairs_than_room) {
   enum { n = 40, room = 4096 };
   riis_surface *surface = sphere(40, 0.9, 0.1);

@@ -363,7 +363,7 @@ TEST(mirrored_loads_are_mirrored) {
 /* --- A closed valve under pressure ----------------------------------------------------------------------------------- */
 
 /* The pressure falls by `drop` across the band along the distance, and K u = -grad p. The force must be `drop` times the vector
- * area of the surface. This holds at the vertices and at the tissue. */
+ * area of the surface. The forces at the vertices and at the tissue must both have this sum. */
 static void check_closed(const char *kind, double limit) {
   const double eps = 0.06, r = 1e3, drop = 1.2e4;
   riis_surface_options options = surface_options();

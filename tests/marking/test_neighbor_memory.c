@@ -179,7 +179,8 @@ TEST(a_steady_step_allocates_nothing) {
       options.n_threads = 1;
       if (kind % 2) options.distance_limit = 0.2;
       if (kind / 2) options.fields = 255 - RIIS_FIELD_VELOCITY; /* all fields that the surface has: no velocity */
-      /* The first step allocates memory. This shows that allocations are counted, also those of vectors and of aligned memory. */
+      /* The first step allocates memory, which shows that allocations are counted, also those of vectors and of aligned
+       * memory. */
       assert_true(allocations_of_a_step(surface, mesh, &options, result) > 5);
       allocations_of_a_step(surface, mesh, &options, result);
       for (int step = 3; step <= 5; ++step) assert_int_equal(allocations_of_a_step(surface, mesh, &options, result), 0);

@@ -127,8 +127,7 @@ TEST(nodes_move) {
   check_same_as_exhaustive(surface, mesh, options, result);
 }
 
-/* Coordinates become infinite or NaN without an update of the handle. This happens before the first search or between two
- * searches. */
+/* Before the first search or between two searches, coordinates become infinite or NaN without an update of the handle. */
 TEST(non_finite_coordinates_are_refused) {
   static const double bad[3] = {NAN, INFINITY, -INFINITY};
   riis_surface *surface = aortic_surface(NULL);

@@ -515,7 +515,7 @@ TEST(refusals) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.offset is 0.5, but options.measure is 1, which knows no side",
                 riis_surface_create(valve, &options, &surface));
   options.measure = RIIS_MEASURE_TRIANGLES;
-  /* Two triangles share an edge. Both run along this edge in the same direction, so their normals are opposite. */
+  /* Two triangles share an edge. Both triangles run along this edge in the same direction, so their normals are opposite. */
   static const double corner[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
   static const int32_t turned[6] = {0, 1, 2, 0, 3, 2}, right[6] = {0, 1, 2, 0, 2, 3};
   riis_surface_arrays arrays = triangle_arrays(4, corner, 2, right);

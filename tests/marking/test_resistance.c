@@ -109,7 +109,7 @@ static double integral_of(const riis_surface *surface, const riis_resistance *re
   return sum * volume;
 }
 
-/* Without the rim, the integral of K is the area times R / eps. This is exact for a plane. The integral is also exact for a
+/* Without the rim, the integral of K is the area times R / eps. The formula is exact for a plane. The formula is also exact for a
  * cylinder, because the excess outside balances the deficit inside. For a sphere, the integral has an additional factor 1 + c
  * eps^2 / r^2. The constant c = 1/3 - 2/pi^2 is the integral of x^2 (1 + cos pi x) from 0 to 1. */
 TEST(the_integral_is_the_area) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests velocities of nodes that are equally near to several leaflets, or to several patches of one leaflet. Such a node gets the
- * mean velocity that a loop over all triangles gives. Every search gives the same bits. A symmetric mesh may be moved by a
- * rounding error or be split into parts: the sums of K and K u stay the same. Nodes without ties have the velocity of their
- * closest triangle. */
+ * Tests velocities of nodes that are equally near to several leaflets, or to several patches of one leaflet. A node with such a
+ * tie gets the mean velocity that a loop over all triangles gives. Every search gives the same bits. A symmetric mesh may be
+ * moved by a rounding error or be split into parts: the sums of K and K u stay the same. Nodes without ties have the velocity of
+ * their closest triangle. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -83,7 +83,7 @@ static int child_goes_on(const riis_valve *valve) {
          WEXITSTATUS(outcome) == child_passed;
 }
 
-/* The other thread holds a lock part of the time, so some forks happen while a lock is held. The address sanitizer of gcc 12 does
+/* A second thread holds a lock part of the time, so some forks happen while a lock is held. The address sanitizer of gcc 12 does
  * not unlock its allocator in a child. The child may then wait for ever, so these tests are omitted with this sanitizer. */
 static void children_go_on_beside(void *(*other)(void *)) {
   if (is_sanitized()) skip();

@@ -139,7 +139,7 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
     ++n_calls_failed[whose];
     check_status(s, status, n);
     /* A failure at allocation n has two variants. The first variant checks everything and then repeats the call. The second
-     * repeats the call immediately. */
+     * variant repeats the call immediately. */
     if ((n + and_all_after) % 2 == 0 || (s->flags & IS_FIRST))
       check_digest(s, &w, expected->before, "after the failure", n);
     if (!(s->flags & IS_FIRST)) status = s->call(&w);
@@ -156,7 +156,7 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
       after.embree_bytes == before.embree_bytes && attempt < 5)
     return try_one(s, expected, whose, n, and_all_after, attempt + 1);
   const int grew = memcmp(&before, &after, sizeof before) != 0;
-  /* A first call of its kind may allocate memory and keep it. This is accepted only for one call. */
+  /* A first call of its kind may allocate memory and keep it. The test accepts such memory only for one call. */
   if (grew && (!(s->flags & IS_FIRST) || n_grown++ > 0))
     fail_msg("%s, allocation %lld: leaks %lld of the library's, %lld of Embree's, %lld bytes of Embree's", s->name,
              (long long)n, (long long)(after.library - before.library), (long long)(after.embree - before.embree),

@@ -125,7 +125,8 @@ ends 0 "Mesh OK." openfoam_mesh 0.25
 [[ -e $of_work/mesh-0.25/complete ]] || problem "a good mesh is not kept"
 grep -q 'type wall;' "$of_work/mesh-0.25/constant/polyMesh/boundary" || problem "the wall is no wall"
 
-# Tests the check of function objects. First they work with the digest of the plug-in's folder. Then they fail for another reason.
+# Tests the check of function objects. First the function objects work with the digest of the plug-in's folder. Then they fail for
+# another reason.
 function_objects=good
 openfoam_function_object() {
   case $function_objects in

@@ -199,8 +199,8 @@ class Tables(unittest.TestCase):
             self.assertTrue(orifice.is_open(0.31))
 
     def test_displaced_volume(self):
-        """Without a pressure difference and inertia, opening leaflets push the blood that they displace. This happens step by
-        step, in the heart in space.
+        """Without a pressure difference and inertia, opening leaflets push the blood that they displace. In the heart in space,
+        the leaflets push step by step.
 
         At the end of each step, the leaflets are in that step's position. The leaflets therefore move half a step later than in
         the heart without space.

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """check_columns.py FILE...: no line may be too long. Files of other kinds are ignored.
 
-Code has at most 130 columns, fixed-form Fortran 72, and documents 100. In a document, blocks of code may have 130. These parts
-may be longer: tables, links alone on a line, HTML comments, and blocks of output (```text, or indented).
+Code has at most 130 columns, fixed-form Fortran 72, and documents 100. In a document, blocks of code may have 130. The following
+parts may be longer: tables, links alone on a line, HTML comments, and blocks of output (```text, or indented).
 """
 
 import re

@@ -27,8 +27,8 @@ walk_seen walk_once(int n_threads);
 walk_seen walk_under_limit(int limit, int n_threads);
 /* Makes a walk in which every body throws. Returns 1 if the caller gets the exception. */
 int walk_that_throws(int n_threads);
-/* Starts n_callers threads. Each thread makes n_walks walks, with 2 and 3 threads in turn. The first walks have 2 threads and run
- * at the same time. Returns 1 if all walks are correct. */
+/* Starts n_callers threads. Each thread makes n_walks walks, with 2 and 3 threads in turn. The first walks of all threads have 2
+ * threads and run at the same time. Returns 1 if all walks are correct. */
 int walk_at_once(int n_callers, int n_walks);
 /* Runs n_tasks tasks of the caller's own TBB in an arena of four threads. Each task makes a walk. Returns 1 if all walks are
  * correct and the tasks stay in their arena. */

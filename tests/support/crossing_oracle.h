@@ -22,8 +22,8 @@ static inline wide3 wide_cross(wide3 a, wide3 b) {
 }
 static inline wide wide_dot(wide3 a, wide3 b) { return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2]; }
 
-/* Returns the answer for a segment and a triangle in one plane. Both are projected along a coordinate axis that does not lie in
- * the plane. */
+/* Returns the answer for a segment and a triangle in one plane. Segment and triangle are projected along a coordinate axis that
+ * does not lie in the plane. */
 static inline int oracle_meet_in_plane(const int64_t *a, const int64_t *b, const int64_t *abc, wide3 normal) {
   const int drop = normal.x[0] ? 0 : normal.x[1] ? 1 : 2, u = (drop + 1) % 3, v = (drop + 2) % 3;
   const int turn = normal.x[drop] > 0 ? 1 : -1;

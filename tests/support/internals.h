@@ -140,9 +140,9 @@ void kernels_frame_leaf(int set, const double *centre, double scale, const doubl
  * 8), and the points have the weights (3, 8). The result is mixed(8, 8). */
 void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers, const int64_t *vertex_id,
                              const double *barycentric, double *mixed);
-/* For fields: computes the rates (n_directions, n_points) at which the distances of up to 8 points (3, 8) change. The other ends
- * of the distances have the weights (3, 8) on triangles with the vertices (3, 8). These vertices move at the rates (3,
- * n_vertices, n_directions). */
+/* For fields: computes the rates (n_directions, n_points) at which the distances of up to 8 points (3, 8) change. The closest
+ * points have the weights (3, 8) on triangles with the vertices (3, 8). The vertices move at the rates (3, n_vertices,
+ * n_directions). */
 void kernels_differentiate(int set, const double *points, const double *on, const double *barycentric,
                            const int64_t *vertex_id, int64_t n_vertices, int64_t n_directions, const double *rates,
                            int32_t n_points, double *derivatives);

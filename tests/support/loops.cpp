@@ -202,7 +202,7 @@ int caller_calls_a_team_later() {
       1'000'000, 2,
       [&](std::int64_t, int thread) {
         if (n_come >= 2) return;
-        // The calling thread works alone until a second thread comes. Then both threads wait for each other.
+        // The calling thread works alone until a second thread comes. Then both threads wait until both have come.
         if (thread == 1 || n_alone.load() >= 10) {
           n_come.fetch_add(1);
           wait_for(n_come, 2);

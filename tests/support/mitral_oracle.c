@@ -171,9 +171,9 @@ static real twice_area(const real *a, const real *b, const real *c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* This follows the paper's section "Leaflets" up to the matrix M, with rows 5 to 8. M is affine on the arc's plane, and maps S^0,
- * S^3 and S^tip to start, end and tip. A point therefore keeps its barycentric coordinates. (S^cen is a mean of points, so M also
- * maps it.) */
+/* The code follows the paper's section "Leaflets" up to the matrix M, with rows 5 to 8. M is affine on the arc's plane, and maps
+ * S^0, S^3 and S^tip to start, end and tip. A point therefore keeps its barycentric coordinates. (S^cen is a mean of points, so M
+ * also maps it.) */
 static void leaflet_curve(const real *start, const real *tip, const real *end, double arc_angle, real curve[4][3]) {
   const real a = radians(arc_angle), k = 4.0L / 3 * tanl(a / 4);
   const real S[4][2] = {{1, 0}, {1, k}, {cosl(a) + k * sinl(a), sinl(a) - k * cosl(a)}, {cosl(a), sinl(a)}};

@@ -135,8 +135,8 @@ AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double wid
     const Both unknown{infinity, infinity};
     return {length, unknown, unknown, unknown, infinity, infinity, false};
   }
-  // At equal u, the parameters of the two states differ by at most `shift`. This is the difference at the ends, plus the growth
-  // between the ends that the rates dt/du = length / |B'| allow.
+  // At equal u, the parameters of the two states differ by at most `shift`. `shift` is the difference at the ends, plus the
+  // growth between the ends that the rates dt/du = length / |B'| allow.
   const Derivatives change = changes_on(*at_now.span, *at_before.span, from, to);
   const double at_ends = larger(std::abs(at_now.t[0] - at_before.t[0]), std::abs(at_now.t[1] - at_before.t[1]));
   const double half = 0.5 * width, rate_change = length.change / least + whole * change.first / (least * least);
@@ -163,8 +163,8 @@ AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double wid
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Bounds both states separately, and combines the bounds. This is for a range on which the states lie on different spans and
-// cannot be compared.
+// Bounds both states separately, and combines the bounds. The result serves a range on which the states lie on different spans
+// and cannot be compared.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
   return {of(now.length, before.length),
@@ -205,8 +205,8 @@ class SideInBoth {
   double width(std::size_t i) const { return shares_[i + 1] - shares_[i]; }
 
   // Returns whether the states are compared on the range after share i. There is no comparison if a joint has passed through the
-  // range, or if the range is narrow and has no tight bounds. Such ranges lie on a short span at a curve's end. When a joint
-  // approaches the end, the length of this span changes many times over.
+  // range, or if the range is narrow and has no tight bounds. Narrow ranges without tight bounds lie on a short span at a curve's
+  // end. When a joint approaches the end, the length of this span changes many times over.
   bool is_compared(std::size_t i) const { return are_on_one_span(i) && (width(i) > narrow || compared(i).is_tight); }
 
   // Returns whether a span begins at share i in one of the states.

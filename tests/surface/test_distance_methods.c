@@ -361,7 +361,8 @@ TEST(minimisation_ends_in_local_minima) {
   assert_int_equal(n_marked[RIIS_MEASURE_MINIMIZATION], 0);
 }
 
-/* The patch with the nearest box may not contain the nearest point. Here that box even contains the query's point. */
+/* The patch with the nearest box may not contain the nearest point. In this test the nearest box even contains the query's
+ * point. */
 TEST(all_near_patches_are_asked) {
   /* A slope through [0,1]^3, and a floor below the slope. */
   const double sides[24] = {0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 0, -0.3, 1, 0, -0.3, 0, 1, -0.3, 1, 1, -0.3};
@@ -456,8 +457,8 @@ TEST(searches_agree) {
         assert_int_equal(n, within.n);
         assert_true(marked_in(expected).n > 50 && marked_in(expected).n < nodes.n / 2);
         for (int32_t n_threads = 1; n_threads <= 3; ++n_threads) {
-          /* The first marking starts without marks, and the second from the nodes that the first marked. In the third marking,
-           * the library chooses the search. */
+          /* The first marking starts without marks. The second marking starts from the nodes that the first one marked. In the
+           * third marking, the library chooses the search. */
           for (int repeat = 0; repeat < 2; ++repeat) {
             mark(surface, mesh, RIIS_SEARCH_NEIGHBOR, n_threads, limit, which, result);
             assert_true(same_results(expected, result));

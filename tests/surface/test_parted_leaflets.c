@@ -135,7 +135,7 @@ static void check_sample(int kind, int opening, int share, int how) {
   static const double shares[n_shares] = {0, 0.002, 0.01, 0.03};
   const int owned_before = n_owned();
   /* If single triangles are reversed, edges inside leaflets stay open, and the axis is less exact. The free edges of the open
-   * coapting valve reach as far out as its attachment. This axis would then turn away. */
+   * coapting valve reach as far out as its attachment. The axis of reversed triangles would then turn away. */
   const int turning = kind == 3 && opening + 1 == n_openings ? how % n_turnings % 3 : how % n_turnings;
   const double most = orifice_of(new_surface(valve_at(kind, 1), NULL)).area;
   riis_surface_options options = surface_options(), placed = surface_options();

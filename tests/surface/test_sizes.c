@@ -593,7 +593,7 @@ TEST(trileaflet_cusps_do_not_cross) {
   assert_int_equal(n_crossing, 0);
 }
 
-/* If the sizes do not follow rules, a tall valve crosses. This shows that the search finds crossings. */
+/* If the sizes do not follow rules, a tall valve crosses. Such a valve shows that the search finds crossings. */
 TEST(sizes_that_do_not_follow_cross) {
   riis_valve *valve = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(valve, "leaflet_height", 1.3));
@@ -646,7 +646,7 @@ static int power_is_above(const riis_valve *valve) {
 }
 
 /* Writes points of a cusp's closed free edge. The first coordinate lies along the plane through the axis and the commissure. The
- * second is the distance beyond this plane. Both halves of the edge have the same coordinates. */
+ * second coordinate is the distance beyond this plane. Both halves of the edge have the same coordinates. */
 enum { n_edge_points = 300 };
 static void free_edge(const riis_valve *valve, int k, double (*points)[2]) {
   double starts[3], ends[3];
@@ -673,7 +673,8 @@ static double turn_of(const double *a, const double *b, const double *c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Returns whether the closed free edges of two neighbours go through each other. Both edges lie in one plane. */
+/* Returns whether the closed free edges of two neighbours go through each other. The edges of both neighbours lie in one
+ * plane. */
 static int free_edges_meet(const riis_valve *valve) {
   static double points[3][n_edge_points][2];
   for (int k = 0; k < 3; ++k) free_edge(valve, k, points[k]);
@@ -711,8 +712,8 @@ static int attachment_turns_back(const riis_valve *valve) {
 
 /* Returns whether the attachments of two closed neighbours pass each other below their commissure. At every height both
  * attachments are at the same t. The distance of a cusp beyond the plane through the axis and the commissure is (1 - t) (c0 + c1
- * t). This is -R sin(a) at t = 0, and -b sin(a - a_b) at s. If the sum of both (c0 + c1) is positive, the sum of both distances
- * is positive at some height. Opening moves the attachments apart. */
+ * t). The distance is -R sin(a) at t = 0, and -b sin(a - a_b) at s. If the sum of both (c0 + c1) is positive, the sum of both
+ * distances is positive at some height. Opening moves the attachments apart. */
 static int attachments_pass(const riis_valve *valve) {
   const double s = value_of(valve, "bending_height") / value_of(valve, "leaflet_height"), degree = acos(-1) / 180;
   double beyond[3];

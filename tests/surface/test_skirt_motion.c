@@ -287,8 +287,8 @@ TEST(skirts_have_the_velocity_of_their_points) {
 
 /* --- Vertices of a fixed triangulation -------------------------------------------------------------------------------- */
 
-/* Returns the largest difference between a triangle's velocity and its motion. Both are taken at its centroid, along its
- * normal. */
+/* Returns the largest difference between a triangle's velocity and its motion. Velocity and motion are taken at the triangle's
+ * centroid, along its normal. */
 static double across(const riis_triangles *t, const double *was, double seconds, int64_t i) {
   const int64_t *id = t->vertex_id + 3 * i;
   const double *a = t->xyz + 3 * id[0], *b = t->xyz + 3 * id[1], *c = t->xyz + 3 * id[2];

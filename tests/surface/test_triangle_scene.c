@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The Embree scene only decides which triangles to skip. The scene's answers therefore have the bits of a loop over all triangles
- * with the same kernel. This holds for every position and shape of the surface, and for distances at the limit. */
+ * with the same kernel. The bits agree for every position and shape of the surface, and for distances at the limit. */
 #include "internals.h"
 #include "test_support.h"
 

@@ -66,7 +66,8 @@ static void check_common_vertices(const riis_surface *surface, double scale) {
   free_one_owned(cusp);
 }
 
-/* Cusps have the same bits where they meet. This holds for both triangulations, in placed surfaces and after moving updates. */
+/* Cusps have the same bits where they meet. The bits agree for both triangulations, in placed surfaces and after moving
+ * updates. */
 TEST(cusps_meet_in_the_same_bits) {
   random_source random = random_start("test_trileaflet");
   for (int trial = 0; trial < trials_of(72); ++trial) {

@@ -127,7 +127,7 @@ static riis_valve *unequal_valve(random_source *random, int kind, double fusion)
   }
 }
 
-/* A bump without effect gives each cusp separate patches. These patches lie where the images of equal cusps lie. */
+/* A bump without effect gives each cusp separate patches. The separate patches lie where the images of equal cusps lie. */
 TEST(equal_cusps_are_where_their_own_patches_would_be) {
   random_source random = random_start("test_unequal_cusps");
   for (int trial = 0; trial < trials_of(9); ++trial) {

@@ -333,7 +333,7 @@ TEST(test_triquadratic_pyramid) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Hexahedra have the edges of polyhedra with equal faces. This holds in both layouts of the file and in several pieces. */
+/* Hexahedra have the edges of polyhedra with equal faces. The edges agree in both layouts of the file and in several pieces. */
 TEST(test_polyhedra) {
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 2, 3};
   plain_mesh hexahedra = plain_hexahedra(5, lower, upper);
@@ -385,7 +385,7 @@ TEST(test_quadratic_tetrahedra) {
   plain_free(&corners);
 }
 
-/* riis counts cells whose edges it does not know. These are a convex point set, a Lagrange tetrahedron with nodes beyond its
+/* riis counts cells whose edges it does not know. Such cells are a convex point set, a Lagrange tetrahedron with nodes beyond its
  * lattice, and a Lagrange wedge of 21 nodes. Faces and points do not count as volume cells. */
 TEST(test_unknown_cells) {
   const struct {

@@ -202,9 +202,9 @@ TEST(test_mixed_polygons) {
   expect_faces("mixed.vtp", 8, 0.5 + 1 + 1.25 + 1, leaflets);
 }
 
-/* Quads with an inward corner at 1 or 3 are cut along the diagonal that lies inside. This holds for a single cell and beside a
- * triangle. The quads have an area of 0.2 each and keep their winding. A quad with the inward corner at 0 or 2 keeps its
- * order. */
+/* Quads with an inward corner at 1 or 3 are cut along the diagonal that lies inside. A single such quad and a quad beside a
+ * triangle are both cut so. The quads have an area of 0.2 each and keep their winding. A quad with the inward corner at 0 or 2
+ * keeps its order. */
 TEST(test_concave_quads) {
   const int32_t leaflets[3] = {0, 0, 0};
   const char *orders[4] = {"0 1 2 3", "1 2 3 0", "2 3 0 1", "3 0 1 2"};

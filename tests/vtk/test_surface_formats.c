@@ -13,7 +13,7 @@
 #include "scratch.h"
 #include "test_support.h"
 
-/* The kinds of files. The first four are text. */
+/* The kinds of files. The first four kinds are text. */
 enum { OBJ, PLY_TEXT, VTK_OLD_TEXT, VTK_NEW_TEXT, PLY_LITTLE, PLY_BIG, VTK_OLD_BINARY, VTK_NEW_BINARY, n_kinds };
 static const char *const endings[n_kinds] = {"obj", "ply", "vtk", "vtk", "ply", "ply", "vtk", "vtk"};
 
@@ -23,7 +23,7 @@ static const int sizes[n_faces] = {3, 4, 5, 4}, corners[n_corners] = {0, 1, 2, 1
 static const double plane[n_vertices][2] = {{0, 0}, {1, 0}, {0, 1},  {2, 0},     {1, 1},   {3, 0},
                                             {4, 1}, {3, 2}, {-2, 1}, {-1, -0.5}, {-1, 0.3}};
 static double xyz[n_vertices][3];
-/* These triangles come from the faces. The concave quad is cut from its second corner. */
+/* The triangles that the faces become. The concave quad is cut from its second corner. */
 enum { n_triangles = 8 };
 
 static void make_vertices(void) {

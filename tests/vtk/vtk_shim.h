@@ -20,7 +20,7 @@ enum { SHIM_ASCII, SHIM_BINARY, SHIM_COMPRESSED, SHIM_RAW, SHIM_LEGACY_ASCII, SH
 int shim_write_box(const char *path, int encoding, int n, const double lower[3], const double upper[3],
                    int float_points);
 
-/* Writes a box like shim_write_box. A .vtu has tetrahedra and polyhedra, and a .vtp has the outer triangles. Both have the
+/* Writes a box like shim_write_box. A .vtu has tetrahedra and polyhedra, and a .vtp has the outer triangles. Both files have the
  * numeric arrays of shim_write_box. The encoding is SHIM_ASCII, SHIM_BINARY, appended base64 (SHIM_COMPRESSED) or appended raw
  * (SHIM_RAW).
  *   compressor   0 none, 1 zlib, 2 LZ4, 3 LZMA; blocks are small, so that there are several
@@ -57,7 +57,8 @@ int shim_write_zoo(const char *path);
 int64_t shim_read_edges(const char *path, int cell_type, int64_t *edges);
 
 /* Gives VTK's shape functions of a type of cells at a point of its unit cell, and their derivatives. First come the derivatives
- * by the first coordinate, for all nodes. Those by the second and the third coordinate follow. Returns the number of nodes. */
+ * by the first coordinate, for all nodes. The derivatives by the second and the third coordinate follow. Returns the number of
+ * nodes. */
 int shim_shape_functions(int cell_type, const double point[3], double *values, double *derivatives);
 
 /* Writes a .vtu of random cells of all types of higher order. The cells use n_nodes nodes, which must be 64 or more. Returns 1 on
@@ -115,7 +116,7 @@ class vtkPolyData;
 template <class T>
 class vtkSmartPointer;
 
-// Returns triangles with the vertices xyz (3, n_points) and corners (3, n_triangles). The other shims use them.
+// Returns triangles with the vertices xyz (3, n_points) and corners (3, n_triangles). The other shims use these triangles.
 vtkSmartPointer<vtkPolyData> shim_polydata(int64_t n_points, const double *xyz, int64_t n_triangles,
                                            const int64_t *corners);
 #endif

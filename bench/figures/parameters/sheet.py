@@ -24,7 +24,7 @@ SMALL, NORMAL, LARGE = 9, 10, 11.5  # font sizes, in points
 
 
 class Refused(Exception):
-    """This is raised if the drawing would be false, incomplete or unreadable."""
+    """Raised if the drawing would be false, incomplete or unreadable."""
 
 
 def plain(value):

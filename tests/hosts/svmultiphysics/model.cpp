@@ -269,7 +269,7 @@ void add_scaffold(urisType &uris) {
   uris.scaffold_flag = true;
 }
 
-// This is what the solver does when it starts and when it makes a new mesh.
+// The solver does this when it starts and when it makes a new mesh.
 void initialize(ComMod &com_mod) {
   for (urisType &uris : com_mod.uris) {
     uris.sdf.resize(com_mod.tnNo);
