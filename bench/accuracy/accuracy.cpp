@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the errors of the paper's three methods for a distance (4.1, "Performance evaluation"). The leaflets are one of the
-// aortic and one of the mitral valve, and the points have known true distances. Prints a table. Fails if an error is larger than
-// its promised bound.
+// Measures the errors of the paper's three methods for a distance (4.1, "Performance evaluation"). One leaflet belongs to the
+// aortic valve and one to the mitral valve. The true distances of the points are known. Prints a table. Fails if an error is
+// larger than its promised bound.
 //   argv[1]  a JSON file for the table and further results
 //   argv[2]  the number of points per leaflet
 #include <riis/riis.h>

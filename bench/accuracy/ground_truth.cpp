@@ -20,8 +20,8 @@ struct Place {
   double u, v;
 };
 
-// Draws points evenly by area. The draw uses the areas of triangles. The points are therefore even up to the triangles'
-// tolerance.
+// Chooses random points evenly by area. The choice uses the areas of triangles. The points are therefore evenly distributed up to
+// the triangles' tolerance.
 class Places {
  public:
   Places(const PatchSet &patches, const SmoothSurface &smooth)

@@ -90,8 +90,8 @@ Valve valve_of(const std::string &kind, const json &settings) {
   return valve;
 }
 
-// "example" has the parameters that differ from their defaults. If a length has the default 0, it has another value there, so
-// that the drawing shows it.
+// "example" has the parameters that differ from their defaults. If a length has the default 0, the example has another value, so
+// that the drawing shows the length.
 json valve_at_openings(const std::string &kind, json example) {
   json states = json::array();
   for (const double opening : {0.0, 0.5, 1.0}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares the parts of riis-figures' output. Long lists of numbers stand in a separate file, as doubles. For such a list, the
-// JSON has its first number's position and its length: {"at", "n"}.
+// Declares the parts of riis-figures' output. Long lists of numbers stand in a separate file, as doubles. The JSON refers to such
+// a list by the position of its first number and by its length: {"at", "n"}.
 #pragma once
 
 #include <nlohmann/json.hpp>

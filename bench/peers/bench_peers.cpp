@@ -42,12 +42,11 @@ using nlohmann::json;
 constexpr double half_thickness = 0.1;
 constexpr int n_turns = 10, n_slow_turns = 5;
 constexpr double fine = 0.0034;  // the tolerance of the fine triangles of ./run bench marking
-// The width of the box of these points, in widths of the cylinder. In this box, leaves are larger than the valve.
+// The width of the box around the points, in widths of the cylinder. In this box, leaves are larger than the valve.
 constexpr double wide = 40;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// In each row named "node by node", Embree gets one query for each point. The library worked in this way before it compared
-// leaves with groups.
+// In each row named "node by node", Embree gets one query for each point, without leaves and groups.
 constexpr RatioBar distance_bars[] = {
     {"every distance of a prepared mesh: node by node / leaves", "riis, every distance, node by node",
      "riis, every distance of a prepared mesh", Wanted::at_least, 8},
@@ -106,7 +105,8 @@ void find_closest(const riis_surface *surface, const std::vector<double> &xyz, s
   }
 }
 
-// Adds every field of the given points, first over leaves and then node by node. Returns whether both ways give the same bits.
+// Adds two contenders that compute every field of the given points: over leaves, and node by node. Returns whether both ways give
+// the same bits.
 bool add_closest(Contest &contest, const std::string &name, const riis_surface *surface,
                  const std::vector<double> &xyz) {
   const std::size_t n = xyz.size() / 3;
@@ -178,7 +178,7 @@ Truth truth_of(const riis_surface *surface, const Triangles &triangles, const Cy
   for (std::int64_t i = 0; i < n; ++i)
     truth.distance[static_cast<std::size_t>(i)] =
         every_triangle(nodes.xyz().data() + 3 * i, std::numeric_limits<double>::infinity());
-  // The library gives the nearest triangle. The comparison measures the distance to it.
+  // The library gives the nearest triangle. The comparison measures the distance to this triangle.
   std::vector<std::int64_t> nearest(static_cast<std::size_t>(n));
   riis_closest_arrays arrays;
   check(riis_closest_arrays_init(&arrays, sizeof arrays));

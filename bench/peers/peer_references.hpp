@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares competitors in single precision. Each is built if its library was found.
+// Declares competitors in single precision. Each competitor is built if its library was found.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ class OpenVdbBand {
   // The band reaches one voxel beyond the limit.
   OpenVdbBand(const Triangles &triangles, double voxel, double limit);
   ~OpenVdbBand();
-  // Makes the band. After the surface has moved, this must be repeated.
+  // Makes the band. A new band is needed after the surface has moved.
   void make();
   // distance: (n_nodes); nodes outside the band have about the limit. xyz: (3, n_nodes).
   void distances(std::int64_t n_nodes, const double *xyz, double *distance) const;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench proof, its third part: every search marks a small mesh many times, and the memory of the process must not grow.
-// Each search runs with 1, 2 and 4 threads, on processors that other processes keep busy. Threads then join a search of less than
-// a millisecond late, and TBB keeps the memory that it allocated for them. The program prints a table and fails if memory grows.
-// argv[1]: another number of markings. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive). Otherwise the run
-// takes many times as long.
+// Each search runs with 1, 2 and 4 threads, on processors that other processes keep busy. A search takes less than a millisecond,
+// so threads join it late. TBB keeps the memory that it allocated for late threads. The program prints a table and fails if
+// memory grows. argv[1]: another number of markings. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive).
+// Otherwise the run takes many times as long.
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -22,8 +22,8 @@ namespace {
 
 using namespace bench;
 
-// Processes that keep the processors busy, one for each processor that this process may use. These processes end with this
-// object. If this process ends before (by exit or a signal), the system kills them.
+// Processes that keep the processors busy, one for each processor that this process may use. The processes end when this object
+// is destroyed. If this process ends earlier (by exit or a signal), the system kills the busy processes.
 class BusyProcessors {
  public:
   BusyProcessors() {
@@ -88,7 +88,7 @@ Surface aortic_surface() {
   return make_surface(valve.get(), &options);
 }
 
-// The handles of a marking. The case decides when they are made.
+// The handles of a marking. The case decides when the handles are made.
 class Marking {
  public:
   Marking(const Case &of, int n_threads) : made_(of.made), nodes_(cylinders[0], 3000), rows_(nodes_.rows()) {

@@ -37,8 +37,8 @@ double distance_sq(const Point &p, const CGAL::Bbox_3 &box) {
   return x * x + y * y + z * z;
 }
 
-// Tells CGAL's traversal which boxes to enter, and what to do with a triangle. CGAL's class for closest points does nearly the
-// same. The class here also starts with a limit on the distance.
+// Tells CGAL's traversal which boxes to enter, and what to do with a triangle. Unlike CGAL's class for closest points, this class
+// starts with a limit on the distance.
 struct WithinLimit {
   double radius_sq;
   const Triangle *nearest = nullptr;

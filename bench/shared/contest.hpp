@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times several pieces of work in turns, so that other work on the machine slows them equally. Ratios of these times must meet
-// bars. The output is JSON, and tables in markdown.
+// Times several pieces of work in turns, so that other work on the machine slows them equally. Bars are required ratios of these
+// times. The output is JSON, and tables in markdown.
 #pragma once
 
 #include <functional>
@@ -29,7 +29,7 @@ class Contest {
   double ratio(const std::string &above, const std::string &below) const;
   // Returns the reason why a contender was left out, or "" if it took part.
   std::string why_left_out(const std::string &name) const;
-  // Returns the reasons of all contenders that were left out, by name.
+  // Returns, by name, the reasons why contenders were left out.
   const std::map<std::string, std::string> &left_out() const { return left_out_; }
 
   void print() const;

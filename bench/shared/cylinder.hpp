@@ -14,13 +14,13 @@ struct Cylinder {
   double centre_y;
 };
 
-// The cylinders of the aortic and of the mitral valve. The aortic cylinder is slightly larger than the demo's, and the mitral one
-// equals the demo's. About 4 % of the nodes are marked. The paper's two searches have a ratio of 18 to 26, which suggests this
-// fraction.
+// The cylinders of the aortic and of the mitral valve. The aortic cylinder is slightly larger than the demo's cylinder, and the
+// mitral cylinder equals the demo's. About 4 % of the nodes are marked. The times of the paper's two searches have a ratio of 18
+// to 26, which suggests this fraction of marked nodes.
 inline constexpr Cylinder cylinders[] = {{1.8, -1.6, 0.9, 0}, {2.4, -1.35, 2.1, 0.3}};
 
-// A wider cylinder around the aortic valve. About 3 % of the nodes are within 0.1 cm of the valve. The ratio of the paper's two
-// searches suggests this fraction for the paper's meshes.
+// A wider cylinder around the aortic valve. About 3 % of the nodes are within 0.1 cm of the valve. The ratio of the times of the
+// paper's two searches suggests 3 % for the paper's meshes.
 inline constexpr Cylinder wide_cylinder{2.0, -2.1, 1.3, 0};
 
 // A structured grid, deformed into a cylinder.
@@ -60,8 +60,8 @@ class CylinderMesh : public CylinderNodes {
 
 Adjacency adjacency_of(std::int64_t n_nodes, const std::vector<std::int32_t> &tetrahedra, int n_threads);
 
-// Returns the number of nodes: argv[at] in thousands, or a million without this argument. Fewer than fewest_thousands end the
-// program with status 2 and a message.
+// Returns the number of nodes: argv[at] in thousands, or a million without this argument. If the number is below
+// fewest_thousands, ends the program with status 2 and a message.
 std::int64_t n_nodes_given(int argc, char **argv, int at, std::int64_t fewest_thousands);
 
 }  // namespace bench

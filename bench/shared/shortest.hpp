@@ -8,7 +8,7 @@
 
 namespace bench {
 
-// Returns the seconds of the shortest call. Makes at least five calls, for at least a second.
+// Returns the seconds of the shortest call. Makes at least five calls, which together last at least a second.
 inline double shortest(
     const std::function<void()> &call, const std::function<void()> &before = [] {}) {
   using Clock = std::chrono::steady_clock;

@@ -36,7 +36,7 @@ class VtkDistance {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// Finds the nearest of given points. The middles of triangles are such points.
+// Finds the nearest of given points, such as the middles of triangles.
 class VtkPoints {
  public:
   // points: (3, n)

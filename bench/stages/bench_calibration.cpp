@@ -19,7 +19,7 @@ void calibration_coordinates(benchmark::State &state) {
 }
 BENCHMARK(calibration_coordinates)->Unit(benchmark::kMillisecond);
 
-// Measures a core. Products and sums in double precision each need the result before.
+// Measures a core. Each product or sum in double precision needs the result of the operation before.
 void calibration_products(benchmark::State &state) {
   constexpr int n_products = 1000000;
   double factor = 0.9999999, summand = 1e-7;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Times the stages from parameters to a scene (paper, 3 and 4.1), on one thread. The valves are the aortic valve and the
 // half-open mitral valve, at the default tolerance. Every stage starts from the results of the stage before. riis_surface_create
-// runs all stages. Inside it, a stage is faster if it reuses the memory of the last surface.
+// runs all stages. Inside riis_surface_create, a stage is faster if it reuses the memory of the last surface.
 #include <benchmark/benchmark.h>
 
 #include "api/handles.hpp"

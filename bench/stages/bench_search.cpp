@@ -117,7 +117,7 @@ void search_neighbor_warm(benchmark::State &state) { mark_repeatedly(state, RIIS
 void search_paper(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_PAPER); }
 
 // Marks into a new result every time. The search therefore has no earlier marking as a start, and no memory to reuse. The mesh
-// already has its balls.
+// already has its balls of nodes.
 void search_neighbor_cold(benchmark::State &state) {
   const riis_mesh *mesh = mesh_of(state).mesh();
   MovingValve &valve = valve_of(state);
@@ -301,7 +301,7 @@ void search_adjacency_of_grid(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// The sizes are close to those of the paper's meshes. The numbers of threads are the paper's.
+// The sizes are close to those of the paper's meshes. The numbers of threads are those of the paper.
 const std::vector<std::int64_t> valves{0, 1}, sizes{110, 260, 500, 1000, 1480}, threads{1, 2, 4, 8, 12};
 
 void with(benchmark::internal::Benchmark *benchmark, const std::vector<std::vector<std::int64_t>> &arguments) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times each stage in a benchmark of its own. The valve is the aortic valve at the default tolerance, with 100,000 nodes around
-// it. Times depend on the machine. Ratios hardly do, because both times of a ratio come from one run.
+// Each benchmark times one stage. The valve is the aortic valve at the default tolerance, with 100,000 nodes around it. Times
+// depend on the machine. Ratios hardly depend on the machine, because both times of a ratio come from one run.
 #include <benchmark/benchmark.h>
 #include <riis/riis.h>
 

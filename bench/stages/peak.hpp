@@ -16,7 +16,7 @@ struct PeakKernel {
   double (*repeat)(int64_t n);
 };
 struct PeakKernels {
-  // These functions use single precision. One does multiply-adds, one multiply-adds and additions, and one multiplications and
+  // These functions use single precision. The three functions do multiply-adds; multiply-adds and additions; multiplications and
   // additions.
   PeakKernel floats[3];
   PeakKernel doubles;  // for double precision: multiplications and additions, because the decision kernel fuses no

@@ -114,7 +114,7 @@ class Touched {
   std::size_t bytes_ = 0;
 };
 
-// The counts that the counting kernels below make.
+// The numbers that the counting kernels below collect.
 struct Counted {
   Touched boxes, filter, decide, leaves;
   riis::Counts in_boxes{0, 0}, in_filter{0, 0}, in_decide{0, 0};
@@ -243,15 +243,15 @@ class StagedSteps {
       : steps_(mesh, options), mesh_(mesh->mesh), kernels_(riis::kernels(riis::best_instruction_set())) {}
 
   void move() { steps_.move(); }
-  // Makes a step as a solver does. The time is that of this thread, because on a busy machine other work interrupts every whole
-  // step.
+  // Makes a step as a solver does. Only the time of this thread counts, because on a busy machine other work interrupts every
+  // whole step.
   double whole() {
     const double start = nanoseconds_of_thread();
     steps_.step();
     return nanoseconds_of_thread() - start;
   }
 
-  // Makes a step and reads a clock between its stages. The time that reading takes is subtracted.
+  // Makes a step and reads a clock between its stages. The time for reading the clock is subtracted.
   Times staged(double of_clock) {
     const auto start = Clock::now();
     steps_.update();
@@ -266,8 +266,7 @@ class StagedSteps {
     Times times;
     times.update = nanoseconds(updated - start);
     times.regions = nanoseconds(measured.regions_end - updated) - n_boxes * of_clock;
-    // An interval needs two readings of the clock. The time of one reading falls into the interval, and that of the other falls
-    // outside.
+    // An interval needs two readings of the clock, and contains the time of one reading.
     times.filter = nanoseconds(measured.filter) - n_filter * of_clock;
     times.decide = nanoseconds(measured.decide) - n_decide * of_clock;
     times.rest = nanoseconds(searched - measured.regions_end - measured.filter - measured.decide) -

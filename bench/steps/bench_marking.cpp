@@ -89,8 +89,8 @@ void add(Contest &contest, const std::string &name, TimeSteps &steps) {
 std::string of_threads(int n_threads) { return n_threads == 1 ? ", 1 thread" : ", 2 threads"; }
 
 #if defined(RIIS_WITH_CGAL)
-// Returns whether CGAL marks the same nodes as the library. Nodes whose distance equals the half thickness up to rounding may
-// differ.
+// Returns whether CGAL marks the same nodes as the library. The marks may differ at nodes whose distance equals the half
+// thickness up to rounding.
 bool is_same(const std::vector<double> &distance, const riis_mark_list &marked) {
   constexpr double rounding = 1e-12;
   std::int64_t n_different = 0, n_unexplained = 0, next = 0;
@@ -268,8 +268,8 @@ void compare_sizes(Contest &contest, std::int64_t about_n_nodes, nlohmann::json 
               static_cast<long long>(stats.n_marked));
 }
 
-// Times a grid by its axes beside its nodes as points, whose mesh is prepared. The nodes fill a box of 1.5 valves. The half
-// thickness is 1.5 steps of the axes. Returns whether both meshes get the same marks.
+// Times markings of a grid in two forms: by its axes, and as a prepared mesh of points. The nodes fill a box of 1.5 valves. The
+// half thickness is 1.5 steps of the axes. Returns whether both meshes get the same marks.
 bool compare_grid(Contest &contest, std::int64_t about_n_nodes, nlohmann::json &counts) {
   constexpr double box_of_valves = 1.5, cells_of_half = 1.5;
   const auto n = static_cast<std::int64_t>(std::lround(std::cbrt(static_cast<double>(about_n_nodes))));

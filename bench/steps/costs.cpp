@@ -188,8 +188,8 @@ void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int6
 
 // ---- The band with an offset ----
 
-// A moving trileaflet valve, and nodes at a spacing of half a half thickness. A step is an update with velocities, and a marking
-// with K.
+// A moving trileaflet valve, in a mesh whose spacing is half of the half thickness. A step is an update with velocities, and a
+// marking with K.
 class OffsetStep {
  public:
   OffsetStep(double half_thickness, double offset)
@@ -322,7 +322,8 @@ void get_coaptation(const riis_surface *surface) {
   check(riis_surface_get_coaptation(surface, RIIS_AUTO, RIIS_ALL_LEAFLETS, &coaptation, sizeof coaptation));
 }
 
-// Returns the processor's seconds of the shortest of five calls, on all threads. Other programs hardly change this time.
+// Returns the processor time in seconds of the shortest of five calls, summed over all threads. Other programs hardly change this
+// time.
 double processor_seconds(const std::function<void()> &call, const std::function<void()> &before) {
   double least = HUGE_VAL;
   for (int n = 0; n < 5; ++n) {
@@ -334,7 +335,7 @@ double processor_seconds(const std::function<void()> &call, const std::function<
   return least;
 }
 
-// Prints the processor's times of the measures. Of the times of a closed and of an open valve, the longer is printed.
+// Prints the processor times of the measures. Of the times of a closed and of an open valve, the longer is printed.
 void print_measures() {
   const std::pair<const char *, std::function<void(const riis_surface *)>> calls[] = {
       {"`riis_surface_get_orifice`", get_orifice},

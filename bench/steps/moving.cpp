@@ -95,7 +95,7 @@ KJump measure_k_jump(riis_valve *valve, const CylinderNodes &nodes, double step,
 constexpr int n_turns = 60;
 constexpr std::int32_t all_fields = 255;
 
-// The mitral valve has an open state by itself. The aortic valve opens to the state in README.md.
+// The mitral valve already has an open state. The aortic valve opens to the state in README.md.
 Valve opening_valve(const char *kind) {
   Valve valve = make_valve(kind);
   if (std::string(kind) != "aortic") return valve;
@@ -199,7 +199,7 @@ class MovingSteps {
 // With this tolerance there are about ten times as many triangles as by default.
 constexpr double fine = 0.0034;
 
-// Times this motion with fine triangulations, adapted and fixed, without a mesh.
+// Times the valve's motion with fine triangulations, adapted and fixed, without a mesh.
 class FineSteps {
  public:
   explicit FineSteps(const char *kind) : valve_(opening_valve(kind)) {
@@ -228,9 +228,9 @@ class FineSteps {
 };
 
 // Times a step of an annulus that moves by landmarks: new targets, a warped valve, and a moving update. The first contender has
-// the patches of the warped valve, which were read out before. The warped valve and this contender are asymmetric. Arcs cannot be
-// given as patches, so a mitral valve lacks this contender. The second contender is the symmetric valve without a warp, which
-// opens.
+// the patches of the warped valve, which were read out before. The warped valve and the first contender are asymmetric. Arcs
+// cannot be given as patches, so a mitral valve lacks the first contender. The second contender is the symmetric valve without a
+// warp, which opens.
 class WarpedSteps {
  public:
   WarpedSteps(const char *kind, int n_landmarks)

@@ -97,7 +97,7 @@ class Rank {
     K_u_surface_.resize(3 * ids_.size());
   }
 
-  // Runs time steps. Keeps the median time of each of their parts.
+  // Runs time steps. Keeps the median time of each part of a step.
   void run() {
     std::vector<double> updates[n_triangulations], markings[n_triangulations];
     for (int i = 0; i < n_steps; ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes random vessels and cuts their ends by planes, which is an oracle for flat ends. A function adds up tubes, and the wall is
-// where it is 0. Marching through tetrahedra makes the wall's triangles, which planes cut and caps close.
+// the surface on which this function is 0. Marching through tetrahedra makes the wall's triangles. Planes cut the wall, and caps
+// close the cuts.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@
 namespace fuzz {
 namespace {
 
-// Returns a struct of bytes 0x5a. A refused call must not change it.
+// Returns a struct of bytes 0x5a. A refused call must not change this struct.
 template <class Struct>
 Struct filled() {
   Struct made;

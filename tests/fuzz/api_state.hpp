@@ -106,7 +106,7 @@ Struct initialised(Input &in, riis_status (*init)(Struct *, int64_t)) {
 
 constexpr int n_slots = 3;
 
-// An adjacency that the library made. Meshes that borrow it keep it alive.
+// An adjacency that the library made. Meshes that borrow the adjacency keep it alive.
 struct OwnedAdjacency {
   riis_adjacency *handle = nullptr;
   explicit OwnedAdjacency(riis_adjacency *made) : handle(made) {}
@@ -155,12 +155,13 @@ struct State {
   State &operator=(const State &) = delete;
   ~State();
 
-  // Returns a handle of another kind than the given handle, so that a call gets a wrong handle. Returns NULL if there is none.
+  // Returns a handle of another kind than the given handle, so that a call gets a wrong handle. Returns NULL if no such handle
+  // exists.
   enum Kind { valve, surface, mesh, adjacency, result, leak, crossing, n_kinds };
   void *handle_of_another_kind(Input &in, Kind but) const;
 };
 
-// Returns the right handle. Sometimes it returns NULL or a handle of another kind. `is_right` tells whether the handle is right.
+// Returns the right handle. Sometimes returns NULL or a handle of another kind. `is_right` tells whether the handle is right.
 template <class Handle>
 struct Given {
   Handle *handle;

@@ -181,7 +181,8 @@ void place_valve(Input &in, State &state) {
   }
 }
 
-// Warps a valve by landmarks on a ring around it, or by any points. Reads its patches, and then gives it a skirt to a wall.
+// Warps a valve by landmarks on a ring around it, or by any points. Reads the valve's patches, and then gives the valve a skirt
+// to a wall.
 void warp_valve(Input &in, State &state) {
   ValveSlot &slot = slot_of(in, state);
   const Given<riis_valve> valve = given(in, state, State::valve, slot.handle);

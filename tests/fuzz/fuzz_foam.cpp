@@ -4,8 +4,8 @@
 //   === 0.5/points             the file 0.5/polyMesh/points
 //   === processor1/owner.gz    the file processor1/constant/polyMesh/owner.gz, which the harness compresses
 //   === faces.gz as it is      the file constant/polyMesh/faces.gz, which is compressed in the input
-// The case and its time 0.5 are read completely, or refused with the case's name and a reason. A mesh that was read takes
-// fields at the centres of its cells, or is refused.
+// The case and its time 0.5 are read completely, or refused with the case's name and a reason. If the mesh was read, a field at
+// the centres of its cells is written or refused.
 #include <riis/riis_vtk.h>
 #include <vtk_zlib.h>
 
@@ -130,7 +130,7 @@ void hold_case(std::string_view bytes) {
   }
 }
 
-// Writes a field at the centres of the cells. For this, riis reads the patches of the boundary.
+// Writes a field at the centres of the cells. To write the field, riis reads the patches of the boundary.
 void write_field(riis_vtk_mesh *mesh) {
   EXPECT(riis_vtk_mesh_use_centers(mesh) == RIIS_OK, "%s", riis_last_error());
   std::int64_t n_cells = 0;

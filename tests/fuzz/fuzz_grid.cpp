@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzzes meshes that are the axes of a grid. A grid is made, or refused with a reason. The grid gives the marks, leaks and open
-// regions that its nodes as points give. A number without a node is in none of them.
+// regions that its nodes as points give. None of these results contains a number without a node.
 #include <riis/riis.h>
 
 #include <array>

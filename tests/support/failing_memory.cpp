@@ -117,7 +117,7 @@ bool is_to_fail() {
   return true;
 }
 
-// Stands before every object that operator new returns.
+// This header stands before every object that operator new returns.
 struct alignas(16) Header {
   std::uint32_t offset;  // the object's position in its block
   Owner owner;

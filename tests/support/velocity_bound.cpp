@@ -27,8 +27,8 @@ struct TwoStates {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Bounds of a quantity on a range of u. `size` bounds its length in both states. `change` bounds how much it differs between the
-// states at equal u. The rule for products also holds for dot products and cross products.
+// Bounds of a quantity on a range of u. `size` bounds the quantity's length in both states. `change` bounds how much the quantity
+// differs between the states at equal u. The rule for products also holds for dot products and cross products.
 struct Both {
   double size, change;
 };
@@ -41,7 +41,7 @@ constexpr int most_rounds = 12;
 constexpr std::size_t most_ranges = 1024;
 constexpr double narrow = 2e-5;
 
-// The bounds on a range are tight if its least length is at least this share of its largest length.
+// The bounds on a range are tight if the least length on the range is at least this share of the largest length.
 constexpr double tight_share = 0.9;
 
 // Bounds the inverse of a length that is at least `least`.
@@ -68,10 +68,10 @@ struct Slope {
   double width, most;
 };
 
-// Bounds the distance of a continuous function from the straight line between its ends. Bounds of its slope on successive ranges
-// are given. At x, a slope before x is weighted with the share of the whole width that follows x. A slope after x is weighted
-// with the share that precedes x. If one slope holds everywhere, the bound is half the width times the slope. A steep slope on a
-// narrow range adds little.
+// Bounds the distance of a continuous function from the straight line between its ends. Bounds of the function's slope on
+// successive ranges are given. At x, a slope before x is weighted with the share of the whole width that follows x. A slope after
+// x is weighted with the share that precedes x. If one slope holds everywhere, the bound is half the width times the slope. A
+// steep slope on a narrow range adds little.
 double off_line(const Vector<Slope> &slopes) {
   double width = 0, rise = 0;
   for (const Slope &on : slopes) width += on.width, rise += on.width * on.most;
@@ -246,8 +246,8 @@ class SideInBoth {
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
-  // Each number is 1 if this state has one span more at the start, because a joint passed that end of the curve. Otherwise it is
-  // 0.
+  // For each state, the number is 1 if the state has one span more at the start, because a joint passed that end of the curve.
+  // Otherwise it is 0.
   std::size_t more_now_, more_before_;
 };
 
@@ -273,8 +273,8 @@ class Shares {
     return static_cast<std::size_t>(found - all_.begin());
   }
 
-  // Halves the ranges for which is_tight(i) is false, if they are not narrow. Returns whether a range was halved. Returns false
-  // if there are too many ranges, which happens for a curve whose bounds never become tight.
+  // Halves the ranges for which is_tight(i) is false. Narrow ranges stay. Returns whether a range was halved. Returns false if
+  // there are too many ranges, which happens for a curve whose bounds never become tight.
   template <class IsTight>
   bool halve(const IsTight &is_tight) {
     if (all_.size() > 2 * most_ranges) return false;
@@ -399,7 +399,7 @@ class AddedByMaterial {
   }
 
   double slope() const { return bounds_.slope + rest_.slope; }
-  // Bounds the deviation from linear on a range.
+  // Bounds how far the displacement deviates from linear on a range.
   double off_linear(double width) const {
     const double smooth = larger(off_line(width, bounds_.bend) + width * of_joints_, 0);
     const double coarse = std::min(0.5 * width * bounds_.slope, 2 * bounds_.size);
@@ -484,7 +484,8 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
       larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + width * (edge.longer() + base.longer());
   const double w_largest = w0.size <= w_far ? w0.size : w_far;
   const double w_least = std::min(least_on_segment(now[0], now[1]), least_on_segment(before[0], before[1])) - bend;
-  // W' is its value at the start of the range plus its change along the range. At the start, both states have a direction.
+  // W' is its value at the start of the range plus its change along the range. At the start of the range, both states have a
+  // direction.
   const Both w1{larger_of(slope(i, true), slope(i, false)) + width * w2.size,
                 distance(slope(i, true), slope(i, false)) + width * w2.change};
   const Both m1 = w1 * b.value + w0 * b.first, m2 = w2 * b.value + 2 * w1 * b.first + w0 * b.second;
@@ -602,8 +603,9 @@ Vector<Vec3> offset_moves(const TwoStates &states, std::size_t patch, const TwoC
   return made;
 }
 
-// Bounds how far the part that a map adds to a warped Coons patch deviates from linear, on a range of u or of v. On [0, 1], the
-// sizes of its polynomials' second derivatives add up to at most 81. The sizes of the polynomials' values add up to at most 1.3.
+// A map adds a part to a warped Coons patch. Bounds how far this part deviates from linear, on a range of u or of v. On [0, 1],
+// the sizes of the part's polynomials' second derivatives add up to at most 81. The sizes of the polynomials' values add up to at
+// most 1.3.
 double off_linear(const RestInside &rest, double width) {
   double size = 0;
   for (const double u : {1. / 3, 2. / 3})

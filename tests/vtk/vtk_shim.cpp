@@ -438,7 +438,7 @@ int shim_read_png(const char *path, int *width, int *height, int *n_colours, int
 
 namespace {
 
-// Reads the first channels of a picture. Returns NULL if it has fewer.
+// Reads the first channels of a picture. Returns NULL if the picture has fewer channels.
 unsigned char *read_channels(const char *path, int n_channels, int *width, int *height) {
   vtkNew<vtkPNGReader> reader;
   if (!reader->CanReadFile(path)) return nullptr;

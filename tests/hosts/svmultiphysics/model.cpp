@@ -269,7 +269,7 @@ void add_scaffold(urisType &uris) {
   uris.scaffold_flag = true;
 }
 
-// The solver does this when it starts and when it makes a new mesh.
+// Does the solver's work at its start and after it has made a new mesh.
 void initialize(ComMod &com_mod) {
   for (urisType &uris : com_mod.uris) {
     uris.sdf.resize(com_mod.tnNo);
