@@ -288,7 +288,7 @@ TEST(cells_that_are_refused) {
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 0 are given from 0 to 7|4, 5, 6 and 8");
   offsets[1] = 4, offsets[2] = 3;
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 1 are given from 4 to 3");
-  /* Offsets above the last offset, 12, must be refused before the call reads there. */
+  /* Offsets above the last offset, 12, must be refused before the call reads beyond the array. */
   offsets[1] = 8, offsets[2] = 16;
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 2 are given from 16 to 12");
   offsets[1] = 4, offsets[2] = 8, offsets[0] = 1;

@@ -155,8 +155,8 @@ TEST(masked_nodes_are_left_out) {
   }
 }
 
-/* Each mesh is one node. The size of its box is only the allowance for single precision. The limit is the node's distance, or one
- * bit less. */
+/* Each mesh is one node. The size of the node's box is only the allowance for single precision. The limit is the node's distance,
+ * or one bit less. */
 TEST(nodes_at_the_limit_are_found) {
   riis_surface_options options = surface_options();
   options.half_thickness = 1e-4;
@@ -287,7 +287,7 @@ TEST(surfaces_from_arrays) {
   assert_int_equal(most_within, n);
 }
 
-/* Needles lie along a diagonal. Subtracting the surface's middle from their corners rounds their heights to 0. */
+/* Needles lie along a diagonal. Subtracting the surface's middle from the needles' corners rounds the heights to 0. */
 TEST(needles_that_are_lines_in_the_frame) {
   enum { n_triangles = 64, n = 2000 };
   double corners[9 * n_triangles];
@@ -318,8 +318,7 @@ TEST(needles_that_are_lines_in_the_frame) {
   }
 }
 
-/* The valve lies far from the origin, as in a scanner's coordinates. Some valves lie so far away that their coordinates are
- * rounded. */
+/* The valve lies far from the origin, as in a scanner's coordinates. Some valves lie so far away that coordinates are rounded. */
 TEST(valves_far_from_the_origin) {
   static const double far[] = {300, 1e4, 1e6};
   for (size_t k = 0; k < sizeof far / sizeof far[0]; ++k) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A process without nodes makes all calls that other processes make, with NULL for arrays. The calls are meshes, adjacencies,
+ * A process without nodes makes all calls that other processes make, with NULL for arrays. The calls make meshes, adjacencies,
  * markings, leaks and sums over nodes. */
 #include <riis/riis.h>
 
@@ -247,7 +247,7 @@ TEST(nothing_leaks) {
   riis_passage passage;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "ends.from[0] is 0|0 nodes",
                 find_passage_between(surface, mesh, NULL, 1, &node, 1, &node, &passage, sizeof passage));
-  /* No marking has filled this result. */
+  /* No marking has yet filled the result. */
   riis_marks *empty = new_result();
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks are empty", find_leaks_in(surface, mesh, empty, NULL, &leaks));
 }

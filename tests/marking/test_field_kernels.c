@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the kernels that compute fields of closest points. Every instruction set gives the bits of plain C with equally ordered
- * operations. */
+ * Tests the kernels that compute fields of closest points. Every instruction set gives the bits that plain C gives with the same
+ * order of operations. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -46,7 +46,7 @@ TEST(numbers_are_mixed_by_weights) {
   }
 }
 
-/* A derivative is -n.V. The unit vector n points from the closest point to the point, and V is the mean of the rates. The
+/* A derivative is -n.V. The unit vector n points from the closest point to the given point, and V is the mean of the rates. The
  * derivative is 0 at distance 0. The kernel writes nothing behind the last point. */
 TEST(distances_are_differentiated) {
   enum { n_vertices = 20, most_directions = 3, room = most_directions * n_lanes + 1 };

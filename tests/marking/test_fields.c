@@ -80,8 +80,8 @@ static void check_part(const riis_marks *result) {
 
 /* --- The rim, counted independently ---------------------------------------------------------------------------------- */
 
-/* Flags of the edges and corners on the rim, three of each for each triangle. Edge k runs from corner k to the next corner. A
- * corner is on the rim if a rim edge ends there. */
+/* Each triangle has three flags for edges on the rim and three flags for corners on the rim. Edge k runs from corner k to the
+ * next corner. A corner is on the rim if a rim edge ends there. */
 typedef struct rims {
   riis_triangles c;
   const int64_t *triangle_id;
@@ -436,7 +436,7 @@ TEST(no_other_patch_touches_the_rim) {
         if (!f.rim[k] || middle > 0.6) continue; /* skips the ends of edges, which other patches share */
         ++n;
         for (int64_t t = 0; t < c.n_triangles; ++t) {
-          /* Triangles of other leaflets may touch this edge, so they are skipped. */
+          /* Triangles of other leaflets may touch the edge, so the loop skips these triangles. */
           if (c.patch_id[t] == f.patch_id[k]) continue;
           if (c.leaflet_id[t] != (is_mitral ? f.patch_id[k] > 5 : f.patch_id[k] / 4)) continue;
           /* The distance to the box around the triangle is a lower bound of the distance to the triangle. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests derivatives of distances and of K. The derivatives are compared with central differences of distances to surfaces with
- * equal triangles. At rims and ties they are compared with closed forms. */
+ * equal triangles. At rims and ties the derivatives are compared with closed forms. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -93,7 +93,8 @@ static change random_parameter(const riis_valve *valve) {
   return made;
 }
 
-/* A valve of one bent patch that opens to another patch. The skirt aside, the valve has one parameter, "opening". */
+/* A valve of one bent patch that opens to another patch. Apart from the skirt's length, the valve's only parameter is
+ * "opening". */
 static riis_valve *bent_patches(void) {
   shape closed = unit_square(), open;
   for (int i = 0; i < 4; ++i) {
@@ -216,7 +217,7 @@ static double area_rate_of(const riis_surface *surface, int64_t direction_id) {
   return direction.area_rate;
 }
 
-/* Computes the derivative of a surface's area if its vertices move at these rates. The sum goes over corners: the rate times the
+/* Computes the derivative of a surface's area if its vertices move at these rates. Each corner contributes its rate times the
  * derivative of the area by the corner. */
 static double rate_of_area(const riis_surface *surface, const double *rate) {
   const riis_triangles c = triangles_of(surface);
@@ -225,7 +226,7 @@ static double rate_of_area(const riis_surface *surface, const double *rate) {
     const int64_t *const id = c.vertex_id + 3 * i;
     const double *const corner[3] = {c.xyz + 3 * id[0], c.xyz + 3 * id[1], c.xyz + 3 * id[2]};
     for (int k = 0; k < 3; ++k) {
-      /* The unit step of a corner away from the opposite edge adds half of this edge's length to the area. */
+      /* If a corner moves away from the opposite edge by 1, the area grows by half of this edge's length. */
       double edge[3], towards[3], height[3];
       for (int x = 0; x < 3; ++x) edge[x] = corner[(k + 2) % 3][x] - corner[(k + 1) % 3][x];
       for (int x = 0; x < 3; ++x) towards[x] = corner[k][x] - corner[(k + 1) % 3][x];
@@ -586,7 +587,7 @@ TEST(K_is_derived_from_the_distance_up_to_both_ends) {
 }
 
 /* Two squares, at z = 0 and z = 1. Only the upper square moves. A node at equal distances gets the derivative of the lower
- * square, which triangle_id names. The distance has a kink there: its derivatives on both sides are 0 and -1. */
+ * square, which triangle_id names. The distance of such a node has a kink: the derivatives on both sides are 0 and -1. */
 TEST(ties_take_the_first_triangle) {
   shape two = unit_square();
   add_line(&two, 0, 0, 1, 1, 0, 1);

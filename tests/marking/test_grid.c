@@ -91,7 +91,7 @@ static void make_meshes(grid_case *of) {
   of->points = mesh_with_rows(&nodes, nodes.n);
 }
 
-/* Gives random strides: the axes have any order, gaps and halos. */
+/* Gives random strides, with any order of the axes, with gaps and with halos. */
 static void set_random_strides(riis_grid *grid) {
   const int64_t n[3] = {grid->ni, grid->nj, grid->nk};
   int order[3] = {0, 1, 2};
@@ -455,7 +455,8 @@ TEST(updates_of_axes) {
   }
 }
 
-/* The valve lies in a grid with a halo. The opening of its first passage equals that of points, and the halo is not an end. */
+/* The valve lies in a grid with a halo. The opening of the first passage is the same for the grid and for points, and the halo is
+ * not an end. */
 TEST(first_passage_with_a_halo) {
   const riis_valve *valve = new_valve("aortic");
   const riis_surface *surface = aortic_surface(NULL);
@@ -546,7 +547,7 @@ TEST(other_edges_of_a_grid) {
   }
 }
 
-/* A grid of 10^9 nodes takes no memory before its first marking. Few of its nodes are near the surface. */
+/* A grid of 10^9 nodes takes no memory before its first marking. Few nodes of the grid are near the surface. */
 TEST(a_billion_nodes) {
   const riis_surface *surface = aortic_surface(NULL);
   riis_grid grid = new_grid(1000, 1000, 1000);

@@ -7,7 +7,7 @@
 
 static random_source rng;
 
-/* Returns whether a count is large enough for the trials that are made. All trials together bring the count above n. */
+/* Returns whether a count is large enough for the number of trials. With all trials, the count must be above n. */
 static int is_more(int64_t count, int n) { return is_short_test() || count > trials_of(n); }
 
 static double sign(void) { return random_bits(&rng) & 1 ? 1 : -1; }
@@ -84,8 +84,8 @@ static void random_triangle(int kind, double *abc) {
   for (int i = 0; i < 3; ++i) memcpy(abc + 3 * i, q[(first + turn * i) % 3], sizeof q[0]);
 }
 
-/* Makes a point on a triangle, or away from it by a power of ten. The point lies over a corner, an edge or the inside, beyond a
- * tip, or anywhere. */
+/* Makes a point on a triangle, or away from the triangle by a power of ten. The point lies over a corner, an edge or the inside,
+ * beyond a tip, or anywhere. */
 static void random_point_near(const double *abc, double reach, double *p) {
   const int kind = (int)(random_bits(&rng) % 8), from = (int)(random_bits(&rng) % 3), to = (from + 1) % 3;
   double offset[3], w[3] = {0, 0, 0};
@@ -122,7 +122,7 @@ TEST(decisions_have_the_bits_of_the_scalar_kernel) {
   static int32_t point[max_pairs], triangle[max_pairs];
   int64_t n_compared = 0, n_inside = 0, n_edge = 0, n_corner = 0;
   for (int trial = 0; trial < trials_of(500); ++trial) {
-    /* Some trials use other units. Some lie so far from the origin that coordinates are rounded. */
+    /* Some trials use other units. Some trials lie so far from the origin that coordinates are rounded. */
     const double unit = trial % 3 ? 1 : random_power_of_ten(&rng, -50, 50),
                  far = trial % 2 ? 0 : random_power_of_ten(&rng, 0, 9);
     double origin[3];
@@ -662,7 +662,8 @@ TEST(cubes_are_summed) {
   }
 }
 
-/* If triangles pass the check for a shift, an eighth of this shift at each corner leaves them an area. */
+/* A triangle may pass the check for a shift. If each corner then moves by an eighth of the shift, the triangle still has an
+ * area. */
 TEST(triangles_keep_their_area_when_corners_move) {
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
@@ -728,9 +729,9 @@ TEST(points_are_placed) {
 
 /* --- Without any instruction set ------------------------------------------------------------------------------------- */
 
-/* The portable code is for processors without any of these instruction sets. This code does the operations of the baseline set.
- * If the baseline fuses multiplications and additions, its filter rounds differently. The groups are equal even then, and the
- * tests above check each filter separately. */
+/* The portable code is for processors without AVX2, AVX-512 and the baseline's instructions. This code does the operations of the
+ * baseline set. If the baseline fuses multiplications and additions, its filter rounds differently. The groups are equal even
+ * with fused operations, and the tests above check each filter separately. */
 TEST(portable_kernels_have_the_bits_of_the_baseline) {
   if (!kernels_there(portable_set)) skip();
   const int rounds_twice = kernels_baseline_rounds_twice();

@@ -99,7 +99,8 @@ TEST(vertices_get_the_forces_of_their_triangles) {
     }
 }
 
-/* A surface from arrays skips a triangle without area. Later triangles then have different ids and positions. */
+/* A surface from arrays skips a triangle without area. Triangles after the skipped one have ids that differ from their
+ * positions. */
 TEST(skipped_triangles_take_no_force) {
   static const double xyz[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 2, 0}};
   static const int32_t ids[3][3] = {{0, 3, 4}, {0, 1, 2}, {1, 3, 2}};
@@ -363,7 +364,7 @@ TEST(mirrored_loads_are_mirrored) {
 /* --- A closed valve under pressure ----------------------------------------------------------------------------------- */
 
 /* The pressure falls by `drop` across the band along the distance, and K u = -grad p. The force must be `drop` times the vector
- * area of the surface. The forces at the vertices and at the tissue must both have this sum. */
+ * area of the surface. The forces at the vertices have this sum, and so have the forces at the tissue. */
 static void check_closed(const char *kind, double limit) {
   const double eps = 0.06, r = 1e3, drop = 1.2e4;
   riis_surface_options options = surface_options();
@@ -581,7 +582,7 @@ TEST(refused_loads) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "tissue has 0 nodes within the radius 0.001 of the edges that hold leaflet 0",
                 riis_loads_add_forces(&bad, &points, weight, sums, got));
 
-  /* All nodes lie nearly on a line, which is refused. A slightly wider cloud is accepted. */
+  /* Nodes that lie nearly on a line are refused. A slightly wider cloud is accepted. */
   for (int i = 0; i < 5; ++i) weight[i] = 1, nodes[i][0] = 0.25 * i, nodes[i][1] = i % 2 ? 1e-3 : 0, nodes[i][2] = 0;
   bad = good, bad.edge_leaflet_id = NULL;
   for (int width = 0; width < 2; ++width) {

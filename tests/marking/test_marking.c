@@ -215,8 +215,8 @@ TEST(coordinates_may_move_and_results_are_reused) {
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   assert_true(llabs(marked_in(result).n - n_before) <= 2); /* z + 10 - 10 rounds, so a few marks may differ */
-  /* A coordinate becomes infinite or NaN without an update of the handle. A search that reads this coordinate refuses and names
-   * it, and the result stays as it was. The search over clusters uses the coordinates that it copied earlier. */
+  /* A coordinate becomes infinite or NaN without an update of the handle. A search that reads the coordinate names it in a
+   * refusal, and the result stays as it was. The search over clusters uses the coordinates that it copied earlier. */
   const found_nodes kept = marked_in(result);
   const int64_t spoilt = kept.node_id[kept.n / 2];
   char text[64];

@@ -15,7 +15,7 @@
 
 /* All allocations of the process call these functions, because symbols of an executable come before those of libraries. The
  * functions count the allocations of the object that contains riis_mark_nodes. Allocations that the C++ library makes for this
- * object also count. With a sanitizer nothing is replaced, because its allocator must be the only one. */
+ * object also count. With a sanitizer the functions are not replaced, because the sanitizer's allocator must be the only one. */
 #if defined(__GLIBC__) && defined(__x86_64__) && !defined(IS_SANITIZED)
 #define COUNTS_ALLOCATIONS 1
 void *__libc_malloc(size_t size);
@@ -74,8 +74,8 @@ void *new_many_aligned(size_t size, size_t alignment) {
   return counted(or_abort(__libc_memalign(alignment, size ? size : 1)), __builtin_return_address(0));
 }
 
-/* Returns the object that contains the function. If the library is static, the name is not found. The function is then in the
- * object of this code. */
+/* Returns the object that contains the function. If the library is static, the name is not found. A function without a name
+ * belongs to the object of this code. */
 static const void *object_of(const char *name) {
   const void *function = dlsym(RTLD_DEFAULT, name);
   return object_at(function ? function : (const void *)(intptr_t)object_of);

@@ -296,7 +296,7 @@ TEST(needles_lose_no_node) {
     riis_surface_arrays arrays = triangle_arrays(3, corners, 1, ids);
     riis_surface_options options = surface_options();
     riis_surface *surface = NULL;
-    /* So thin a triangle may count as having no area. */
+    /* A triangle as thin as this one may count as having no area. */
     if (riis_surface_create_from_arrays(&arrays, NULL, &surface) != RIIS_OK) continue;
     own(surface);
     options.half_thickness = fmax(closest_to(surface, xyz[0], xyz[1], xyz[2]).distance, 1e-40);

@@ -366,7 +366,8 @@ static void check_leaks(const char *kind) {
       assert_true(at < list.n_edges);
       assert_int_equal(list.node_id[2 * at], i);
       assert_int_equal(list.node_id[2 * at + 1], j);
-      /* The half thickness that closes the edge marks one of the edge's nodes. A slightly smaller one marks neither. */
+      /* The half thickness that closes the edge marks one of the edge's nodes. A slightly smaller half thickness marks neither
+       * node. */
       const double told = list.distance[at++];
       for (int sign = -1; sign <= 1; sign += 2) {
         const double e = told * (1 + 1e-9 * sign);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the search over clusters for a surface with an offset, where it leaves out nodes far behind the surface. To the last bit,
- * it must list the nodes that a search of all nodes within reach lists. An oracle judges each of these nodes. RIIS_TEST_LONG=1
- * tries more surfaces. */
+ * Tests the search over clusters for a surface with an offset, where it leaves out nodes far behind the surface. The search must
+ * give the list that a search of all nodes within reach gives, to the last bit. An oracle judges each of these nodes.
+ * RIIS_TEST_LONG=1 tries more surfaces. */
 #include <riis/riis.h>
 
 #include "test_support.h"

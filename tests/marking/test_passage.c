@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Compares the widest passage with a binary search over half thicknesses, which makes a flood fill for each half thickness. Also
- * compares it with holes of known position and size. RIIS_TEST_LONG=1 tries many more cases. */
+ * compares the passage with holes of known position and size. RIIS_TEST_LONG=1 tries many more cases. */
 #include <riis/riis.h>
 
 #include "test_support.h"

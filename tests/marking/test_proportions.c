@@ -121,8 +121,8 @@ TEST_WITH(one_warning_a_mesh_and_surface, start_listening, stop_listening) {
   mark(first, other);
   mark(first, other);
   assert_int_equal(warnings.n, 3);
-  /* Surfaces are created and destroyed. A surface counts as new even if it has the address of an earlier surface. The library's
-   * list of warned surfaces fills up in the end. */
+  /* Surfaces are created and destroyed. A surface counts as new even if it has the address of an earlier surface. In the end, the
+   * library's list of warned surfaces is full. */
   for (int i = 0; i < 20; ++i) {
     free_one_owned(second);
     second = aortic_surface(NULL);

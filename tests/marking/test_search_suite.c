@@ -14,9 +14,8 @@
 
 /* --- Brute force ------------------------------------------------------------------------------------------------------ */
 
-/* Triangles are grouped into blocks with bounding boxes. The closest triangle so far gives a distance. A block or a triangle is
- * skipped if its box is farther by more than any rounding. The distance of every other triangle is computed in extended
- * precision. */
+/* Triangles are grouped into blocks with bounding boxes. A block or a triangle is skipped if its box is farther than the closest
+ * triangle so far, by more than any rounding. The distance of every other triangle is computed in extended precision. */
 enum { per_block = 16 };
 typedef struct brute_force {
   int64_t n;

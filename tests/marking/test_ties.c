@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests velocities of nodes that are equally near to several leaflets, or to several patches of one leaflet. A node with such a
- * tie gets the mean velocity that a loop over all triangles gives. Every search gives the same bits. A symmetric mesh may be
- * moved by a rounding error or be split into parts: the sums of K and K u stay the same. Nodes without ties have the velocity of
- * their closest triangle. */
+ * tie gets the mean velocity that a loop over all triangles gives. Every search gives the same bits. If a symmetric mesh is moved
+ * by a rounding error or split into parts, the sums of K and K u stay the same. Nodes without ties have the velocity of their
+ * closest triangle. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -45,7 +45,7 @@ static void place(int64_t n, double *xyz, double degrees, const double *offset) 
   }
 }
 
-/* Returns the centres of cells around a surface. Some of them lie in the planes of symmetry x = 0 and y = 0. */
+/* Returns the centres of cells around a surface. Some centres lie in the planes of symmetry x = 0 and y = 0. */
 static test_mesh symmetric_cells(const riis_surface *surface, double spacing) {
   const riis_surface_info info = info_of(surface);
   const double margin = 1.5 * info.half_thickness;

@@ -25,7 +25,7 @@ int truth_of(const riis_patches *patches, const char *kind, int64_t n, uint64_t 
              known_truth *truth);
 void truth_free(known_truth *truth);
 
-/* Offsets are in half thicknesses. Point i, if it is kept, has the offset number i modulo n_offsets. */
+/* Offsets are in half thicknesses. Each kept point i has the offset number i modulo n_offsets. */
 enum { n_offsets = 6 };
 double truth_offset(int64_t i);
 double truth_largest_share_of_radius(void);

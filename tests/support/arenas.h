@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Lets C tests start the parallel walks of src/riis/parallel from several callers at the same time. The assertions stay in C: a
- * failed assertion leaves by longjmp, which must not cross TBB's stack frames. A test's walk visits 32 numbers and adds 32 more.
- * The walk is correct if it visits each number once. */
+ * failed assertion leaves by longjmp, which must not cross TBB's stack frames. A walk of these tests visits 32 numbers and adds
+ * 32 more. The walk is correct if it visits each number once. */
 #ifndef RIIS_TEST_ARENAS_H
 #define RIIS_TEST_ARENAS_H
 
@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* Each handle of the library has a keeper. TBB's arenas exist as long as any keeper exists. */
+/* A keeper, like that of each handle of the library. TBB's arenas exist until the last keeper is gone. */
 typedef struct arenas_keeper arenas_keeper;
 arenas_keeper *arenas_keep(void);
 void arenas_let_go(arenas_keeper **keeper);

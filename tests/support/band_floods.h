@@ -4,8 +4,8 @@
 #ifndef RIIS_TEST_BAND_FLOODS_H
 #define RIIS_TEST_BAND_FLOODS_H
 
-/* The triangles of a surface with another half thickness. The triangles stay the same, although another half thickness could
- * shift them. */
+/* The triangles of a surface with another half thickness. The triangles stay the same: without a copy, another half thickness
+ * could change them. */
 static inline riis_surface *same_triangles(const riis_surface *surface, double half_thickness, double offset) {
   const riis_triangles all = triangles_of(surface);
   riis_surface_arrays arrays = triangle_arrays(all.n_vertices, all.xyz, all.n_triangles, NULL);

@@ -29,7 +29,7 @@ static inline int64_t band_position(const riis_triangles *all, int64_t triangle_
   return i;
 }
 
-/* Finds the closest point of a triangle. A weight of 0 means that the closest point does not depend on that corner. */
+/* Finds the closest point of a triangle. If a corner's weight is 0, the closest point does not depend on this corner. */
 static inline void closest_weights(const real *p, real (*corner)[3], real *weight) {
   real least = INFINITY, ab[3], ac[3], ap[3], normal[3], to_b[3], to_c[3];
   for (int k = 0; k < 3; ++k) {

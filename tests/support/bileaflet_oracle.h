@@ -93,8 +93,8 @@ static inline double to_rim_sq(const bileaflet *of, double stretch, double x, do
 }
 
 /* Returns the distance from a point outside the leaflet to its outline, within the leaflet's plane. (x, y) is the point's
- * position on the closed leaflet, seen along the axis. The middle edge is a segment. The rim is an ellipse. The rim's nearest
- * point is searched by golden sections between samples. */
+ * position on the closed leaflet, seen along the axis. The middle edge is a segment. The rim is an ellipse. A golden-section
+ * search between samples finds the rim's nearest point. */
 static inline double to_outline(const bileaflet *of, double x, double y) {
   const double stretch = 1 / cos(degree * of->closed_angle), x0 = of->gap / 2, R = of->radius;
   const double y_end = sqrt(R * R - x0 * x0), whole = atan2(y_end, x0);
@@ -132,8 +132,8 @@ static inline double to_bileaflet(const bileaflet *of, const double *p) {
   return fmin(to_bileaflet_leaflet(of, RIIS_LEAFLET_POSITIVE, p), to_bileaflet_leaflet(of, RIIS_LEAFLET_NEGATIVE, p));
 }
 
-/* Returns the distance from a point to a half disc of this radius, which is the disc's half x >= 0. The hinge lies in the disc's
- * plane at slope 0. The disc's centre is at slope -offset. */
+/* Returns the distance from a point to the half x >= 0 of a disc of this radius. The hinge lies in the disc's plane at slope 0.
+ * The disc's centre is at slope -offset. */
 static inline double to_half_disc(double radius, double offset, in_leaflet at) {
   const double x = at.slope + offset, from_centre = hypot(x, at.y);
   if (x >= 0) return hypot(at.off, fmax(from_centre - radius, 0));

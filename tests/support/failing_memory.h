@@ -18,7 +18,7 @@ enum {
   MEMORY_OF_ALL = 3 /* all of the above, and malloc of any caller; not with sanitizers, which have their own malloc */
 };
 
-/* Chooses the library or executable whose allocations fail: the object that contains this function. The default is the core
+/* Chooses the library or executable whose allocations fail. The chosen object contains this function. The default is the core
  * library. */
 void memory_library_is_that_of(const char *function);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Finds the outline of leaflets, seen along an axis. In each of many directions, the outline is the triangles' farthest point. */
+ * Finds the outline of leaflets, seen along an axis. In each of many directions, the triangles' farthest point belongs to the
+ * outline. */
 #ifndef RIIS_TEST_FARTHEST_OUTLINE_H
 #define RIIS_TEST_FARTHEST_OUTLINE_H
 
@@ -57,7 +58,7 @@ static inline void add_edge(outline *to, const double *from, const double *until
   }
 }
 
-/* Returns the outline of triangles. `ids` are the positions of their vertices in `xyz`. */
+/* Returns the outline of triangles. `ids` are the positions of the triangles' vertices in `xyz`. */
 static inline outline outline_of(const double *xyz, int64_t n_triangles, const int64_t *ids, const frame *seen) {
   outline made = {{0, 0}, {0}, 0};
   for (int64_t i = 0; i < 3 * n_triangles; ++i) {
@@ -75,7 +76,7 @@ static inline outline outline_of(const double *xyz, int64_t n_triangles, const i
   return made;
 }
 
-/* Returns whether a point, relative to the middle, is inside. */
+/* Returns whether a point is inside the outline. The point is given relative to the middle. */
 static inline int is_inside(const outline *of, double x, double y) {
   const double direction = atan2(y, x) / turn_of_direction, share = direction - floor(direction);
   const int first = ((int)floor(direction) % n_directions + n_directions) % n_directions;

@@ -44,7 +44,7 @@ static inline riis_valve *valve_of(int kind, double opening) {
     if (kind == 3) CHECK_OK(riis_valve_set_scalar(valve, "ring_height", 0.6));
     return valve;
   }
-  /* Two leaflets, 2 and 6, are unit squares that turn upwards as they open. */
+  /* The leaflets 2 and 6 are unit squares that turn upwards as they open. */
   shape squares = {0}, up;
   add_line(&squares, 0, 0, 0, 1, 0, 0), add_line(&squares, 0, 1, 0, 1, 1, 0);
   add_line(&squares, 0, 0, 0, 0, 1, 0), add_line(&squares, 1, 0, 0, 1, 1, 0);

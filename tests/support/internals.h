@@ -16,7 +16,7 @@ void bezier_derivative(int degree, const double *control, double t, double *vect
 double bezier_arc_length(int degree, const double *control, double t0, double t1);
 void bezier_split(int degree, const double *control, double t, double *left, double *right);
 double bezier_flatness(int degree, const double *control);
-/* t has one entry per point, and errors has one entry fewer. */
+/* `t` has one entry per point, and `errors` has one entry fewer. */
 riis_status bezier_flatten(int degree, const double *control, double max_error, int64_t *n_points, double **points,
                            double **t, double **errors);
 
@@ -29,7 +29,8 @@ void chain_at(int64_t n_pieces, const double *control, double share, double *poi
 int64_t chain_between(int64_t n_pieces, const double *control, double share0, double share1, int reversed,
                       double *part);
 
-/* Gives the offset O(u) of a patch of arcs between a base and an edge. Also bounds its deviation from a linear function. */
+/* Gives the offset O(u) of a patch of arcs between a base and an edge. Also bounds the offset's deviation from a linear
+ * function. */
 void bulge_at(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor, double u,
               double *offset);
 double bulge_linear_error(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor,
@@ -204,7 +205,7 @@ typedef struct kernel_filter {
 int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kernel_pair **pairs, int64_t *n_calls);
 /* Gives the squared lower bounds of the distances to groups, lower_sq(32, n_groups). */
 void kernels_lower_bounds(int set, const kernel_filter *filter, float *lower_sq);
-/* Each of up to 16 boxes contains one node. near(n_groups) gets one bit per group and box. A bit is 1 if the group may be near
+/* Each of up to 16 boxes contains one node. near(n_groups) gets one bit per group and box, which is 1 if the group may be near
  * the box. Returns the kernel's result. */
 int kernels_near_boxes(int set, const kernel_filter *filter, uint16_t *near);
 /* Box k contains the nodes 2 k and 2 k + 1. Uses the groups' own boxes to clear bits of near(n_groups). Returns the kernel's
@@ -215,8 +216,8 @@ int kernels_near_own_boxes(int set, const kernel_filter *filter, uint16_t *near)
  * several samples are equally near, the first counts. */
 int64_t samples_of(const riis_surface *surface, const double **xyz);
 
-/* Runs Powell's method from (0.5, 0.5) on [0,1]^2, with line searches that are accurate to `step`. Returns the final value. uv
- * gets its position. */
+/* Runs Powell's method from (0.5, 0.5) on [0,1]^2, with line searches that are accurate to `step`. Returns the final value, whose
+ * position goes to `uv`. */
 double powell_minimum(double (*f)(double u, double v), double enough, double step, double *uv);
 
 /* Returns the status that the library's boundary makes of an exception:
@@ -247,8 +248,8 @@ wide_rows edge_set_rows(const edge_set *set, int64_t n_nodes);
 void edge_set_free(edge_set **set);
 
 /* Makes rows as riis_adjacency_create_from_cells does, but with other limits for the use of 32-bit integers. n_entries limits the
- * entries, which are the nodes of all cells together. n_nodes limits the nodes. A negative value keeps the library's limit. Pass
- * complete structs only. */
+ * entries, which are the nodes of all cells together. n_nodes limits the nodes. A negative argument keeps the library's limit.
+ * Pass complete structs only. */
 riis_status rows_with_limits(const riis_mesh_cells *cells, int n_threads, int64_t n_entries, int64_t n_nodes,
                              wide_rows *rows);
 

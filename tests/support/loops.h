@@ -11,12 +11,12 @@
 extern "C" {
 #endif
 
-/* Runs a loop. Returns how many threads it had, or -1 if it was not correct. */
+/* Runs a loop. Returns how many threads the loop had, or -1 if the loop was not correct. */
 int loop_once(int64_t n_blocks, int n_threads);
 /* Does what loop_once does, but on a team. */
 int team_loop_once(int64_t n_blocks, int n_threads);
 /* Runs a loop in which the failing blocks throw. Returns the block whose exception leaves the loop, or n_blocks if none does.
- * Returns -1 if a block before it did not run, or if a block ran twice. */
+ * Returns -1 if a lower block did not run, or if a block ran twice. */
 int64_t block_whose_exception_comes(int64_t n_blocks, int n_threads, int64_t n_failing, const int64_t *failing,
                                     int on_a_team);
 /* Runs a loop on a team of two threads. The second thread's first block fails while the calling thread is in block 0. Later the
@@ -27,7 +27,8 @@ int64_t block_that_fails_first(int64_t n_blocks, int64_t also_failing, int64_t *
 int choice_after(int n_loops, const int64_t *waited, const int64_t *ended, int64_t now);
 /* Records the time that teams have lost, in nanoseconds. Returns how long the calling thread of the next loop runs alone. */
 int64_t time_alone_after(int n_loops, const int64_t *lost, const int64_t *ended, int64_t now);
-/* Returns whether the calling thread runs all blocks of a short loop on a team. The loop is shorter than the recorded losses. */
+/* Returns whether the calling thread of a team runs all blocks of a short loop, which takes less time than the recorded
+ * losses. */
 int caller_begins_alone(void);
 /* Returns whether a second thread joins a longer loop after the calling thread has run some blocks alone. */
 int caller_calls_a_team_later(void);

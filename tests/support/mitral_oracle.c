@@ -18,7 +18,8 @@ typedef struct cubic {
 struct mitral_oracle {
   cubic annulus[6], anterior, scallop[3];
   real u_pm, u_al, triangle, bulge; /* bulge is tan(surface_angle) / 2 */
-  /* The cleft is the parameter at one third of the closed anterior edge's length. The parameters of both valves are blended. */
+  /* The cleft is the parameter at one third of the closed anterior edge's length. The parameters of the closed and the open valve
+   * are blended. */
   real cleft;
   real translation[3];
 };
@@ -71,8 +72,8 @@ static void measure(cubic *c) {
 
 static real length(const cubic *c) { return c->length_to[STEPS]; }
 
-/* Returns the parameter at arc length s. Newton's method searches within one step of the table. Bisection replaces it if it would
- * leave the bracket. */
+/* Returns the parameter at arc length s. Newton's method searches within one step of the table. Where Newton's method would leave
+ * the bracket, bisection replaces it. */
 static real parameter_at(const cubic *c, real s) {
   int first = 0, last = STEPS;
   while (last - first > 1) {
@@ -156,8 +157,8 @@ static void annulus_at(const cubic annulus[6], real u, real *point, real *tangen
 
 /* ---- The leaflets' free edges ---- */
 
-/* Rows 2 to 4: U(u, x) is at the distance x from A(u). Angle 0 leads inwards, and 90 degrees down. The closed state has angle 0
- * and leaves out A's z ("Closed valve"). The open annulus has no z, so both states start at z = 0. */
+/* Rows 2 to 4: U(u, x) is at the distance x from A(u). The angle 0 means inwards, and 90 degrees means down. The closed state has
+ * angle 0 and leaves out A's z ("Closed valve"). The open annulus has no z, so both states start at z = 0. */
 static void reach(const cubic annulus[6], real u, double x, double inward_angle, real *point) {
   real a[3], tangent[3];
   annulus_at(annulus, u, a, tangent);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Evaluates the smooth mitral valve independently of the library. The oracle computes each point from the paper's appendix, as
- * corrected in docs/theory/mitral.md, in extended precision. A "row" is a row of that page's table. The oracle has no polylines
- * and no tolerance, and shares no code with the library. */
+ * corrected in docs/theory/mitral.md, in extended precision. A "row" is a row of the table in docs/theory/mitral.md. The oracle
+ * has no polylines and no tolerance, and shares no code with the library. */
 #ifndef RIIS_TEST_MITRAL_ORACLE_H
 #define RIIS_TEST_MITRAL_ORACLE_H
 
-/* The parameters of the paper's table. All lengths have one unit, and angles are in degrees. The functions do not check these
- * values. Results are meaningful if 2 triangle_size_ratio < anterior_ratio < 1 and 0 < leaflet_arc_angle < 360. */
+/* The parameters of the paper's table. All lengths have one unit, and angles are in degrees. The functions do not check the
+ * parameters. Results are meaningful if 2 triangle_size_ratio < anterior_ratio < 1 and 0 < leaflet_arc_angle < 360. */
 typedef struct mitral_parameters {
   double anterior_ratio, AP_diameter, ALPM_diameter, ALPM_position_ratio, IT_distance, indent_depth;
   double anterior_horn_height, posterior_horn_height;

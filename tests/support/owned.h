@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Records the objects that a test owns. The test's teardown frees them, even after a failed assertion. Each thread has its own
- * list. A thread that the test starts frees its objects with free_owned_after. Include after riis.h and test_support.h; handles.h
- * includes it. */
+ * Records the objects that a test owns. The test's teardown frees these objects, even after a failed assertion. Each thread has
+ * its own list. A thread that the test starts frees its objects with free_owned_after. Include after riis.h and test_support.h;
+ * handles.h includes it. */
 #ifndef RIIS_TEST_OWNED_H
 #define RIIS_TEST_OWNED_H
 

@@ -16,8 +16,8 @@ smooth_motion *smooth_motion_create(const riis_valve *now, const riis_valve *bef
 void smooth_motion_destroy(smooth_motion *motion);
 /* Gives the positions of the label (patch_id, u, v) in both states. */
 void smooth_motion_places(const smooth_motion *motion, int patch_id, const double *uv, double *now, double *before);
-/* Finds the point of the smooth patch that is nearest to a given point. Gives its velocity, and returns the distance. The search
- * begins at (u, v). */
+/* Finds the point of the smooth patch that is nearest to a given point. Gives the velocity of this point, and returns the
+ * distance. The search begins at (u, v). */
 double smooth_motion_nearest(const smooth_motion *motion, int patch_id, const double *uv, const double *point,
                              double *velocity);
 

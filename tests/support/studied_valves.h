@@ -60,7 +60,7 @@ static inline riis_surface *surface_at(riis_valve *valve, double opening, const 
 }
 
 /* Changes every size by a random share of it, at most `spread`. The sizes are changed in the order of the list. If a size follows
- * another size, its new value starts from the value that follows. A leaflet's size may follow the valve's size, which has already
+ * another size, the following value is the start of the change. A leaflet's size may follow the valve's size, which has already
  * changed. The share of such a size is therefore smaller. A shift or a stretch that is 0 becomes a share itself. Every size stays
  * within its range. Returns the first status that is not RIIS_OK. */
 static inline riis_status vary_sizes(random_source *random, riis_valve *valve, double spread) {
@@ -111,7 +111,7 @@ static inline void add_bumps(random_source *random, riis_valve *valve, const stu
   }
 }
 
-/* Makes a valve of random sizes. Returns NULL if the library refuses them. */
+/* Makes a valve of random sizes. Returns NULL if the library refuses the sizes. */
 static inline riis_valve *random_valve(random_source *random, const studied *of, double spread, sickness has) {
   riis_valve *valve = valve_of(of->kind, of->settings);
   riis_surface *surface = NULL;

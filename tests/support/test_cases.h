@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Defines the cases of a test, and runs them by CMocka. First includes the headers that CMocka's header needs. */
+ * Defines the cases of a test, and runs them by CMocka. This header first includes the headers that CMocka's header needs. */
 #ifndef RIIS_TEST_CASES_H
 #define RIIS_TEST_CASES_H
 

@@ -104,7 +104,7 @@ static inline int places_near(const riis_triangles *s, const double *velocity, c
   return n;
 }
 
-/* Returns the velocity of the surface near p. The argument `distance` is the distance of p. */
+/* Returns the velocity of the surface near p. The argument `distance` is the distance of p from the surface. */
 static inline tied_velocity tied_velocity_at(const riis_triangles *s, const double *velocity, const double *p,
                                              double distance, double half_thickness) {
   const long double rounding = rounding_near(p, half_thickness), of_leaflets = 1e-6L * half_thickness,
