@@ -19,7 +19,7 @@ static riis_patches sheets(int64_t n, const int32_t *degree, const double *contr
   return patches;
 }
 
-/* The parabolic cylinder z = x^2 / (4 focal), |x| <= 2 focal, 0 <= y <= 1. Curves of degree 2 represent it exactly. */
+/* The parabolic cylinder z = x^2 / (4 focal), |x| <= 2 focal, 0 <= y <= 1. Curves of degree 2 represent this surface exactly. */
 static const double focal = 0.05;
 
 static riis_patches parabola(void) {
@@ -33,7 +33,7 @@ static riis_patches parabola(void) {
 }
 
 /* Returns the distance from (x, z) to the parabola. Newton's method starts from every local minimum among many points of the
- * parabola. The nearest of these points alone would not do, because it may be far from the true nearest point. */
+ * parabola. The nearest of many points alone does not suffice, because it may be far from the true nearest point. */
 static double distance_to_parabola(double x, double z) {
   enum { n = 2000 };
   double at[n + 1], best = INFINITY;
@@ -139,7 +139,7 @@ TEST(points_nearer_to_another_sheet_are_left_out) {
   truth_free(&truth);
 }
 
-/* The smooth leaflets agree with their triangles, because truth_of would fail otherwise. */
+/* The smooth leaflets agree with their triangles: otherwise truth_of would fail. */
 TEST(leaflets_agree_with_their_triangles) {
   static const char *const kinds[2] = {"aortic", "mitral"};
   for (int i = 0; i < 2; ++i) {

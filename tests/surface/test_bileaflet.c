@@ -116,7 +116,7 @@ TEST(areas_are_those_of_ellipses) {
 }
 
 /* The rim of closed leaflets lies on the housing. The middle edges are straight and half a gap away from the plane x = 0. A
- * closed valve without a gap was not rotated, so x is exactly 0 there. */
+ * closed valve without a gap was not rotated, so x is exactly 0 on its middle edges. */
 TEST(closed_leaflets_fill_the_housing) {
   for (int trial = 0; trial < trials_of(120); ++trial) {
     const int owned_before = n_owned();
@@ -217,7 +217,7 @@ TEST(normals_point_downstream) {
   assert_int_equal(closest_to(closed, -0.5, 0.3, -0.5).leaflet_id, RIIS_LEAFLET_NEGATIVE);
 }
 
-/* The ring is a closed cylinder at rest. One half of it lies on each side of the orifice plane. */
+/* The ring is a closed cylinder at rest. One half of the ring lies on each side of the orifice plane. */
 TEST(a_ring_is_the_housing) {
   for (int trial = 0; trial < trials_of(30); ++trial) {
     const int owned_before = n_owned();
@@ -285,7 +285,7 @@ TEST(the_bound_counts_that_arcs_are_cubics) {
   CHECK_AT_MOST(bound, 4e-9);
 }
 
-/* Expects a refusal of one value that does not go with the defaults of the other parameters. */
+/* Checks that a value is refused if it is invalid together with the defaults of the other parameters. */
 static void expect_refused(const char *name, double value, const char *parts) {
   riis_valve *valve = new_valve("bileaflet");
   riis_surface *surface = NULL;

@@ -31,7 +31,7 @@ static void moving_update(riis_surface *surface, riis_valve *valve, double now, 
   free_one_owned(earlier);
 }
 
-/* Gives the mean velocity over the step of the leaflet's point that is now at p. */
+/* The leaflet's point that is now at p has moved over the step. Gives the mean velocity of this point. */
 static void chord_velocity(const bileaflet *of, int32_t leaflet_id, const double *p, double now, double before,
                            double seconds, double *velocity) {
   double q[3];
@@ -91,7 +91,8 @@ TEST(vertices_and_closest_points_turn_exactly) {
     assert_int_equal(found.n, n_points);
     for (int64_t i = 0; i < n_points; ++i) {
       if (found.leaflet_id[i] == RIIS_LEAFLET_HOUSING) continue;
-      /* If leaflets are equally near, the velocity is the mean of theirs (test_ties). Ties that rounding decides are skipped. */
+      /* If leaflets are equally near, the velocity is the mean of the leaflets' velocities (test_ties). Ties that rounding
+       * decides are skipped. */
       const tied_velocity tied = tied_velocity_at(&c, velocity, xyz + 3 * i, found.distance[i], half_thickness);
       if (tied.n_leaflets > 1 || !tied.is_clear) continue;
       chord_velocity(&of, found.leaflet_id[i], fields.point + 3 * i, now, before, seconds, expected);
@@ -205,7 +206,7 @@ static int rim_at(const riis_surface *surface, const double *p) {
   return fields.rim[0];
 }
 
-/* Closed leaflets meet in an edge that is not a rim. A band that is cut at rims therefore has no slit there. */
+/* Closed leaflets meet in an edge that is not a rim. A band that is cut at rims therefore has no slit at this edge. */
 TEST(leaflets_that_meet_have_no_rim_there) {
   bileaflet of = bileaflet_defaults();
   of.ring_height = 0.4;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests riis_find_by_area. The areas at the openings and sizes that it finds are compared with the areas of new surfaces and with
- * a raster. Scales have a closed form. An opening over time is recovered from its areas. */
+ * Tests riis_find_by_area. The areas at the found openings and sizes are compared with the areas of new surfaces and with a
+ * raster. Scales have a closed form. An opening over time is recovered from its areas. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -167,7 +167,7 @@ TEST(openings_have_the_areas_of_a_raster) {
   }
 }
 
-/* Areas grow with the square of the scale. Effective areas also do, if the half thickness grows with the scale. */
+/* Areas grow with the square of the scale. Effective areas also grow so, if the half thickness grows with the scale. */
 TEST(scales_are_roots_of_areas) {
   for (int trial = 0; trial < (is_long_test() ? 4 : 1) * n_kinds; trial += trial_step()) {
     const double scale = between(0.5, 2), factor = between(0.2, 5);
@@ -292,7 +292,7 @@ static riis_valve *blades_at(double opening) {
       degree[4 * q + side] = 1, curve_id[4 * q + side] = 4 * q + side;
       for (int end = 0; end < 2; ++end) {
         const double *corner = quad[q][ends[side][end]];
-        /* The blades lie above the frame, so that they do not touch it. */
+        /* The blades lie above the frame, without touching it. */
         memcpy(control[q][side][end], (double[3]){corner[0], corner[1], q < 4 ? 0 : 0.1 * (q - 3)}, 3 * sizeof(double));
       }
     }
@@ -452,7 +452,7 @@ TEST(searches_are_refused) {
 #undef REFUSED
 }
 
-/* The search leaves out values that make no valve, and uses the others. */
+/* The search skips values that make no valve. */
 TEST(impossible_sizes_are_left_out) {
   riis_valve *valve = new_valve("trileaflet");
   const riis_area_search usual = area_search();

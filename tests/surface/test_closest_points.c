@@ -196,7 +196,7 @@ static void check_many_points(int64_t n, bool are_in_order) {
   float *xyz = own(malloc((size_t)n * 3 * sizeof *xyz));
   riis_closest *one = own(malloc((size_t)n * sizeof *one));
   for (int64_t i = 0; i < n; ++i) {
-    /* Some points are far away. Some are so far away that single precision does not separate triangles. */
+    /* Some points are far away. Some points are so far away that single precision does not separate triangles. */
     const double wide = i % 25 ? 0.5 : i % 1000 ? 100 : random_power_of_ten(&rng, 2, 20);
     for (int c = 0; c < 3; ++c) {
       const double extent = info.upper[c] - info.lower[c];
@@ -206,7 +206,7 @@ static void check_many_points(int64_t n, bool are_in_order) {
       if (!are_in_order && i % 500 == 1) xyz[3 * i + c] = i % 1000 == 1 ? 1e22F : -1e22F;
     }
   }
-  /* The rounding has a separate loop. In a common loop, GCC 12 would pass the coordinates before they were rounded. */
+  /* The rounding has a separate loop. In a common loop, GCC 12 would pass coordinates that are not yet rounded. */
   for (int64_t i = 0; i < n; ++i)
     if (i % stride == 0)
       one[i] = closest_to(surface, (double)xyz[3 * i], (double)xyz[3 * i + 1], (double)xyz[3 * i + 2]);

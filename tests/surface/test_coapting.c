@@ -32,7 +32,7 @@ static sizes sizes_of(const riis_valve *valve) {
   return made;
 }
 
-/* Sets random sizes. The proportions are those of patients, and more extreme. */
+/* Sets random sizes. Some proportions are those of patients, and some are more extreme. */
 static void set_random_sizes(random_source *random, riis_valve *valve) {
   const double r = random_between(random, 0.9, 1.5), rc = r * random_between(random, 0.8, 1.2);
   const double h = rc * random_between(random, 1.1, 1.7);
@@ -458,8 +458,8 @@ static double off_side(const riis_valve_patches *patches, int32_t patch_id, int 
   return farthest;
 }
 
-/* A zone that begins just above the root also has no crease. The leaflet turns upwards there with a radius of 4 micrometres, as
- * docs/theory/coapting.md says. Differences coarser than this radius would report the turn as a crease. */
+/* A zone that begins just above the root also has no crease. Beside the root, the leaflet turns upwards with a radius of 4
+ * micrometres, as docs/theory/coapting.md says. Differences coarser than this radius would report the turn as a crease. */
 TEST(a_low_zone_turns_sharply_without_a_crease) {
   static const double low[n_sizes] = {1.3233848, 1.0696550, 1.2100624, 0.3307880, 0.2947382, 0.00658190, 39.099050,
                                       0.5418369, 0.4873270, 0.5369197, 0.4438359, 0.8011948, 0.0445718};
@@ -775,7 +775,7 @@ TEST(measures_are_those_of_the_literature) {
       "  open: symmetry curve %.2f cm, middle of the free edge at the height %.2f cm\n",
       height, v.of[HE], edges[0], edges[0] / v.of[RC], area, zone,
       open.below.behind[n_chords] + open.above.behind[n_chords], open.edge.q[0].x[2]);
-  /* For comparison, this blends the free edge's control points. */
+  /* For comparison, the function blends the free edge's control points. */
   double least = 1, most = 1;
   for (int i = 0; i <= 100; ++i) {
     cubic blended;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * The log warns of leaflets that go through each other, once for each shape that the user chose. The test compares the warnings
- * with the pairs of riis_find_crossings. Without a log function, the library does not search. The number of allocations shows
- * this. */
+ * with the pairs of riis_find_crossings. Without a log function, the library does not search, which the number of allocations
+ * shows. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -11,7 +11,7 @@
 #include "sanitized.h"
 
 /* These functions replace operator new for the process, because symbols of an executable come before those of libraries. With a
- * sanitizer nothing is replaced, because its allocator must be the only one. */
+ * sanitizer the functions are not replaced, because the sanitizer's allocator must be the only one. */
 static int64_t n_allocations;
 #ifndef IS_SANITIZED
 void *new_one(size_t size) __asm__("_Znwm");
@@ -117,8 +117,8 @@ TEST_WITH(a_valve_that_begins_open_is_named, start_listening, stop_listening) {
 
 static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};
 
-/* Valves of default shapes do not cross at any opening, and neither do other healthy shapes. Closed mitral leaflets touch. The
- * fixed triangles of such leaflets cross by less than the depth that counts as a crossing. */
+/* Leaflets of default shapes and of other healthy shapes do not cross at any opening. Closed mitral leaflets touch. The fixed
+ * triangles of such leaflets cross by less than the depth that counts as a crossing. */
 TEST_WITH(sound_shapes_are_not_named, start_listening, stop_listening) {
   for (int kind = 0; kind < 5; ++kind)
     for (int32_t triangulation = 0; triangulation < 2; ++triangulation) {
@@ -148,7 +148,8 @@ TEST_WITH(sound_shapes_are_not_named, start_listening, stop_listening) {
   assert_int_equal(warnings.n, 0);
 }
 
-/* One unit square lies at z = 0. An upright square at y = 0.5 cuts through it. The squares are one leaflet or two leaflets. */
+/* One unit square lies at z = 0. An upright square at y = 0.5 cuts through the first square. The squares are one leaflet or two
+ * leaflets. */
 TEST_WITH(patches_are_a_shape_of_the_user, start_listening, stop_listening) {
   for (int32_t second = 0; second < 2; ++second) {
     const double control[] = {0,  0,  0, 1,  0,  0, 0,   1,  0,  1,  1,   0,  0,   0,   0,  0,

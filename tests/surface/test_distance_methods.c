@@ -103,8 +103,8 @@ static riis_surface *measured(const riis_valve *valve, int32_t distance, double 
   return new_surface(valve, &options);
 }
 
-/* A hairpin that leans more as v grows. At the middle of v, its arm at x = 1 is nearest to the point. At v = 1, its other arm is
- * nearest. */
+/* A hairpin that leans more as v grows. At the middle of v, the hairpin's arm at x = 1 is nearest to the point. At v = 1, the
+ * other arm is nearest. */
 static const double between_arms[3] = {0.2, 1, 1};
 static riis_valve *hairpin(void) {
   const double sides[24] = {-1.95, 0, 1, -1.95, 0, -2, 1, 0, -2, 1, 0, 1, -0.05, 1, 1, -0.05, 1, -2, 1, 1, -2, 1, 1, 1};
@@ -283,7 +283,7 @@ TEST(powell_finds_minima) {
 }
 
 /* The distances of two points from the surface differ by at most the distance between the points. The proof of the neighbour
- * search relies on this. */
+ * search relies on this bound. */
 TEST(sampling_is_lipschitz) {
   random_source rng = random_start("sampling_is_lipschitz");
   riis_surface *surface = measured(references[3].valve, RIIS_MEASURE_SAMPLING, 0.2);
@@ -297,9 +297,9 @@ TEST(sampling_is_lipschitz) {
   }
 }
 
-/* Minimisation never gives a distance that is too small. On a rectangle it is exact, because the squared distance has one
- * minimum. On other surfaces it may end in a wrong local minimum. Most answers are right, and the test prints the number of wrong
- * answers. */
+/* Minimisation never gives a distance that is too small. On a rectangle, minimisation is exact, because the squared distance has
+ * one minimum. On other surfaces, minimisation may end in a wrong local minimum. Most answers are right, and the test prints the
+ * number of wrong answers. */
 TEST(minimisation_is_never_below) {
   random_source rng = random_start("minimisation_is_never_below");
   const double tolerances[] = {0.01, 0.001}; /* the tolerances of the paper */

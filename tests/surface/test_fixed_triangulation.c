@@ -83,8 +83,8 @@ static void check_same_topology(const topology *a, const topology *b) {
   assert_memory_equal(a->patch_id, b->patch_id, n * sizeof *a->patch_id);
 }
 
-/* Checks 101 openings. The choice of the grid lines did not use all of them. The triangles stay the same and keep the bound. The
- * number of triangles is at most 1.5 times the largest number of adapted triangles. */
+/* Checks 101 openings. The choice of the grid lines used only some of these openings. The triangles stay the same and keep the
+ * bound. The number of triangles is at most 1.5 times the largest number of adapted triangles. */
 static void check_triangles_stay(riis_valve *valve, const char *name) {
   const riis_surface_options options = fixed_options();
   set_opening(valve, 0.5);
@@ -357,7 +357,7 @@ TEST(other_changes_are_refused) {
   CHECK_OK(riis_surface_update(surface, valve, &options));
   options.tolerance = 0.01;
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "fixed triangulation", riis_surface_update(surface, valve, &options));
-  /* An update without the option drops the fixed triangulation. A later update may make a new one. */
+  /* An update without the option drops the fixed triangulation. A later update may make a new fixed triangulation. */
   options.triangulation = RIIS_TRIANGULATION_ADAPTED;
   CHECK_OK(riis_surface_update(surface, valve, &options));
   options.triangulation = RIIS_TRIANGULATION_FIXED;

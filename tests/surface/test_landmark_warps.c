@@ -149,7 +149,7 @@ static void point_on(riis_valve *valve, const on_side *at, double *point) {
 }
 
 /* Landmarks lie at random on curves of the closed valve, and move at random. At each opening, the warped valve must pass through
- * the mapped points of the curves. The arcs of mitral leaflets are left out, because the warped valve computes them anew. */
+ * the mapped points of the curves. The arcs of mitral leaflets are left out, because a warped valve makes new arcs. */
 TEST(warped_curves_pass_through_mapped_landmarks) {
   double worst = 0;
   int n_warps = 0;

@@ -581,7 +581,7 @@ TEST(test_exact_aortic) {
       CHECK_NEAR(value(valve, name), angle[cusp], 1e-7);
       snprintf(name, sizeof name, "%s.leaflet_radius_out", cusps[cusp]);
       CHECK_NEAR(value(valve, name), end, 1e-9);
-      /* Cusps close at the commissures if their radii and angles meet there. */
+      /* Cusps close at the commissures if radii and angles meet there. */
       snprintf(name, sizeof name, "%s.rotation", cusps[cusp]);
       CHECK_OK(riis_valve_get(valve, name, 3, turn));
       CHECK_NEAR(turn[2], cusp == 0 ? 0 : cusp == 1 ? angle[0] + angle[1] : -angle[0] - angle[2], 1e-7);
@@ -654,7 +654,8 @@ TEST(test_exact_mitral) {
     if (has_more) add_commissures(&p, ratio, sizes);
     if (trial % 3 == 1) memset(p.flow, 0, sizeof p.flow); /* the commissures show the atrium's side */
     place_patient(&p, scales[trial % 3]);
-    /* With the default noise, some valves have a size that counts as undetermined. Exact landmarks still give its exact value. */
+    /* With the default noise, some valves have a size that counts as undetermined. Exact landmarks still give the exact value of
+     * such a size. */
     if (trial % 2 == 0) p.noise = 0.01 * p.scale;
     riis_valve *valve = new_valve("mitral");
     const answer found = place(valve, &p);
@@ -768,7 +769,8 @@ typedef struct saddle {
 
 static const char *kind_of(const saddle *s) { return s->is_mitral ? "mitral_coapting" : "tricuspid"; }
 
-/* Writes the control points, starting from the middle of the flat side. Seen from +z, they run counter-clockwise. */
+/* Writes the control points, starting from the middle of the flat side. Seen from +z, the control points run
+ * counter-clockwise. */
 static void cubics(const saddle *s, double q[4][4][3]) {
   const double sign = s->is_mitral ? 1 : -1, a = s->width / 2, circle = 0.5523, h = s->height / 2;
   const double near = (0.5 - 0.12 * s->flatness) * s->depth, far = s->depth - near;
@@ -867,8 +869,8 @@ static patient patient_with(const saddle *s, int n_points, bool has_horns, bool 
   return p;
 }
 
-/* Compares the sizes of a placed valve with the true sizes. Returns their number, and writes the errors in units of the standard
- * errors. */
+/* Compares the sizes of a placed valve with the true sizes. Returns the number of sizes, and writes the errors in units of the
+ * standard errors. */
 static int saddle_errors(const riis_valve *valve, const saddle *s, const answer *found, double *error,
                          double *in_errors) {
   const char *names[6] = {s->is_mitral ? "ALPM_diameter" : "AP_diameter",

@@ -195,7 +195,7 @@ static compared compare(const states *now, const states *before, double seconds,
     assert_int_equal(fields.n_nodes, n_points);
     const double *at_vertices = velocity_of(surface), half_thickness = info_of(surface).half_thickness;
     for (int64_t i = 0; i < n_points; ++i) {
-      /* If leaflets are equally near, the velocity is the mean of theirs (test_ties). */
+      /* If leaflets are equally near, the velocity is the mean of the leaflets' velocities (test_ties). */
       if (tied_velocity_at(&c, at_vertices, xyz + 3 * i, within_in(result).distance[i], half_thickness).n_leaflets > 1)
         continue;
       mean_velocity(&s, &t, seconds, fields.patch_id[i], fields.uv + 2 * i, expected);
@@ -228,8 +228,8 @@ TEST(vertices_move_as_the_oracles) {
   printf("at random points the velocity is off by %.3f of tolerance, per unit of opening, at most\n", share);
 }
 
-/* The mean velocity over a step is the velocity at the step's middle. At the step's end, its error is therefore proportional to
- * the length of the step. */
+/* The mean velocity over a step is the velocity at the step's middle. At the step's end, the error of this velocity is therefore
+ * proportional to the length of the step. */
 TEST(the_error_falls_with_the_time_between) {
   double last = 0;
   for (int i = 1; i <= 3; ++i) {

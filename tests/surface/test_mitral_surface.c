@@ -258,8 +258,8 @@ TEST(closed_leaflets_share_their_edge) {
   assert_true(n_shared >= 6 && 3 * n_shared >= n_of_edge);
 }
 
-/* Two neighbouring grid lines of a patch join the same two sides. Returns their least distance, as a fraction of the longer
- * side. */
+/* Two neighbouring grid lines of a patch join the same two sides. Returns the least distance of two such lines, as a fraction of
+ * the longer side. */
 static double least_step(const riis_triangles *c, int32_t patch, double *longer) {
   double length_of[2] = {0, 0}, *u = own(malloc((size_t)c->n_triangles * 2 * sizeof *u));
   size_t n = 0;
@@ -283,9 +283,9 @@ static double least_step(const riis_triangles *c, int32_t patch, double *longer)
 }
 
 /* In valves of many shapes, no two grid lines nearly coincide. If both sides need a line, and these lines are within 0.02 of the
- * tolerance, they become one line (docs/theory/triangles.md). At a joint of the annulus, O has a kink. A line next to a joint
- * exists only if the tolerance needs it. The least ratio in 3,840 valves was 0.4. (Triangles can still be flat: if a leaflet's
- * arcs meet its free edge at a small angle, the quads are sheared.) */
+ * tolerance, they become one line (docs/theory/triangles.md). At a joint of the annulus, the offset O of the arcs has a kink. A
+ * line next to a joint exists only if the tolerance needs it. The least ratio in 3,840 valves was 0.4. (Triangles can still be
+ * flat: if a leaflet's arcs meet its free edge at a small angle, the quads are sheared.) */
 TEST(has_no_slivers) {
   random_source rng = random_start("test_mitral_surface");
   double least = 1e30;
@@ -398,7 +398,7 @@ TEST(opens_from_one_state_to_another) {
   }
 }
 
-/* Half way between two aortic states, the middle of each free edge is half way between its two places. */
+/* Half way between two aortic states, the middle of each free edge is half way between its places in both states. */
 TEST(control_points_are_blended) {
   riis_valve *valve = new_valve("aortic"), *open = new_valve("aortic");
   CHECK_OK(riis_valve_set_scalar(open, "right.leaflet_radius_in", 1.04));

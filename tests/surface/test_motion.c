@@ -67,7 +67,7 @@ static riis_valve *valve_of(const strip *from) {
   return own(valve);
 }
 
-/* Returns the strip at time t. Each point x has then moved to (1 + growth t) x + drift t. */
+/* Returns the strip at time t. At time t, each point x has moved to (1 + growth t) x + drift t. */
 static strip strip_at(const strip *from, double t, double growth, const double *drift) {
   strip made;
   for (int i = 0; i < n_control; ++i)

@@ -354,7 +354,7 @@ TEST(leaks_are_ideal) {
                   riis_surface_get_leak(surface, &how, 1, &flow));
     how.R = NAN;
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is nan", riis_surface_get_leak(surface, &how, 1, &flow));
-    /* With a smaller R the flow would be infinite. Without a pressure drop it would be NaN. */
+    /* With a smaller R the flow would be infinite. Without a pressure drop the flow would be NaN. */
     how.R = 1e-61;
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is 1e-61", riis_surface_get_leak(surface, &how, 0, &flow));
     how.R = 1e-60, how.half_thickness = 1e50;

@@ -266,8 +266,8 @@ TEST(contacts_have_known_areas) {
   }
 }
 
-/* Closed trileaflet cusps touch along their whole free edges. Open cusps touch only near the commissures. A skirt or a housing
- * touches nothing. */
+/* Closed trileaflet cusps touch along their whole free edges. Open cusps touch only near the commissures. Skirts and housings do
+ * not count as touching. */
 TEST(closed_leaflets_touch_along_their_free_edges) {
   for (int trial = 0; trial < 2; ++trial) {
     riis_valve *valve = new_valve("trileaflet");

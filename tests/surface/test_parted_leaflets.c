@@ -184,8 +184,7 @@ TEST(rigid_leaflets_lack_their_disc) {
   assert_int_equal(orifice_of(surface_of_soup(&leaflets, 1, NULL)).outline, RIIS_OUTLINE_BOUNDARY);
 }
 
-/* Makes a tube around the z axis, from -length / 2 to length / 2. Random numbers decide the direction in which each triangle runs
- * round. */
+/* Makes a tube around the z axis, from -length / 2 to length / 2. The winding of each triangle is random. */
 static riis_surface *tube_of(double radius, double length, const riis_surface_options *placed) {
   enum { n_round = 512 };
   const double pi = 3.14159265358979323846;

@@ -157,8 +157,8 @@ static riis_surface *surface_of_soup(const soup *s, double half_thickness) {
   return surface_from(&arrays, &options);
 }
 
-/* Returns the crossings. The list's arrays live as long as the test. If the caller passes `crossings`, the call reuses its
- * memory. */
+/* Returns the crossings. The list's arrays live as long as the test. If the caller passes `crossings`, the call reuses the memory
+ * of this list. */
 static riis_crossing_list crossings_in(const riis_surface *surface, double depth, int32_t n_threads,
                                        riis_crossings *crossings) {
   riis_crossing_options options;
@@ -216,7 +216,7 @@ static void check_pair(const riis_crossing_list *pairs, int64_t at, const double
   double middle[3];
   const double length = oracle_segment(a, b, middle);
   CHECK_NEAR(pairs->depth[at], depth, 0x1p-24 * longest + 0x1p-48 * largest);
-  /* The angle between the planes is at least depth / longest. This ratio makes the segment ill-conditioned. */
+  /* The angle between the planes is at least depth / longest. The smaller this ratio, the less exact is the segment. */
   const double error = 0x1p-44 * (longest + largest) * longest / depth;
   CHECK_NEAR(pairs->length[at], length, error);
   for (int i = 0; i < 3; ++i) CHECK_NEAR(pairs->point[3 * at + i], middle[i], error);

@@ -52,7 +52,7 @@ static riis_valve *copy_of(const riis_valve *valve) {
 
 enum { max_parameters = 128 };
 
-/* The values that were set. The expected values of a valve follow from them. */
+/* The values that were set. The expected values of a valve follow from the values that were set. */
 typedef struct model {
   const char *kind;
   int64_t n;
@@ -90,8 +90,8 @@ static const char *of_cusp(int cusp, const char *name) {
   return made;
 }
 
-/* Returns the exponent p with which the profile x = in + (end - in) (y / y_end)^p ends towards the axis. Then p (end - in) equals
- * end. The sizes are the radii `in` and `end`, and the angle. */
+/* Returns the exponent p with which the profile x = in + (end - in) (y / y_end)^p ends towards the axis. For this exponent, p
+ * (end - in) equals end. The sizes are the radii `in` and `end`, and the angle. */
 static double largest_power(const double *sizes) {
   const double end = sizes[1] * cos(sizes[2] * acos(-1) / 180);
   return end > sizes[0] ? end / (end - sizes[0]) : INFINITY;
@@ -612,7 +612,7 @@ static double bound_of_power(const riis_valve *valve, int k) {
                                         value_of(valve, of_cusp(k, "leaflet_angle"))});
 }
 
-/* Every size, angle and exponent of an aortic valve varies by this share. The sum of the angles stays 180. */
+/* Every size, angle and exponent of an aortic valve varies by this share. The sum of the angles stays 180 degrees. */
 static riis_valve *random_aortic(double share, int power) {
   riis_valve *valve = new_valve("aortic");
   double sum = 0;
@@ -726,8 +726,8 @@ static int attachments_pass(const riis_valve *valve) {
   return beyond[0] + beyond[1] > 0 || beyond[1] + beyond[2] > 0 || beyond[2] + beyond[0] > 0;
 }
 
-/* Returns whether a cusp folds near its root, at openings in steps of a twentieth. Triangles may cross up to a tenth before the
- * smooth cusp folds. */
+/* Returns whether a cusp folds near its root, at openings in steps of a twentieth. Triangles may cross at openings up to a tenth
+ * before the smooth cusp folds. */
 static int cusp_folds(riis_valve *valve) {
   int folds = 0;
   for (int i = 0; i <= 20 && !folds; ++i) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the skirt. The skirt's inner edge must lie on the attachment, and its outer edge outwards from it by the skirt's length.
+ * Tests the skirt. The skirt's inner edge must lie on the attachment, and the outer edge must lie outwards by the skirt's length.
  * The skirt must seal a gap to a wall that is otherwise open. The leaflets, the orifice, the swept volumes and the attachment
  * must stay the same. */
 #include <riis/riis.h>
@@ -74,8 +74,8 @@ static double distance_to_edge(const double *p, const double *a, const double *b
   return length_of(off);
 }
 
-/* Skirts lead away from this line, which is the axis of the valve's frame. For the mitral valve it is the parallel through the
- * centroid of the annulus. */
+/* Skirts lead away from this line, which is the axis of the valve's frame. For the mitral valve the line is parallel to this
+ * axis, through the centroid of the annulus. */
 typedef struct axis_line {
   double centre[3], direction[3];
 } axis_line;
@@ -201,8 +201,9 @@ TEST(leaflets_stay_as_they_are) {
   }
 }
 
-/* Along the attachment, the edges of the leaflets and of the skirt run in opposite directions. The normals of both therefore
- * point to one side. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, to the last bit. */
+/* Along the attachment, the edges of the leaflets and of the skirt run in opposite directions. The normals of leaflets and skirt
+ * therefore point to one side. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, to the last
+ * bit. */
 TEST(the_skirt_continues_the_leaflets) {
   for (int trial = 0; trial < n_trials_of_kinds(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;
@@ -327,8 +328,8 @@ static int leaks(const riis_surface *surface, const test_mesh *nodes) {
   return passage.state == RIIS_PASSAGE_OPEN;
 }
 
-/* The closed valve stands in a mesh with a gap between the attachment and the wall. A skirt as long as the gap closes it. The
- * aortic valve is left out, because it leaks in such a mesh even if the wall cuts its attachment. */
+/* The closed valve stands in a mesh with a gap between the attachment and the wall. A skirt as long as the gap closes the gap.
+ * The aortic valve is left out, because it leaks in such a mesh even if the wall cuts its attachment. */
 TEST(skirts_seal_gaps) {
   static const double gaps[4] = {0.05, 0.1, 0.15, 0.2};
   for (int kind = 0; kind < 4; kind += kind == 1 ? 2 : 1)
@@ -390,7 +391,8 @@ static double longer_side(const riis_triangles *t, const double *xyz, int32_t pa
 }
 
 /* With a fixed triangulation, a vertex moves by its velocity times the step, plus a slide. Lines of mitral patches follow the
- * joints of the annulus, so the vertex's label changes. A velocity belongs to a constant label, so the slide is extra. */
+ * joints of the annulus, so the vertex's label changes. A velocity belongs to a constant label, so a velocity does not contain
+ * the slide. */
 TEST(skirts_move_with_the_attachment) {
   const double seconds = 0.1;
   for (int trial = 0; trial <= n_skirted; trial += trial_step()) {

@@ -27,7 +27,7 @@ static const char *const kinds[n_kinds] = {"aortic", "trileaflet", "coapting", "
 
 /* --- States and steps ------------------------------------------------------------------------------------------------- */
 
-/* A state that moves. In the middle of a step it has these values plus half of the rates. */
+/* A state that moves. In the middle of a step, the state has these values plus half of the rates. */
 typedef struct state_of_skirt {
   double opening, size[3]; /* the sizes are factors; the last factor scales the skirt's length */
   riis_surface_options placed;

@@ -15,7 +15,7 @@ static random_source rng;
 
 static int64_t any_of(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
 
-/* Triangles from arrays. An update moves them, changes their order, or replaces them by more, fewer or equally many triangles. */
+/* Triangles from arrays. An update moves the triangles, changes their order, or replaces them by other triangles. */
 enum { max_triangles = 600 };
 static double soup[9 * max_triangles];
 static int32_t soup_ids[3 * max_triangles];

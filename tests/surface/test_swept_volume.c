@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Swept volumes are compared with sums over moving updates. Swept volumes are also compared with closed forms, for leaflets that
- * turn and patches that translate. Volumes of parts must add up. */
+ * turn and patches that translate. The volumes of parts must add up to the whole volume. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -279,7 +279,8 @@ TEST(attachments_are_on_the_cylinder) {
   }
 }
 
-/* Returns the length of half an open free edge without sag. Chords measure it, and the document gives the formulas. */
+/* Returns the length of half an open free edge without sag. The length is measured along chords, and the document gives the
+ * formulas. */
 static double open_length(double ratio, double radius, double half_sector, double expansion) {
   const double s = sin(half_sector), c = cos(half_sector), w = 4 / 3.0 * tan(half_sector / 4) * radius;
   const double flat = fmin(1, fmax(0, (ratio - c) / (1 - c) / 0.7)), near = fmax(0, 1 - fabs(c - 0.5) / 0.22);

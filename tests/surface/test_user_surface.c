@@ -6,7 +6,7 @@
 
 #include "handles.h"
 
-/* Two triangles are a unit square in z = 0. A third triangle lies 5 above it. */
+/* Two triangles are a unit square in z = 0. A third triangle lies 5 above this square. */
 static const double xyz[21] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 5, 1, 0, 5, 0, 1, 5};
 static const int32_t ids[9] = {0, 1, 2, 0, 2, 3, 4, 5, 6};
 static const int32_t leaflets[3] = {7, 8, 9};
@@ -244,8 +244,8 @@ TEST(vertices_alone_are_refused_without_their_faces) {
                 riis_surface_update_from_arrays(surface, &vertices, NULL));
 }
 
-/* A closed body with sharp edges. Points inside are recognised even if the closest point is on an edge or a corner. The normal of
- * a single face would give the wrong side there. */
+/* A closed body with sharp edges. Points inside are recognised even if the closest point is on an edge or a corner. At such
+ * points, the normal of a single face would give the wrong side. */
 TEST(side_at_edges_and_corners_of_a_wedge) {
   /* A thin tetrahedron. The dihedral angles are far below and far above 90 degrees. */
   const double points[12] = {0, 0, 0, 4, 0, 0, 2, 0.5, 0, 2, 0.25, 0.3};
@@ -256,7 +256,7 @@ TEST(side_at_edges_and_corners_of_a_wedge) {
   int n_inside = 0, n_edge = 0;
   for (int trial = 0; trial < 50000; ++trial) {
     const double p[3] = {random_between(&rng, -1, 5), random_between(&rng, -0.5, 1), random_between(&rng, -0.5, 0.8)};
-    /* Whether the point is inside all four planes. */
+    /* Returns whether the point is inside all four planes. */
     int inside = 1;
     for (int f = 0; f < 4; ++f) {
       const double *a = points + 3 * faces[3 * f], *b = points + 3 * faces[3 * f + 1],

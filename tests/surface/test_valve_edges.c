@@ -80,7 +80,7 @@ static void lengths_of_edges(riis_valve *valve, double *lengths) {
   free_one_owned(sides);
 }
 
-/* The free edge keeps its length unless it stretches. Fusion does not matter. */
+/* The free edge keeps its length if it does not stretch. Fusion does not matter. */
 TEST(free_edges_keep_their_length) {
   double worst = 0;
   for (int trial = 0; trial < trials(3 * n_studied, 40 * n_studied); ++trial) {

@@ -38,7 +38,7 @@ static int crosses(riis_valve *valve, riis_crossings *crossings) {
   return 0;
 }
 
-/* If there are few sets, they may exceed a share by chance. The bounds for few sets are therefore wider by three standard
+/* If there are few sets, chance may lift them above a share. The bounds for few sets are therefore wider by three standard
  * deviations. */
 static double at_most(double share, int n) {
   return n * share + (is_long_test() ? 0 : 3 * sqrt(n * share * (1 - share)));
@@ -63,8 +63,8 @@ static void study_row(const studied *of, double spread, sickness has, int n, rii
          count->refused - before.refused);
 }
 
-/* Returns how often too many sets cross or are refused. With many sets, each row has a share. With few sets, all rows share
- * one. */
+/* Returns how often too many sets cross or are refused. With many sets, each row has its own share. With few sets, all rows have
+ * one common share. */
 static int broken_bounds(double spread, const double *most_crossing, const double *most_refused) {
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));
@@ -91,7 +91,7 @@ static int broken_bounds(double spread, const double *most_crossing, const doubl
 }
 
 TEST(random_valves_do_not_cross) {
-  /* Random bumps fold a quarter of the bicuspid valves, even if the other sizes are nearly usual. */
+  /* Random bumps make a quarter of the bicuspid valves fold, even if all other sizes are nearly usual. */
   static const double none_crosses[n_sicknesses] = {0, 0, 0}, few_cross[n_sicknesses] = {0.01, 0.01, 0.02},
                       few_refused[n_sicknesses] = {0.1, 0.1, 0.35}, some_refused[n_sicknesses] = {0.35, 0.35, 0.35};
   assert_int_equal(broken_bounds(0.1, none_crosses, few_refused), 0);

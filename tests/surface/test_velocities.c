@@ -244,7 +244,7 @@ TEST(the_bound_is_near) {
   }
   printf("mitral, where a joint passes: the bound is at most %.3g of the largest speed\n", worst);
   CHECK_AT_MOST(worst, 0.2);
-  /* At this opening the leaflets are flat, and about to bend. */
+  /* At this opening the leaflets are flat, and begin to bend. */
   riis_valve *valve = new_valve("mitral"), *before = new_valve("mitral"), *open = new_valve("mitral");
   CHECK_OK(riis_valve_set_scalar(valve, "surface_angle", 25));
   CHECK_OK(riis_valve_set_scalar(open, "surface_angle", -25));

@@ -114,7 +114,7 @@ static int64_t landmarks_on(const riis_surface *surface, int64_t n_wanted, doubl
   return n;
 }
 
-/* The landmarks lie beside the attachment. No curve is cut there, so a warped curve keeps its spans. */
+/* The landmarks lie beside the attachment. No curve is cut beside the attachment, so a warped curve keeps its spans. */
 static int64_t landmarks_beside(const riis_surface *surface, int64_t n_wanted, double *xyz) {
   const int64_t n = landmarks_on(surface, n_wanted, xyz);
   for (int64_t i = 0; i < n; ++i)
@@ -191,8 +191,9 @@ TEST(the_map_solves_its_equations) {
       CHECK_NEAR(info.rms_residual, sqrt(0.6 * 3 * (n - 4.0) / n) * noise, 1e-6 * noise);
     }
     if (isfinite(info.smoothing)) {
-      /* The library's lambda is for coordinates in units of the widest rms extent. The test therefore finds lambda from the
-       * residuals. Because K w + P c + residual is the target, each residual is lambda times the weight of its landmark. */
+      /* The library's lambda is for coordinates in units of the largest root mean square extent. The test therefore finds lambda
+       * from the residuals. Because K w + P c + residual is the target, each residual is lambda times the weight of its
+       * landmark. */
       for (int i = 0; i < n; ++i) {
         for (int k = 0; k < n; ++k) a[i * m + k] = pow(distance3(from + 3 * i, from + 3 * k) / unit, 3);
         for (int k = 0; k < 4; ++k) a[i * m + n + k] = a[(n + k) * m + i] = k == 0 ? 1 : from[3 * i + k - 1] / unit;
@@ -370,8 +371,8 @@ TEST(a_rigid_warp_equals_a_placement) {
   }
 }
 
-/* Curves of warped valves are compared with the map. The compared values are their ends, the directions of their end tangents,
- * and their distance from the mapped curve. A curve that is not warped must equal the plain valve's curve. */
+/* Curves of warped valves are compared with the map. The compared values are the curves' ends, the directions of the end
+ * tangents, and the distance from the mapped curve. A curve that is not warped must equal the plain valve's curve. */
 static riis_valve_patches patches_of(riis_valve *valve) {
   riis_valve_patches patches;
   CHECK_OK(riis_valve_get_patches(valve, &patches, sizeof patches));
@@ -486,7 +487,7 @@ TEST(patches_make_the_same_valve) {
 }
 
 /* The warped annulus of a mitral valve has separate landmarks in the closed and the open state. In either state the annulus
- * passes through them. */
+ * passes through its landmarks. */
 TEST(closed_and_open_landmarks_are_met) {
   for (int trial = 0; trial < trials_of(18); ++trial) {
     const int owned_before = n_owned();
@@ -948,7 +949,7 @@ static double normal(double deviation) {
 }
 
 /* The landmarks of random patients have a clinician's noise, which smooths the warp. No part of a leaflet turns over at any
- * opening. Exact landmarks also turn over no part. Five times this noise without smoothing folds nearly every valve.
+ * opening. With exact landmarks, no part turns over either. Five times this noise without smoothing folds nearly every valve.
  * RIIS_TEST_LONG=1 takes 100 patients of each sort. */
 TEST(warps_of_patients_do_not_fold) {
   const int n_patients = trials(25, 100), n_openings = is_short_test() ? 5 : 50;
