@@ -258,7 +258,7 @@ TEST(test_warp) {
     assert_int_equal(read_array(scratch_path("w1.vtu"), "riis_distance", two), n_box);
     for (int i = 0; i < n_box; ++i) assert_true(fabs(one[i] - two[i]) < 0.02);
   }
-  /* Here the shift is in the valve's own coordinates, which turn with the valve. The valve therefore moves along y. */
+  /* With "coordinates" set to "valve", the shift turns with the valve. The valve therefore moves along y. */
   snprintf(valve, sizeof valve,
            "{\"valve\": \"trileaflet\", \"opening\": 0.4, \"rotate\": [0, 0, 1, 90], \"warp\": {\"sources\": " LANDMARKS
            ", \"targets\": [%s, %s, %s], \"times\": [0, 0.2, 0.4], \"period\": 0.4, \"coordinates\": \"valve\"}}",

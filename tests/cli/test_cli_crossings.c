@@ -146,7 +146,7 @@ TEST(what_has_no_effect_is_refused) {
   RUN_REFUSED(2, "--times is not an option", "check", "crossings", "--valve", "mitral", "--times", "0,1");
 }
 
-/* The numbers equal those of the C interface. The valve's present opening does not change them. */
+/* The numbers equal those of the C interface. The numbers do not depend on the valve's present opening. */
 TEST(a_chosen_shape_is_looked_at) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;

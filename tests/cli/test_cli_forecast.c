@@ -301,7 +301,7 @@ static double flow_through_plate(const mesh *of, const double *distance, double 
       /* Converts VTK's coordinates, which are between 0 and 1, to those of the solver's reference elements. */
       double axis[3][3];
       for (int k = 0; k < 3; ++k) {
-        /* The solver swaps nodes 0 and 1 of half of the tetrahedra and wedges. The sums here do not change. */
+        /* The solver swaps nodes 0 and 1 of half of the tetrahedra and wedges. The exchange does not change the sums below. */
         for (int c = 0; c < 3; ++c)
           axis[k][c] = of->type->vtk == 10            ? gradient[k][c]
                        : of->type->vtk == 13 && k < 2 ? gradient[k][c] + gradient[k + 3][c]
@@ -378,7 +378,7 @@ TEST(test_drop) {
   for (int i = 0; i < 4; ++i) {
     const element *type = &elements[i % 3];
     const fluid *by = &fluids[i / 2];
-    /* The area needs more than three digits, so the printed area must also have more. */
+    /* The tube's area has more than three digits, and the program must print more than three. */
     const double z = 3, half = 0.9968, area = 4 * half * half;
     double side[3][3] = {{2 * half, 0, 0}, {0, 2 * half, 0}, {0, 0, 2 * z}}, corner[3] = {-half, -half, -z};
     const int n[3] = {4, 4, 13};
@@ -398,8 +398,8 @@ TEST(test_drop) {
     uris_state closed = uris_state_of(&exported, exported.n_faces, 1, exported.face[0].n_close - 1);
     distances_of(&tube, &closed, 1, distance);
     uris_state_free(&closed);
-    /* The region consists of the elements with a node near the surface. The limit is 2.5 half thicknesses, or one half thickness
-     * plus two median edges. */
+    /* The region consists of the elements with a node near the surface. A node is near if its distance is below 2.5 half
+     * thicknesses, or below one half thickness plus two median edges. */
     const double reach = fmax(2.5 * eps, eps + 2 * number_after(program_out, "median edge "));
     double length = step / 2;
     while (length <= reach) length += step;
@@ -475,8 +475,8 @@ TEST(test_refusals) {
   expect_no_folder();
 }
 
-/* Beside a thicker band, the message advises shorter edges. In a uniform mesh both have the same ratio, and the number of nodes
- * follows from the edges. */
+/* Beside a thicker band, the message advises shorter edges. In a uniform mesh, the number of nodes follows from the edge
+ * length. */
 TEST(test_finer_edges) {
   need_scipy();
   double side[3][3] = {{2, 0, 0}, {0, 2, 0}, {0, 0, 4.8}}, corner[3] = {-1, -1, -2.5};

@@ -71,7 +71,7 @@ TEST(test_sizes) {
   CHECK_NEAR(orifice_of("bileaflet", 0.4, "annulus", said("annulus"), 1).area, 1.5, 1e-3);
 }
 
-/* Returns the orifice with three changed parameters. Two of them are given as "NAME=VALUE". */
+/* Returns the orifice with three changed parameters. Two of these parameters are given as "NAME=VALUE". */
 static double area_with(const char *kind, double opening, const char *const *settings, const char *name, double value) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -143,7 +143,7 @@ TEST(test_gap_in_band) {
 #undef GAP
 }
 
-/* The areas of a known motion lead back to this motion. riis mark moves the valve by it, with velocities. */
+/* The areas of a known motion lead back to this motion. riis mark moves the valve by this motion, and writes velocities. */
 TEST(test_cycle) {
   enum { n = 9 };
   static const double openings[n] = {0, 0.2, 0.7, 1, 1, 0.8, 0.4, 0, 0};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * --leaflets takes a surface file's leaflets from its connected pieces or from one of its arrays. --prefix adds the marks of a
- * second valve to those of the first. --replace puts them in place of the first. */
+ * second valve to those of the first. --replace removes the first valve's marks. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>
@@ -63,7 +63,7 @@ TEST(test_leaflets) {
   assert_non_null(strstr(program_out, "squares.stl: 6 triangles, 3 leaflets, area 12\n"));
   RUN_LEAFLETS("squares.stl", "--leaflets", "connected", "--stats", "-");
   assert_true(json_number(program_out, "n_leaflets") == 3);
-  /* The written surface keeps the leaflets. In its array riis_triangle, every triangle has a different number. */
+  /* The written surface keeps the leaflets. The array riis_triangle of a surface gives every triangle a different number. */
   RUN_FINE("surface", "--surface", scratch_path("squares.stl"), "--leaflets", "connected", "--output",
            scratch_path("squares.vtp"));
   RUN_LEAFLETS("squares.vtp", "--quiet");

@@ -81,8 +81,8 @@ static void expect_advice(const char *name, const char *kind) {
            "riis: the surface leaks: %d edges cross it between two unmarked nodes, the longest (%.3g) at ",
            (int)leaks.n_edges, leaks.longest_length);
   assert_int_equal(strncmp(program_leaks, expected, strlen(expected)), 0);
-  /* In the coarsest meshes, the half thickness is far too small for the edges. The warning about this comes first. No other
-   * warning contains advice. */
+  /* In the coarsest meshes, the half thickness is far too small for the edges. The warning about the half thickness comes first.
+   * No other warning contains advice. */
   const char *const earlier = strstr(program_err, "the median edge of the mesh ");
   expect_place(program_leaks + strlen(expected), leaks.longest_middle, leaks.longest_length,
                earlier ? "\n" : "; --half-thickness ");
@@ -346,8 +346,8 @@ static void expect_demanded(int exit_code, const char *mesh) {
   expect_warned(exit_code);
 }
 
-/* A mesh without leaking edges satisfies the command. Leaking edges, unknown leaks and a mesh far from the valve do not satisfy
- * it. */
+/* A mesh without leaking edges passes the check. A mesh with leaking edges, with unknown leaks or far from the valve fails the
+ * check. */
 TEST(test_demanded_seal) {
   riis_surface *surface = make_surface("mitral", 0.1);
   write_mesh("fine.vtu", surface, 0.2);
@@ -366,8 +366,8 @@ TEST(test_demanded_seal) {
   RUN_REFUSED(2, "--demand-sealed is not an option", "mark", scratch_path("fine.vtu"), "--demand-sealed");
 }
 
-/* The nodes of quadratic cells cut them into linear cells, which leak alike. Each quadratic cell has one inner edge that the
- * linear cells lack. */
+/* The nodes of a quadratic cell divide the cell into linear cells, which have equal leaks. Each quadratic cell has one inner edge
+ * that the linear cells lack. */
 TEST(test_quadratic_cells) {
   plain_mesh hexahedra = box_of_mitral(9), quadratic = plain_quadratic_tetrahedra(&hexahedra),
              cut = plain_cut(&quadratic, 8), corners = plain_cut(&quadratic, 4);

@@ -84,7 +84,7 @@ TEST(test_stats_on_stdout) {
   assert_true(json_number(program_out, "n_nodes") == n_box);
 }
 
-/* If --surface reads the written surface, it gives the same marks, triangles and leaflets. */
+/* A run with --surface reads the written surface, and finds the marks, triangles and leaflets of the first run. */
 TEST(test_surface_from_file) {
   riis_valve *valve = NULL;
   riis_surface_options options;
@@ -180,7 +180,7 @@ TEST(test_refused_resistances) {
   RUN_REFUSED(2, "--resistance is nan", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "nan");
   RUN_REFUSED(2, "--resistance", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "ten");
   RUN_REFUSED(2, "--resistance is not an option", "surface", "--valve", "aortic", "--resistance", "1");
-  /* The K of another valve is not replaced by accident. */
+  /* If the mesh already has the K of a valve, a second run does not replace this K by accident. */
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "1",
            "--prefix", "a", "--output", scratch_path("a.vtu"));
   RUN_REFUSED(2, "a_marked", "mark", scratch_path("a.vtu"), "--valve", "aortic", "--half-thickness", "0.3",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests valves that open. The program's marks are compared with those of the C interface. The mitral valve has an open state by
- * itself. Other valves open between two files. */
+ * Tests valves that open. The program's marks are compared with those of the C interface. The mitral valve needs no second file,
+ * because its kind has an open state. Other valves open between two files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -132,7 +132,7 @@ TEST(test_aortic) {
   riis_valve_destroy(&open);
 }
 
-/* Half way between two states, the surface's area lies between their areas. */
+/* Half way between two states, the surface's area lies between the areas of the states. */
 TEST(test_between) {
   scratch_write_text("open.json", "{\"leaflet_angle\": 50}");
   double area[3];

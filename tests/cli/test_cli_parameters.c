@@ -81,7 +81,7 @@ TEST(test_json_forms) {
   assert_true(in_cusp(program_out, "non_coronary", "leaflet_angle") == 60.5);
 }
 
-/* A value for one cusp overrides the value for all cusps, whatever their order in the file. */
+/* A value for one cusp overrides the value for all cusps, in any order of the two values in the file. */
 TEST(test_json_order) {
   const char *files[3] = {"{\"right.translation\": [1, 2, 3], \"translation\": [7, 8, 9]}",
                           "{\"translation\": [7, 8, 9], \"right.translation\": [1, 2, 3]}",
@@ -349,7 +349,7 @@ TEST(test_near_names) {
   RUN_REFUSED(1, "did you mean 'root_radius'?", "params", "--params", scratch_path("p.json"));
 }
 
-/* Options and files set sizes by a surgeon's names. Rules give the other sizes, and the template file lists them. */
+/* Options and files set sizes by a surgeon's names. Rules give the other sizes, and the template file lists these sizes. */
 TEST(test_named_sizes) {
   static char by_options[longest_output];
   RUN_FINE("params", "--valve", "trileaflet", "--set", "effective_height=1", "--set", "stj=2.6", "--set",
@@ -369,7 +369,7 @@ TEST(test_named_sizes) {
   assert_string_equal(program_out, by_options);
   RUN_FINE("params", "--valve", "trileaflet", "--params", scratch_path("p.json"), "--set", "leaflet_height=1.4");
   assert_true(json_number(program_out, "bending_height") == 0.7);
-  /* A template sets all values. After the program has read it, no value follows from others by a rule. */
+  /* A template sets all values. After the program has read this template, no value follows from others by a rule. */
   scratch_write_text("p.json", by_options);
   RUN_FINE("params", "--valve", "trileaflet", "--params", scratch_path("p.json"), "--set", "leaflet_height=1.4");
   assert_true(json_number(program_out, "leaflet_height") == 1.4 && json_number(program_out, "bending_height") == 0.5);

@@ -197,7 +197,7 @@ TEST(test_what_is_refused) {
   RUN_REFUSED(2, "MESH is required", "check", "leaks");
 }
 
-/* The mesh has two pieces. A point between them is in the bounding box, but far from every node. */
+/* The mesh has two pieces. A point between the pieces is in the mesh's bounding box, but far from every node. */
 TEST(test_pieces) {
   scratch_write_text("pieces.vtk",
                      "# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
@@ -367,7 +367,8 @@ static double closed_area_of_plates(int n, const double *heights, const char *ha
 }
 
 /* A plate closes its own area of the mesh. Two plates in one place close the area of one. The second plate counts more as its
- * distance grows, by the integral of K between the plates. From two half thicknesses on, it counts fully. */
+ * distance grows, by the integral of K between the plates. From a distance of two half thicknesses on, the second plate counts
+ * fully. */
 TEST(test_closed_area_of_plates) {
   const double one = 1.6 * 1.6, eps = 0.15, pi = acos(-1.0);
   for (int i = 0; i < 5; ++i) {
@@ -379,9 +380,9 @@ TEST(test_closed_area_of_plates) {
   }
 }
 
-/* Where two leaflets touch, they count once. Half of their coaptation within half a half thickness therefore does not count. The
- * half tube around the free edges also counts. The tube's width is 0.467 half thicknesses, the integral of K there over R /
- * eps. */
+/* Where two leaflets touch, only one of them counts. Half of their coaptation within half a half thickness therefore does not
+ * count. The half tube around the free edges also counts. The tube's width is 0.467 half thicknesses, which is the integral of K
+ * across the tube over R / eps. */
 TEST(test_closed_area_of_a_coaptation) {
   const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 2.3};
   assert_int_equal(shim_write_box(scratch_path("wide.vtu"), SHIM_RAW, 32, lower, upper, 0), 1);

@@ -58,7 +58,7 @@ TEST(test_pictures) {
   expect_picture("2.png");
   expect_picture("3.png");
   assert_non_null(strstr(program_out, "3.png"));
-  /* The third picture had no --view, so it is oblique. */
+  /* The third picture had no --view, so its view is oblique. */
   RUN_FINE("mark", "--half-thickness", "0.3", "--picture", scratch_path("4.png"), scratch_path("in.vtu"), "--view",
            "oblique");
   assert_true(scratch_is_same("3.png", "4.png"));
@@ -83,7 +83,8 @@ static const char *with_sizes(const char *title, const riis_surface *surface) {
   return text;
 }
 
-/* Compares two pictures of a valve. The program draws one, and the C interface draws the other with the expected title. */
+/* Compares two pictures of a valve. The program draws one picture, and the C interface draws the other with the expected
+ * title. */
 static void expect_title(const char *title, const char *valve_name, const char *kind, const char *setting,
                          const char *value) {
   riis_valve *valve = NULL;
@@ -110,7 +111,7 @@ static void expect_title(const char *title, const char *valve_name, const char *
   riis_valve_destroy(&valve);
 }
 
-/* Draws a placed mitral valve. The unit of its mesh may be NULL. `scale` converts centimetres to this unit. */
+/* Draws a placed mitral valve. The unit of the valve's mesh may be NULL. `scale` converts centimetres to this unit. */
 static void draw_by_c(const riis_surface_options *placement, const char *unit, int32_t view) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;

@@ -233,7 +233,7 @@ static void make_random_mesh(int mode) {
   write_pieces();
 }
 
-/* With an offset, each node's order follows from the half thickness that marks it. */
+/* With an offset, the check orders the nodes by the half thickness that marks each node. */
 TEST(passages_with_an_offset_are_those_of_the_joined_mesh) {
   static const char *const valves[] = {"coapting", "trileaflet", "mitral", "bileaflet", "aortic"};
   static const char *const offsets[] = {"0.5", "-0.3"};

@@ -285,7 +285,8 @@ TEST(warps_meet_the_landmarks) {
     if (fabs(farthest_landmark(surface) - worst) > 0.05)
       fail_msg("off by %g, stated %g", farthest_landmark(surface), worst);
   }
-  /* OpenFOAM's dictionary has the landmarks in metres. First come their places on the valve, then the patient's landmarks. */
+  /* OpenFOAM's dictionary has the landmarks in metres. Its sources are the landmarks' places on the valve, and its targets are
+   * the patient's landmarks. */
   RUN_FINE("place", patient_json("w.json"), "--valve", "coapting", "--warp", "smoothed", "--noise", "0.3", "--quiet",
            "--foam", "-");
   const char *const warp = strstr(program_out, "\nwarp\n{\n    sources\n    ("),
@@ -607,7 +608,7 @@ TEST(wrong_landmarks_are_refused) {
               "--valve", "mitral", "--flow", "0,0,-1", "--quiet");
 }
 
-/* Two landmarks of one cusp's attachment are so far apart that every smooth map through both folds. */
+/* Two landmarks of one cusp's attachment are far apart, and every smooth map through both of them folds the valve. */
 TEST(folds_are_refused) {
   const char *labels[8] = {0};
   memcpy(labels, names, sizeof names);

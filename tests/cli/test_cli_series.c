@@ -143,8 +143,8 @@ TEST(test_cells) {
   }
 }
 
-/* Compares a step's fields with those of the C interface. The velocity is the mean since the time before. At the first time, it
- * is the mean over an earlier step of equal length. */
+/* Compares a step's fields with those of the C interface. The velocity is the mean over the step before this time. No step
+ * precedes the first time, so the velocity there is the mean over an added step of equal length. */
 static void expect_fields(int step, const char *path) {
   static double xyz[3 * n_box], normal[3 * n_box], velocity[3 * n_box], momentum[3 * n_box], side[n_box], K[n_box];
   riis_valve *now = NULL, *before = NULL;
@@ -265,8 +265,8 @@ TEST(test_cycles) {
   assert_true(fabs(expected - 0.25) > 0.01);
 }
 
-/* At the first time, the velocity is the mean over one step before. At the beginning of that step, a cycle with a period has
- * another opening. */
+/* At the first time, the velocity is the mean over an added step before this time. At the beginning of that step, a cycle with a
+ * period has another opening. */
 TEST(test_first_velocity) {
   double time = -1, opening = -1, n_marked = 0, speed = 0;
   scratch_write_text("cycle.csv", cycle);

@@ -457,7 +457,7 @@ TEST(test_skirts_and_files) {
   RUN_STATES("--valve", "mitral", "--count", "2");
   CHECK_NEAR(orifice, cell(1, "orifice_area"), 1e-3 * orifice);
 
-  /* The cusps of the paper's aortic valve do not touch. A file of it nevertheless has the valve's orifice. */
+  /* The cusps of the paper's aortic valve do not touch. A file of this valve nevertheless has the valve's orifice. */
   run_program("surface", "--valve", "aortic", "--opening", "1", "--tolerance", "0.01", "--output", file, NULL);
   expect_run_fine(__FILE__, __LINE__);
   RUN_STATES("--surface", file);

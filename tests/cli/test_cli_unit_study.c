@@ -118,8 +118,8 @@ static void write_vessel(const vessel *v, double factor) {
   assert_int_equal(fclose(file), 0);
 }
 
-/* Makes a random basin of 8 to 60 cm, or a flat chamber of 6 to 40 cm with a height of 2 to 5 cm. Repeats this until the grid is
- * small enough and has no edge longer than longest_edge. */
+/* Makes a random basin of 8 to 60 cm, or a flat chamber of 6 to 40 cm with a height of 2 to 5 cm. Draws new sizes until the grid
+ * is small enough and has no edge longer than longest_edge. */
 static vessel random_basin(shape of) {
   static grid g;
   while (1) {

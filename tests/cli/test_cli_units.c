@@ -18,7 +18,7 @@ static const double factors[n_units] = {0.01, 1, 10}; /* from centimetres to eac
 static char meshes[n_units][256], surfaces[n_units][256];
 static int n_wanted; /* number of marked nodes of the valve in the box */
 
-/* Writes the box of in.vtu with finer cells, and the valve. Each has a file in every unit. */
+/* Writes the box of in.vtu with finer cells, and the valve. Box and valve have a file in every unit. */
 static int make_files(void **state) {
   scratch_setup(state);
   for (int i = 0; i < n_units; ++i) {

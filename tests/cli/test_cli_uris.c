@@ -17,7 +17,7 @@
 /* ---- The surface by the library's C interface ---- */
 
 /* A placement of the surface in two forms: as arguments of riis, and as options of riis_surface_create that place it in cm. The
- * export is in g and cm. If the mesh's unit is known, R of the command line, 12500, is in kg/(m s). */
+ * export is in g and cm. If the mesh's unit is known, the value 12500 of R on the command line is in kg/(m s). */
 typedef struct {
   const char *words[6];
   double scale, half_thickness, turn[4], shift[3], R;
@@ -391,8 +391,8 @@ TEST(test_marking_rule) {
            100 * fine.delta_lost / fine.delta);
     assert_true(coarse.n_marked > 500);
     assert_int_equal(coarse.n_more + fine.n_more, 0);
-    /* The solver marks most of these nodes, on their side of the closed valve. With smaller triangles it marks nearly all of
-     * them. */
+    /* The solver marks most of these nodes, on their side of the closed valve. With smaller triangles, the solver marks nearly
+     * all of these nodes. */
     assert_true(coarse.n_lost > 0 && coarse.n_lost < 0.3 * coarse.n_marked);
     assert_true(fine.largest_excess < 0.05 && fine.largest_excess < coarse.largest_excess);
     assert_true(fine.n_lost < 0.02 * fine.n_marked && fine.n_lost < coarse.n_lost);
@@ -409,8 +409,8 @@ typedef struct {
   int is_sealed; /* 1 if every way through the ring along the grid passes a point with K */
 } ring_sums;
 
-/* Spreads from the points below the valve, through points without K inside the radius. Returns whether it reaches no point
- * above. */
+/* Spreads from the points below the valve, through points without K inside the radius. Returns whether the valve stops this
+ * spread, so that no point above the valve is reached. */
 static int is_sealed_within(const unsigned char *is_free) {
   static int stack[ring_n * ring_n * ring_n];
   static unsigned char seen[ring_n * ring_n * ring_n];
@@ -494,7 +494,7 @@ TEST(test_ring_counts_once) {
 
 /* ---- The solver's box ---- */
 
-/* A frame of the solver. The frame has, or lacks, the face that enlarges the box. */
+/* A frame of the solver, with and without the face that enlarges the box. */
 typedef struct {
   int is_closing, n_marked, n_marked_outside, n_of_side[2];
   uris_state all, leaflets; /* n_marked_outside: marked nodes outside the box of the leaflets alone */

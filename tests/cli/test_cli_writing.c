@@ -176,7 +176,7 @@ static void expect_locked(const char *mesh, const char *option, const char *outp
 }
 
 /* A second run with the same output is refused, for every option and every name of the file. Runs that have ended or were killed
- * do not block later runs. */
+ * do not block later runs with the same output. */
 TEST(test_second_run) {
   char mesh[256], held[256];
   snprintf(mesh, sizeof mesh, "%s", scratch_path("in.vtu"));

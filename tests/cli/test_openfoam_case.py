@@ -62,7 +62,7 @@ class OpenfoamCase(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def write(self, status=0, placed=None, **changes):
-        """Writes a case. Returns its folder and the output of the writer."""
+        """Writes a case. Returns the folder of the case, and the output of the writer."""
         root = {"valve": "coapting", "unit": "mm", "axes": "LPS", "rotate": [0, 0.6, 0.8, 30], "translate": [10, -20, 1000],
                 "parameters": {"root_radius": 1.31, "cusp_0.sector": 130, "cusp_1.sector": 115, "cusp_2.sector": 115},
                 "warp": {"sources": [[10, -8, 1000], [22, -20, 1000], [10, -32, 1004], [0, -20, 1010]],

@@ -2,8 +2,8 @@
 """test_patient.py PROGRAM MAKE_PATIENT.py: runs riis patient on small patients.
 
 The patients are a root of make_patient.py with few triangles, and a ventricle. Other commands check the results. Units and axes
-must not change them. Each refusal is checked by its status and text. Only one run draws pictures, and its mesh is the wall of
-another run. RIIS_TEST_LONG also runs random roots.
+must not change the results. Each refusal is checked by its status and text. Only one run draws pictures, and its mesh is the wall
+of another run. RIIS_TEST_LONG also runs random roots.
 """
 import importlib.util
 import json
@@ -147,7 +147,8 @@ class Patient(unittest.TestCase):
 
     @classmethod
     def root_case(cls):
-        """Makes a complete run in mm once. Returns its folder, its report and the finished process. The run is made once."""
+        """Makes a complete run in mm once. Returns the run's folder, its report and the finished process. The run is made
+        once."""
         case = cls.shared / "root"
         if not case.exists():
             write_stl(cls.shared / "root.stl", cls.triangles)
@@ -232,8 +233,8 @@ class Patient(unittest.TestCase):
         self.assertRegex(again.stderr, "--output: .*root: the folder has the results of an earlier run: .* --replace")
 
     def test_units_and_axes(self):
-        """Wall and landmarks in any unit and axes give the same valve and about the same mesh. Triangles that face inwards also
-        do. Missing programs for pictures change nothing."""
+        """Wall and landmarks in any unit and axes give the same valve and about the same mesh. A wall whose triangles face
+        inwards also gives them. Missing programs for pictures change nothing."""
         def measures_of(report):
             mm = {"mm": 1, "cm": 10, "m": 1000}[report["unit"]]
             return report["n_nodes"], report["effective_area_cm2"], report["gap"]["most"] * mm, report["fit"]["rms"] * mm
@@ -411,7 +412,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.assertEqual((case / "notes.txt").read_text(encoding="utf-8"), "mine")
         self.refused(1, "--output: no/case: cannot be made", output="no/case")
         self.refused(1, "--output: root.stl: is a file, not a folder", output="root.stl")
-        # The program uses the folder of a run that was cut off again. Files that it would remove cannot be inputs.
+        # The program uses the folder of a run that was cut off again. Files that the program would remove there cannot be inputs.
         (case / "UNFINISHED.txt").write_text("", encoding="utf-8")
         shutil.copy(self.folder / "root.stl", case / "wall.stl")
         self.refused(1, "its wall.stl is also read, and would be removed: copy it elsewhere", wall="case/wall.stl")

@@ -118,7 +118,7 @@ class Cases(unittest.TestCase):
     def write(self, solver, numbers, status=0):
         path = self.folder / "case.json"
         path.write_text(json.dumps(numbers), encoding="ascii")
-        # The forecast of the drop would take seconds. This name is no Python, so there is no forecast.
+        # The forecast of the drop would take seconds. RIIS_PYTHON names no Python, so there is no forecast.
         done = subprocess.run([WRITE, solver, path], capture_output=True, text=True, check=False, timeout=300,
                               env={**os.environ, "RIIS_PYTHON": "/no/python"})
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
@@ -278,7 +278,7 @@ class Cases(unittest.TestCase):
         (folder / "solver.xml").write_text(text.replace("<Add_URIS_mesh", "<!-- area of the leaflets in the mesh, 9.5; -->"
                                                         "<Add_URIS_mesh", 1))
         results.mkdir()
-        # The valve opens after step 24 and closes after step 75, each in 20 steps. After closing it leaks 1.25 times the ideal
+        # The valve opens after step 24 and closes after step 75, each in 20 steps. The closed valve leaks 1.25 times the ideal
         # leak.
         eps, resistance, drop, n_steps = 0.3, 1e5, 80 * 10 * MMHG, 400
         leak = 1.25 * drop * eps * 9.5 / resistance
@@ -447,8 +447,8 @@ class Cases(unittest.TestCase):
         self.write("fenicsx", numbers)
         folder = pathlib.Path(numbers["solver"])
         case = json.loads((folder / "case.json").read_text())
-        # After 0.1 s the valve opens in 20 steps, and 200 ml/s pass. After 0.4 s it closes in 20 steps, while 50 ml/s return. The
-        # valve then leaks at 80 mmHg half as much again as an ideal valve of 9 cm2.
+        # After 0.1 s the valve opens in 20 steps, and 200 ml/s pass. After 0.4 s the valve closes in 20 steps, while 50 ml/s
+        # return. The valve then leaks at 80 mmHg half as much again as an ideal valve of 9 cm2.
         drop, area = -80 * MMHG, 9e-4
         leak = 1.5 * drop * case["half_thickness"] * area / case["resistance"]
 

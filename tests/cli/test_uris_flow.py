@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """test_uris_flow.py PATH_OF_URIS_FLOW tests uris_flow.py alone. Exits with 77 if Python lacks NumPy or SciPy.
 
-Three oracles check it: the equations by loops over single functions and a dense matrix, the flow through a square duct in closed
-form, and sides that follow from the shape of the mesh.
+Three oracles check the program: the equations by loops over single functions and a dense matrix, the flow through a square duct
+in closed form, and sides that follow from the shape of the mesh.
 """
 import importlib
 import importlib.util

@@ -51,8 +51,8 @@ void uris_state_free(uris_state *state);
 int uris_nearest(const uris_state *state, const double point[3], double *distance);
 /* Returns whether the point is in the box in which the solver looks for nodes. */
 int uris_is_in_box(const uris_state *state, const double point[3]);
-/* Returns the sign that the solver gives a distance. The sign depends on the side of the triangle. In a closing valve it also
- * depends on the flow. */
+/* Returns the sign that the solver gives a distance. The sign depends on the side of the triangle. In a closing valve, the sign
+ * also depends on the flow. */
 int uris_sign(const uris_valve *valve, const uris_state *state, int triangle, int is_closing, const double point[3]);
 
 #endif
