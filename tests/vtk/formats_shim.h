@@ -14,7 +14,8 @@ extern "C" {
  * ignores the order of corners. SHIM_FLOATS compares as SHIM_BITS does, after rounding to single precision. */
 enum { SHIM_BITS, SHIM_SETS, SHIM_FLOATS };
 /* Compares two meshes whose nodes and cells may have different orders. counts[0] and counts[1] get the numbers of points and
- * cells of `a`. The next two get the numbers of points and cells that only one mesh has. Returns 0 if a file cannot be read. */
+ * cells of `a`. counts[2] and counts[3] get the numbers of points and cells that only one mesh has. Returns 0 if a file cannot be
+ * read. */
 int shim_compare_meshes(const char *a, const char *b, int how, int64_t counts[4]);
 
 /* Counts the cells of each of VTK's types. For each node inside a side, face or cell of second order, VTK's parametric

@@ -21,7 +21,7 @@ typedef struct sheet_extras {
 } sheet_extras;
 void sheet_write(const char *name, double time, const sheet_extras *extras);
 
-/* Appends a point array with the displacements of the sheet from time 0 to another time. Returns the end of the text. */
+/* Appends a point array to a text: the displacements of the sheet from time 0 to another time. Returns the end of the text. */
 char *sheet_displacement(char *text, const char *name, double time);
 
 #endif

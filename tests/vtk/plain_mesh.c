@@ -40,8 +40,8 @@ plain_mesh plain_hexahedra(int n, const double lower[3], const double upper[3]) 
   return mesh;
 }
 
-/* Returns the node in the middle of a and b. Makes this node if it does not exist. `middles` lists the pairs that already have a
- * middle node. */
+/* Returns the node in the middle of a and b. Makes the middle node if it does not exist. `middles` lists the pairs that already
+ * have a middle node. */
 static int64_t middle_of(plain_mesh *mesh, int64_t (*middles)[2], int64_t first, int64_t a, int64_t b) {
   const int64_t low = a < b ? a : b, high = a < b ? b : a;
   for (int64_t i = first; i < mesh->n_nodes; ++i)
@@ -116,7 +116,7 @@ static int is_same_face(const int64_t *a, const int64_t *b) {
   return n == 4;
 }
 
-/* Neighbouring cells share a face in the list. */
+/* Neighbouring cells share a face in the list of faces. */
 static void write_lists(FILE *file, const plain_mesh *mesh, int64_t first, int64_t n, int64_t *numbers, int64_t *ends) {
   int64_t *corners = numbers, *of_cells = numbers + 24 * n, n_faces = 0, at = 0;
   for (int64_t i = 0; i < n; ++i) {

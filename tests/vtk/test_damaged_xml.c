@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Tests XML files of meshes and surfaces that claim more data than they contain. The files are refused before memory is allocated
- * for the claimed data. Files with random damage are read or refused. Each is read in a separate process with limited memory. */
+ * for the claimed data. Files with random damage are read or refused. Each file is read in a separate process with limited
+ * memory. */
 #include <riis/riis_vtk.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -30,7 +31,7 @@ static riis_status read_any(const char *name) {
 }
 
 /* Reads a file in another process with little memory. The file must be read, or refused with a message that names it. Returns 1
- * if it was read. */
+ * if the file was read. */
 static int read_apart(const char *name, const char *what) {
   fflush(NULL);
   const pid_t child = fork();
@@ -51,7 +52,7 @@ static int read_apart(const char *name, const char *what) {
   return WEXITSTATUS(ended) == 0;
 }
 
-/* Writes a copy of a file in which other text replaces a part. */
+/* Copies a file, and replaces a part of the copy's text. */
 static void replace_text(const char *name, const char *from, const char *to, const char *as) {
   size_t size = 0;
   char *text = scratch_read(scratch_path(name), &size), *at = strstr(text, from);
@@ -160,8 +161,8 @@ static void expect_number_refused(int encoding, int compressor, int bits, const 
   expect_refused(status, RIIS_FILE_ERROR, "damaged.vtu: ");
 }
 
-/* Changes the numbers that precede the data. The points have 125 * 24 bytes: two blocks of 1024 bytes, and one block of 952
- * bytes. */
+/* Changes the numbers that precede the data of an array. The points have 125 * 24 bytes: two blocks of 1024 bytes, and one block
+ * of 952 bytes. */
 TEST(test_sizes_of_blocks) {
   static const char *const arrays[3] = {"Points", "velocity", "time"};
   static const char *const texts[4] = {"claims 268435457 compressed blocks, and the file holds ",
@@ -203,7 +204,7 @@ TEST(test_last_offsets) {
   assert_int_equal(shim_write_blocks(scratch_path("f.vtp"), SHIM_ASCII, 0, 64), 1);
   replace_text("f.vtp", "636\n", "1000000000000\n", "damaged.vtp");
   assert_int_equal(read_apart("damaged.vtp", "offsets of faces"), 0);
-  /* VTK 9.3 finds this fault before the library compares the numbers. */
+  /* VTK 9.3 refuses this file before the library compares the numbers. */
   const riis_status status = read_any("damaged.vtp");
   const int by_vtk = strstr(riis_last_error(), "the \"offsets\" array is not long enough") != NULL;
   expect_refused(status, RIIS_FILE_ERROR,

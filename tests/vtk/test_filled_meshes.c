@@ -139,7 +139,7 @@ static void range_of_z(const filled_mesh *in, double *lowest, double *highest) {
   }
 }
 
-/* Labels each unmarked node with the lowest id of its region. Each region gets a flood fill. Marked nodes get -1. */
+/* Labels each unmarked node with the lowest id of its region. A flood fill finds each region. Marked nodes get -1. */
 static void flood_fill(const filled_mesh *in, const uint8_t *marks, int64_t *label) {
   int64_t *stack = own(malloc((size_t)in->n_nodes * sizeof *stack));
   for (int64_t i = 0; i < in->n_nodes; ++i) label[i] = -1;

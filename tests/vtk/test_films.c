@@ -55,7 +55,7 @@ static void open_valve(double opening) {
 static riis_vtk_film *make_film(const riis_vtk_mesh *of) {
   riis_vtk_film *film = NULL;
   riis_vtk_picture_options options;
-  /* The film copies these names, so the caller may change them. */
+  /* The film copies the names of views, so the caller may change the names later. */
   char names[2][16] = {"front", "back"};
   const char *pointers[2] = {names[0], names[1]};
   expect_fine(riis_vtk_picture_options_init(&options, sizeof options));

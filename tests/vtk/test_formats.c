@@ -90,8 +90,7 @@ TEST(test_gmsh) {
       /* gmsh writes text with 16 digits, so two text files are compared. */
       snprintf(options, sizeof options, "-save %s -format vtk%s", scratch_path("mix.msh"), format % 2 ? " -bin" : "");
       run_gmsh(options, "mix.vtk");
-      /* gmsh 4.8 writes linear pyramids instead of quadratic pyramids. In its prisms of second order, the base is seen from
-       * inside. */
+      /* gmsh 4.8 writes linear pyramids instead of quadratic pyramids. gmsh's prisms of second order have their base reversed. */
       if (order == 0) expect_same("mix.vtu", "mix.vtk", SHIM_BITS, 30);
       if (order == 2) expect_same_but("mix.vtu", "mix.vtk", SHIM_SETS, 30, 2 * n_of_type[27]);
       char type[32];
@@ -197,7 +196,7 @@ static const char xdmf[] =
 
 /* dolfinx 0.9 and ParaView were seen to open files of this form. dolfinx looks for a grid of the name "mesh". dolfinx reads the
  * topology's DataItem as rows of nodes, and compares its dimensions with the dataset. Numbers are in the HDF5 file beside the
- * text. If riis has no HDF5, they are in the text. */
+ * text. If riis has no HDF5, the numbers are in the text. */
 TEST(test_xdmf_for_others) {
   scratch_write_text("tet.xdmf", xdmf);
   rewrite("tet.xdmf", "out.xdmf", "");
@@ -233,7 +232,7 @@ TEST(test_xdmf_of_series) {
   scratch_write_text("tet.xdmf", xdmf);
   rewrite("tet.xdmf", "tet.vtu", "");
   const char *const pointers[] = {
-      "xpointer(//Grid[@Name=&quot;mesh&quot;]/*[self::Topology or self::Geometry])",
+      "xpointer(//Grid[@Name=&quot;mesh&quot;]/* [self::Topology or self::Geometry])",
       "xpointer(/Xdmf/Domain/Grid[@GridType='Uniform'][1]/*[self::Topology or self::Geometry])"};
   const char *mesh = strstr(xdmf, "<Grid"), *attribute = strstr(xdmf, "<Attribute");
   for (int i = 0; i < 2; ++i) {
@@ -258,7 +257,8 @@ TEST(test_xdmf_of_series) {
   expect_same("checkpoint.vtu", "tet.vtu", SHIM_BITS, 1);
 }
 
-/* dolfinx's cells of order 3, which have VTK's order of nodes. A mixed list of XDMF has no number for them. */
+/* dolfinx's cells of order 3, which have VTK's order of nodes. XDMF has no number for these types in a mixed list of
+      cells. */
 TEST(test_xdmf_of_order_3) {
   static const struct {
     const char *name;
@@ -537,7 +537,7 @@ TEST(test_broken) {
   }
 }
 
-/* Every truncated file is refused. A file with a wrong byte is refused or read. */
+/* Every truncated file is refused. A file with a wrong byte may be read or refused, but must not crash the reader. */
 TEST(test_cut_and_changed) {
   const char *wholes[] = {msh22, msh41, xdmf, vtm}, *names[] = {"a.msh", "a.msh", "a.xdmf", "a.vtm"};
   const char *seed_text = getenv("RIIS_TEST_SEED");

@@ -30,7 +30,7 @@ static void expect_file_error(const char *name, const char *part_of_text) {
   assert_int_equal(n_printed, 0);
 }
 
-/* If `error` is NULL, the file must be read. Otherwise it must be refused with this message. */
+/* If `error` is NULL, the file must be read. Otherwise the file must be refused with the message `error`. */
 static void expect_file(const char *name, const char *error) {
   if (error) {
     expect_file_error(name, error);
@@ -85,7 +85,7 @@ TEST(test_other_content) {
                      "# vtk DataFile Version 3.0\npoly\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\n"
                      "POLYGONS 1 4\n3 0 1 2\n");
   expect_file_error("polydata.vtk", "holds polydata, not unstructured_grid");
-  /* If VTK cannot read the version, it takes the version for an old one. */
+  /* If VTK cannot read the version, VTK assumes an old version. */
   static const char *const versions[] = {"4294967300.1",       "6.0", "-5.1", "0.9", "5", "5.1x", "5.100",
                                          "00000000000000005.1"};
   for (size_t i = 0; i < sizeof versions / sizeof *versions; ++i) {
@@ -257,8 +257,8 @@ TEST(test_truncated) {
   cut_everywhere("binary.vtk", "cut.vtk", SHIM_LEGACY_BINARY);
 }
 
-/* VTK searches for as many keys as INFORMATION announces. A word that is not a number does not stop this search. VTK compares
- * only the beginning of a keyword. */
+/* VTK searches for as many keys as INFORMATION announces. VTK does not stop this search at a word that is not a number. VTK
+ * compares only the beginning of a keyword. */
 TEST(test_endless_information) {
   const struct {
     const char *keys, *data, *text;
@@ -316,9 +316,9 @@ TEST(test_names_of_arrays) {
   }
 }
 
-/* While VTK reads the faces of polyhedra, it follows them without checks. The files are text of version 3, binary of version 3,
- * or text of version 5, which has offsets instead of counts. The type of a polyhedron is 42. The type 298 also becomes 42 in a
- * single byte. */
+/* VTK reads the faces of polyhedra without checks of their numbers. The files are text of version 3, binary of version 3, or text
+ * of version 5, which has offsets instead of counts. The type of a polyhedron is 42. The type 298 becomes 42 if only its low byte
+ * is kept. */
 TEST(test_polyhedra) {
   const char tetrahedron[] = "4 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 3";
   const struct {

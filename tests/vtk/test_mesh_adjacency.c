@@ -265,7 +265,7 @@ TEST(test_long_edges) {
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
   expect_long_edges("box.vtu", n_box, inner, outer, 0, 0);
   expect_long_edges("box.vtu", n_box, lower, upper, 0.126, 0);
-  /* The limit equals the length of the cubes' diagonals, up to a billionth. */
+  /* The limit of the length equals the length of the cubes' diagonals, up to a billionth. */
   expect_long_edges("box.vtu", n_box, lower, upper, 0.125 * sqrt(3), 0);
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
   expect_long_edges("zoo.vtu", n_shim_zoo, inner, outer, 2, 0);
@@ -319,7 +319,7 @@ TEST(test_triquadratic_pyramid) {
   strcat(text, "\nCELL_TYPES 1\n37\n");
   scratch_write_text("pyramid.vtk", text);
   /* The numbers of neighbours are tested at two corners and five middles. The corners are a corner of the base, and the apex. The
-   * middles belong to a side of the base, a side to the apex, the base, a triangle and the cell. */
+   * middles are those of a side of the base, a side to the apex, the base, a triangle and the cell. */
   static const int nodes[7] = {1, 4, 5, 10, 13, 14, 18}, n_neighbors[7] = {5, 8, 4, 4, 5, 7, 5};
   riis_vtk_mesh *mesh = read_mesh("pyramid.vtk");
   riis_adjacency *adjacency = NULL;

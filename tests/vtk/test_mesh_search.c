@@ -29,8 +29,8 @@ static riis_surface *surface_of(const char *kind, double opening, double half_th
   return surface;
 }
 
-/* Marks with both searches, new and used results, several limits and numbers of threads. Returns how many nodes the first marking
- * marks. */
+/* Marks with both searches, with new and used results, with several limits, and with several numbers of threads. Returns the
+ * number of nodes that the first run marks. */
 static int64_t expect_same(const riis_surface *surface, const riis_mesh *mesh, riis_marks *warm) {
   const int owned_before = n_owned();
   riis_marks *expected = new_result(), *cold = new_result();

@@ -59,7 +59,8 @@ static void expect_sheet(const riis_surface *surface, double time, double speed,
   }
 }
 
-/* Moves a surface by the frames. Compares it with the closed form at, between, before and after the keys. */
+/* Moves a surface by the frames. Compares the surface with the closed form at, between, before and after the times of the
+ * frames. */
 static void expect_motion(riis_vtk_motion *motion, int32_t one_leaflet) {
   static const double times[] = {0, 0.25, 0.5, 1, 0.1, 0.3, 0.7, 0.99};
   riis_keyframes *keyframes = keyframes_of(motion, 0, RIIS_INTERPOLATION_LINEAR);
@@ -253,8 +254,8 @@ TEST(test_displacements) {
   expect_motion(motion, -1);
 }
 
-/* A quad lies beside a triangle. During the motion the other diagonal of the quad becomes shorter. The quad nevertheless stays
- * cut as in the first file. */
+/* A quad lies beside a triangle. During the motion, one diagonal of the quad becomes shorter than the other diagonal. The quad
+ * must nevertheless stay cut as in the first file. */
 TEST(test_quads_are_cut_once) {
   const char *const fourth[2] = {"1 1 0", "0.2 0.2 0"}, *const names[2] = {"convex.vtp", "concave.vtp"};
   const char *paths[2];

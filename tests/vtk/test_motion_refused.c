@@ -286,7 +286,7 @@ TEST(test_arguments_of_arrays) {
   riis_vtk_motion_destroy(NULL);
 }
 
-/* Returns true if the collection was read completely. Otherwise it must have been refused by its name. */
+/* Returns true if the collection was read completely. Otherwise the message of the refusal must name the collection. */
 static int is_read_or_refused(const char *name) {
   riis_vtk_motion *motion = NULL;
   const riis_status status = riis_vtk_motion_read_pvd(scratch_path(name), NULL, &motion);

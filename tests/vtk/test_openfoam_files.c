@@ -239,7 +239,7 @@ TEST(test_block_mesh) {
   expect_same("text.vtu", "parts.vtu", SHIM_SETS, 200);
   expect_same_order("text", "parts");
   rewrite("parts/processor1", "part.vtu");
-  /* Moved points come from the latest time that is not in the future. */
+  /* Moved points come from the latest folder of points that is not later than the requested time. */
   run("mkdir -p text/0.5/polyMesh text/2 && sed 's/^(\\(.*\\) \\(.*\\) \\(.*\\))$/(\\1 \\2 9)/' "
       "text/constant/polyMesh/points > text/0.5/polyMesh/points");
   rewrite("text/0.5", "moved.vtu");

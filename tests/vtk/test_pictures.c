@@ -173,7 +173,7 @@ static int is_red(const unsigned char *rgb) { return rgb[0] > 110 && rgb[1] < 40
 static int is_skin(const unsigned char *rgb) {
   return rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] > 200 && rgb[0] < 250;
 }
-/* is_full and is_pale tell full colours from pale colours. */
+/* is_full is true for strong colours, and is_pale for pale colours. */
 static int is_full(const unsigned char *rgb) {
   const int most = rgb[0] > rgb[1] ? (rgb[0] > rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] > rgb[2] ? rgb[1] : rgb[2]);
   const int least = rgb[0] < rgb[1] ? (rgb[0] < rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] < rgb[2] ? rgb[1] : rgb[2]);
@@ -345,8 +345,8 @@ TEST(test_leaks) {
   }
 }
 
-/* In a coarse mesh without a wholly marked cell, the picture shows the marked nodes. In a fine mesh it shows the wholly marked
- * cells. */
+/* In a coarse mesh without a wholly marked cell, the picture shows the marked nodes. In a fine mesh, the picture shows the wholly
+ * marked cells. */
 TEST(test_partly_marked) {
   const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 0.4};
   riis_vtk_mesh *coarse = marked_box("coarse.vtu", 5, lower, upper);
@@ -363,8 +363,8 @@ TEST(test_partly_marked) {
   riis_vtk_mesh_destroy(&coarse);
 }
 
-/* A tube may be 20 times as long as wide. The region around the valve is then drawn as large as in a short tube. Dashes show
- * where the tube is cut off. */
+/* In a picture of a tube that is 20 times as long as wide, the region around the valve is as large as in a short tube. Dashes
+ * show where the tube is cut off. */
 TEST(test_long_mesh) {
   const double lower[3] = {-1.7, -1.7, -30}, upper[3] = {1.7, 1.7, 38};
   riis_vtk_mesh *tube = marked_box("tube.vtu", 21, lower, upper);
@@ -639,8 +639,8 @@ TEST(test_backgrounds) {
   expect_corners(on[1], 0, 0, 0);
   int width = 0, height = 0;
   assert_null(shim_read_clear_pixels(scratch_path(on[0]), &width, &height));
-  /* The brightness of the wall's lines follows from the options' colour. There are therefore two kinds of transparent
-   * pictures. */
+  /* The brightness of the wall's lines follows from the options' colour. Transparent pictures for light pages therefore differ
+   * from those for dark pages. */
   for (int i = 0; i < 2; ++i) {
     options = looks(1 - i, 1 - i, 1 - i, 0, RIIS_VTK_CAPTIONS_NONE);
     draw_by(&options, "clear.png", mesh);

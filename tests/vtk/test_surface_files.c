@@ -112,7 +112,7 @@ static riis_surface *surface_of_file(const char *name, const riis_surface_option
   return surface;
 }
 
-/* After it is written and read, a valve's surface is the same: closest points have the same bits. */
+/* Writing and reading does not change a valve's surface: closest points have the same bits. */
 TEST(test_round_trip) {
   riis_surface *valve = make_valve();
   expect_fine(riis_vtk_surface_write(valve, scratch_path("valve.vtp")));
@@ -202,9 +202,9 @@ TEST(test_mixed_polygons) {
   expect_faces("mixed.vtp", 8, 0.5 + 1 + 1.25 + 1, leaflets);
 }
 
-/* Quads with an inward corner at 1 or 3 are cut along the diagonal that lies inside. A single such quad and a quad beside a
- * triangle are both cut so. The quads have an area of 0.2 each and keep their winding. A quad with the inward corner at 0 or 2
- * keeps its order. */
+/* Quads with an inward corner at 1 or 3 are cut along the diagonal that lies inside. This holds for a single quad and for a quad
+ * beside a triangle. The quads have an area of 0.2 each and keep their winding. A quad with the inward corner at 0 or 2 keeps its
+ * order. */
 TEST(test_concave_quads) {
   const int32_t leaflets[3] = {0, 0, 0};
   const char *orders[4] = {"0 1 2 3", "1 2 3 0", "2 3 0 1", "3 0 1 2"};
@@ -248,8 +248,8 @@ TEST(test_unstructured_grid) {
 /* Quadratic faces are cut at their nodes, and keep their area, winding and leaflet. The nodes lie on a plane, in the middles of
  * sides and faces. */
 TEST(test_quadratic_faces) {
-  /* The corners of a square, the middles of its sides, and its middle. The middle of its diagonal and the middle of half the
-   * diagonal follow. */
+  /* The corners of a square, the middles of its sides, and its middle. The middle of the square's diagonal and the middle of half
+   * the diagonal follow. */
   const char *points = "0 0 0  2 0 0  2 2 0  0 2 0  1 0 0  2 1 0  1 2 0  0 1 0  1 1 0  0.6 0.6 0";
   static const struct {
     int type, n_triangles;

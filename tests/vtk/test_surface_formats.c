@@ -224,7 +224,7 @@ static void insert_text(size_t at, const char *text) {
 
 static size_t random_below(random_source *random, size_t n) { return (size_t)(random_bits(random) % n); }
 
-/* Chooses a number in the text after `from`. Returns where it begins, and its length. */
+/* Chooses a number in the text after `from`. Returns the number's position and length. */
 static size_t random_number(random_source *random, size_t from, size_t *length) {
   for (;;) {
     size_t at = from + random_below(random, n_bytes - from);

@@ -253,7 +253,7 @@ TEST(test_looks) {
     options.panels = bad[i].panels;
     expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, bad[i].text);
   }
-  /* The struct of an older caller has no looks, so the defaults apply. The next refusal is for another field. */
+  /* The struct of an older caller has no looks, so the defaults apply. The refusal below is therefore only for the width. */
   memset(&options, 0xff, sizeof options);
   expect_fine(riis_vtk_picture_options_init(&options, 104));
   options.width = 1;

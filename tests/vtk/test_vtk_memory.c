@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Every allocation by riis_vtk's own code fails once. The call must then return RIIS_OUT_OF_MEMORY, leave no half-written file
- * and leak no memory. If it is repeated, it must succeed. Allocations by VTK do not fail here. */
+ * and leak no memory. If the call is repeated, the call must succeed. Allocations by VTK do not fail here. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -13,8 +13,8 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* The objects of the scenarios. Only one of them exists at a time. The tested call makes this object, or the object is made
- * before the call. */
+/* The objects of the scenarios. Only one of these objects exists at a time. The tested call makes this object, or the object is
+ * made before the call. */
 static riis_vtk_mesh *mesh;
 static riis_vtk_surface *read_surface;
 static riis_adjacency *adjacency;

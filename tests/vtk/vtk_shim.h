@@ -44,7 +44,7 @@ int shim_write_pieces(const char *path, const char *pvtu, int n_pieces);
  * of points, or -1. */
 int64_t shim_read_pieces(const char *pvtu, const char *array, double *sum, int64_t *n_cells);
 
-/* Reads the corners of all cells, one after the other. Returns their number, or -1. ids may be NULL. */
+/* Reads the corners of all cells, one after the other. Returns the number of corners, or -1. ids may be NULL. */
 int64_t shim_read_corners(const char *path, int64_t *ids);
 
 /* Writes a .vtu of random cells among n_shim_zoo nodes, several cells of each type. The types are the linear volumes, vertices,
@@ -52,24 +52,23 @@ int64_t shim_read_corners(const char *path, int64_t *ids);
 enum { n_shim_zoo = 60 };
 int shim_write_zoo(const char *path);
 
-/* Reads the edges of the cells of one VTK type by vtkCell::GetEdge, as pairs of nodes. Returns their number, or -1. edges may be
- * NULL. */
+/* Reads the edges of the cells of one VTK type by vtkCell::GetEdge, as pairs of nodes. Returns the number of edges, or -1. edges
+ * may be NULL. */
 int64_t shim_read_edges(const char *path, int cell_type, int64_t *edges);
 
-/* Gives VTK's shape functions of a type of cells at a point of its unit cell, and their derivatives. First come the derivatives
- * by the first coordinate, for all nodes. The derivatives by the second and the third coordinate follow. Returns the number of
- * nodes. */
+/* Gives VTK's shape functions of a type of cells at a point of its unit cell, and their derivatives. The derivatives of all nodes
+ * by the first coordinate precede those by the second and the third coordinate. Returns the number of nodes. */
 int shim_shape_functions(int cell_type, const double point[3], double *values, double *derivatives);
 
 /* Writes a .vtu of random cells of all types of higher order. The cells use n_nodes nodes, which must be 64 or more. Returns 1 on
  * success. */
 int shim_write_curved(const char *path, int n_nodes, uint32_t seed);
-/* Reads the edges of such cells from a .vtu file, as pairs of nodes. The edges follow from the nodes' positions in unit cells.
- * Returns the number of edges. `edges` may be NULL. */
+/* Reads the edges of cells of higher order from a .vtu file, as pairs of nodes. The edges follow from the nodes' positions in
+ * unit cells. Returns the number of edges. `edges` may be NULL. */
 int64_t shim_read_curved_edges(const char *path, int64_t *edges);
 
-/* Writes a .vtu of the tetrahedra that vtkDelaunay3D makes between the points xyz (3, n). All points stay, in their order and as
- * doubles. Returns 1 on success. */
+/* Writes a .vtu of the tetrahedra that vtkDelaunay3D makes between the points xyz (3, n). The file has all points, in their order
+ * and as doubles. Returns 1 on success. */
 int shim_write_delaunay(const char *path, int64_t n, const double *xyz);
 
 /* Reads an array. `where` is 'p' for point, 'c' for cell or 'f' for field. If `values` is not NULL, writes the values as doubles.
@@ -85,7 +84,7 @@ int shim_read_png(const char *path, int *width, int *height, int *n_colours, int
  * read. The caller frees them. */
 unsigned char *shim_read_pixels(const char *path, int *width, int *height);
 
-/* Does what shim_read_pixels does, with the opacity as fourth channel. Returns NULL if the picture has only three. */
+/* Does what shim_read_pixels does, with the opacity as fourth channel. Returns NULL if the picture has only three channels. */
 unsigned char *shim_read_clear_pixels(const char *path, int *width, int *height);
 
 /* Finds the flat ends of a wall of triangles, corners (3, n_triangles), as pictures do. is_end (n_triangles) gets 1 for each
@@ -93,9 +92,9 @@ unsigned char *shim_read_clear_pixels(const char *path, int *width, int *height)
 int shim_flat_ends(int64_t n_points, const double *xyz, int64_t n_triangles, const int64_t *corners,
                    unsigned char *is_end);
 
-/* Compares the outside of a grid's volume cells, as pictures draw it, with VTK's outside. Returns the number of faces that only
- * one of them has, or -1 if the grid cannot be read. *n_faces gets the number of faces in pictures. *n_inwards gets the number of
- * these faces that point into their cell. */
+/* Compares the outside of a grid's volume cells, as pictures draw it, with VTK's outside. Returns the number of faces that occur
+ * in only one of the two outsides, or -1 if the grid cannot be read. *n_faces gets the number of faces in pictures. *n_inwards
+ * gets the number of these faces that point into their cell. */
 int64_t shim_compare_outside(const char *path, int64_t *n_faces, int64_t *n_inwards);
 
 /* VTK's searches for the distance from a point to triangles. */
