@@ -232,7 +232,7 @@ TEST(test_xdmf_of_series) {
   scratch_write_text("tet.xdmf", xdmf);
   rewrite("tet.xdmf", "tet.vtu", "");
   const char *const pointers[] = {
-      "xpointer(//Grid[@Name=&quot;mesh&quot;]/* [self::Topology or self::Geometry])",
+      "xpointer(//Grid[@Name=&quot;mesh&quot;]/*[self::Topology or self::Geometry])",
       "xpointer(/Xdmf/Domain/Grid[@GridType='Uniform'][1]/*[self::Topology or self::Geometry])"};
   const char *mesh = strstr(xdmf, "<Grid"), *attribute = strstr(xdmf, "<Attribute");
   for (int i = 0; i < 2; ++i) {
@@ -257,8 +257,7 @@ TEST(test_xdmf_of_series) {
   expect_same("checkpoint.vtu", "tet.vtu", SHIM_BITS, 1);
 }
 
-/* dolfinx's cells of order 3, which have VTK's order of nodes. XDMF has no number for these types in a mixed list of
-      cells. */
+/* dolfinx's cells of order 3, which have VTK's order of nodes. XDMF has no number for these types in a mixed list of cells. */
 TEST(test_xdmf_of_order_3) {
   static const struct {
     const char *name;
