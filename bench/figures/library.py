@@ -140,6 +140,6 @@ class Model:
 
 @functools.cache
 def model(kind, tolerance, patch_id=None, **settings):
-    """Returns a valve with these settings, or only the image of one patch. The number of the patch is given."""
+    """Returns a valve with these settings, or only the image of the patch with the number patch_id."""
     patch = [] if patch_id is None else [str(patch_id)]
     return Model(written("--model", kind, str(tolerance), json.dumps(settings), *patch))

@@ -238,7 +238,7 @@ def accuracy_figure():
     )  # fmt: skip
 
 
-# The scale of the distributions. A value below the scale is drawn at its lower end.
+# The scale of the distributions. A value below the scale is drawn at the scale's lower end.
 LEAST_POWER, MOST_POWER, BINS_PER_POWER = -6, 0, 20
 
 

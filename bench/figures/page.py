@@ -44,7 +44,7 @@ def percent(share):
 
 
 def html_table(rows):
-    """Returns an HTML table of texts. The first row is its head."""
+    """Returns an HTML table of texts. The first row is the table's head."""
     lines = [
         "<tr>" + "".join(f"<{tag}>{cell}</{tag}>" for cell in row) + "</tr>\n"
         for row, tag in zip(rows, ["th"] + ["td"] * (len(rows) - 1))

@@ -79,8 +79,8 @@ def poly_data(points, polygons=None, lines=None):
 
 
 def held_display():
-    """Returns a small window that holds a connection to the display. Without it, a virtual display starts again when its last
-    client leaves. A picture at this moment would find no display."""
+    """Returns a small window that holds a connection to the display. Without this connection, a virtual display restarts when its
+    last client leaves. A picture that starts at this moment would find no display."""
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetSize(8, 8)
@@ -119,8 +119,8 @@ class Picture:
         camera.SetViewUp(self.up)
         camera.SetParallelScale(0.5 * self.height * self.pixel)
 
-    # Objects in faces are drawn above the faces. The order is: faces, segments, curves, points. Among objects of one kind, a
-    # higher rank is drawn above a lower rank.
+    # Objects in faces are drawn above the faces. The order is: faces, segments, curves, points. Among objects of one kind, an
+    # object of higher rank is drawn above an object of lower rank.
 
     def raised(self, points, layer):
         """Moves points towards the eye. Without perspective, the points keep their place in the picture."""
@@ -160,7 +160,7 @@ class Picture:
             normals.ConsistencyOff()
             normals.Update()
             data = normals.GetOutput()
-        # The surface emits some light, so that parts in the dark keep their colour.
+        # The surface emits some light, so that unlit parts keep their colour.
         ambient, diffuse = {"painted": (1, 0), "ghost": (0.8, 0.3)}.get(shading, (0.52, 0.55))
         style = self.add(data, None, ambient, diffuse)
         if shading in ("flat", "painted"):

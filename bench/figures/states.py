@@ -80,7 +80,7 @@ SUBJECTS = {
 
 
 class Table(NamedTuple):
-    """Holds the columns of a table by their names. `edges` is empty if the leaflets are rigid."""
+    """A table of `riis states`: its columns by their names. `edges` is empty if the leaflets are rigid."""
 
     kind: str
     columns: dict
@@ -154,7 +154,8 @@ def outlines(kind, state):
 
 
 def disc_below(edge, z):
-    """Returns the disc, shifted below everything else. Seen from above, its uncovered part is the orifice."""
+    """Returns the disc, shifted below everything else. Seen from above, the part of the disc that no leaflet covers is the
+    orifice."""
     edge = edge * (1, 1, 0) + (0, 0, z)
     n = len(edge)
     first = np.arange(n - 1)
@@ -163,7 +164,7 @@ def disc_below(edge, z):
 
 
 def panels_of(kind, valves, openings):
-    """Draws all states at one scale: first from above, then from the side."""
+    """Draws all states at one scale: the first row from above, the second row from the side."""
     subject = SUBJECTS[kind]
     states = [model(kind, TOLERANCE, opening=opening) for opening in openings]
     discs = [edge_of_disc(kind, valves, state) for state in states]

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # `run` reads this file for ./run uris. The steps use $build, $n_jobs, install_missing, step and say of `run`.
 
-# The largest edges in cm. The half thickness is 0.1. "none" means that the library's triangles stay as they are.
+# The largest edges of exported triangles in cm, for the half thickness 0.1 cm. "none" stands for the library's triangles.
 uris_edges=(none 0.1 0.05 0.035 0.025 0.02 0.015)
 
 # export_of_size KIND EDGE: writes build/uris/KIND_EDGE, and prints the solver's input to build/uris/KIND_EDGE.xml.

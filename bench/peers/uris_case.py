@@ -42,7 +42,7 @@ def read_msh(path):
 
 
 def array(kind, name, values, components=1):
-    # The solver reads coordinates from text, so they need all digits.
+    # The solver reads coordinates from text, so the text has all digits.
     text = " ".join(f"{value:.17g}" if kind == "Float64" else str(value) for value in values)
     return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">{text}</DataArray>\n'
 
@@ -74,7 +74,7 @@ def write_vtk(path, places, node_ids, cells, element_ids, cell_type=None):
 
 
 def outer_faces(elements):
-    """Returns the faces that belong to only one element. Each has its nodes and the number of the element."""
+    """Returns the faces that belong to only one element. For each face, returns its nodes and the number of its element."""
     seen = collections.defaultdict(list)
     for number, (kind, corners) in enumerate(elements, 1):
         for face in ELEMENTS[kind][2]:

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reports which benchmarks have become slower than a baseline. The exit status is 1 if there are such benchmarks.
+"""Reports which benchmarks have become slower than a baseline. The exit status is 1 if a benchmark became slower.
 
 Times are divided by those of the calibration benchmarks of the same run. The division makes runs on two machines, or on one
-machine on two days, comparable. There are two calibrations, for memory and for arithmetic. A benchmark may depend on either, so
-it counts as slower only if it is slower relative to both. If the calibrations of the two machines differ by a factor, a smaller
-loss is not noticed. The output states this difference, and --factor should not be below it.
+machine on two days, comparable. There are two calibrations, for memory and for arithmetic. A benchmark may depend on memory or on
+arithmetic, so it counts as slower only if it is slower relative to both calibrations. If the calibrations of two machines differ
+by a factor, a loss below this factor is not noticed. The output states this factor, and --factor should not be smaller.
 
 Exit status: 0, no benchmark is slower; 1, one is slower, is missing or ended early; 2, a file has the wrong content."""
 

@@ -313,7 +313,7 @@ def stage_shares(case):
 
 
 def floor_values(data):
-    """Returns the time that a step would take if it met its missed bars. Also returns the times of the step's parts, by the
+    """Returns the times at which a step would meet the bars that it misses. Also returns the times of the step's parts, by the
     fractions of the roofline."""
     least = {name: t["least_ms"] for name, t in data.marking["times"].items()}
     step, fine = least.get("step, 1 thread"), least.get("step, 2 threads, fine triangles")
@@ -332,7 +332,7 @@ def floor_values(data):
 
 
 def design_values(data):
-    """Returns the gains of design changes. These gains were measured once, and are kept in design_steps.json."""
+    """Returns the gains of design changes. The gains were measured once, and are stored in design_steps.json."""
     if not data.marking:
         return None
     design = data.design
@@ -406,8 +406,8 @@ STEP_STAGES = (
 
 
 def peak_ns(peak, stage, unit, case):
-    """Returns the least time that the machine needs for a stage. The operations need one time and the bytes another, and the
-    longer time counts."""
+    """Returns the least time that the machine needs for a stage. The operations need one time and the transfer of the bytes
+    another, and the longer time counts."""
     by_memory = case["bytes"][stage] / peak["bytes"]
     return max(by_memory, case["operations"][stage] / peak[unit]) if unit else by_memory
 

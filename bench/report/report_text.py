@@ -4,7 +4,7 @@
 import re
 import textwrap
 
-# The colours of lines and bars are those of the program's pictures (src/riis_vtk/picture/drawing.hpp), and a dark one. These
+# The colours of lines and bars are those of the program's pictures (src/riis_vtk/picture/drawing.hpp), and a dark colour. These
 # colours are distinct for all kinds of colour vision.
 COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#2d2d2d")
 
@@ -148,7 +148,7 @@ def table(heads, rows):
 
 
 class figure:
-    """Makes plots with logarithmic axes. If matplotlib is missing, it makes no plots, and prints a line that says so."""
+    """Makes plots with logarithmic axes. If matplotlib is missing, the class makes no plots, and prints a line that says so."""
 
     @staticmethod
     def _pyplot():

@@ -24,7 +24,7 @@ GUARDED = (
     r"^(calibration|pipeline|surface_update|closest_point/|mark_exhaustive|distance_query/.*/(method:0/|method:1/tolerance:50/))"
     r"|^search_(exhaustive|clusters|neighbor_warm|neighbor_cold|all_distances)/[01]/110/[12]/"
 )
-# Two sorts of files are not removed: files from other programs, and files that are always written again.
+# The results that a new study removes first. Other programs wrote the other files, or the study always writes them again.
 OWN_JSON = ("searches", "stages", "marking", "roofline", "accuracy", "peers", "peers_python")
 
 
@@ -151,7 +151,7 @@ class Study:
         self.run("accuracy", [self.program("riis_accuracy"), "OUT", "20000" if full else "2000"])
 
     def peers(self):
-        # Earlier results of the Python packages belong to an earlier run of the peers. Such results are therefore removed.
+        # Old results of the Python packages are removed, because they belong to an earlier run of the other packages.
         if os.path.exists(self.path("peers_python")):
             os.remove(self.path("peers_python"))
         os.makedirs(os.path.join(self.out, "peers"), exist_ok=True)

@@ -76,7 +76,7 @@ def far_from(points, triangles):
             least = min(least, (((p + t * (q - p)) - point) ** 2).sum(1).min())
         normal = numpy.cross(b - a, c - a)
         square = (normal ** 2).sum(1)
-        # These are the barycentric coordinates of the perpendicular's foot.
+        # v and w are barycentric coordinates of the perpendicular's foot.
         v = (numpy.cross(point - a, c - a) * normal).sum(1) / square
         w = (numpy.cross(b - a, point - a) * normal).sum(1) / square
         foot = (v >= 0) & (w >= 0) & (v + w <= 1)

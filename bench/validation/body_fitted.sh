@@ -4,8 +4,8 @@
 # Compares open leaflets in two forms: as walls without thickness in a body-fitted mesh, and as obstacles of riis. Both forms use
 # the same solver and flow. A piece of the valve between its planes of symmetry lies in a tube. Blood with ten times its viscosity
 # enters with a uniform velocity of 0.5 m/s. The effective area is Q / sqrt(2 dp / rho). Here dp is the total pressure at the
-# inlet minus the pressure at the outlet. The jet still exists at the outlet, so it has not regained pressure. FOLDER gets the
-# table body_fitted.txt, the rows body_fitted.json, pictures, and the cases. Only cases whose rows all.json lacks are run, and a
+# inlet minus the pressure at the outlet. At the outlet, the jet still exists and has not regained pressure. FOLDER gets the table
+# body_fitted.txt, the rows body_fitted.json, pictures, and the cases. Only cases whose rows all.json lacks are run, and a
 # complete case in FOLDER is not run again. To measure a row again, remove it from all.json. If a case fails, the others still
 # run, and the status is 1.
 set -euo pipefail
@@ -19,7 +19,7 @@ out=$(readlink -f -- "$1")
 quick=${2:-}
 cd -- "$here/../.."
 
-# openfoam.sh fetches OpenFOAM's headers and builds the plug-in. The script uses the variables and functions that are set here.
+# openfoam.sh fetches OpenFOAM's headers and builds the plug-in. openfoam.sh uses the variables and functions that are set here.
 build=build n_jobs=$(nproc)
 say() { printf '==> %s\n' "$*"; }
 step() {
@@ -49,8 +49,8 @@ logged() {
 # Tests whether OpenFOAM can run a function object in the folder of the mesh. This function replaces the one in openfoam.sh.
 openfoam_function_object() { "${of_with[@]}" postProcess -case "$mesh" -func writeCellCentres -time 0; }
 
-# geometry FOLDER VALVE: prints the path of the valve's .geo file. If there is none, the function writes one into the folder, from
-# points of the library. VALVE is the kind, a hyphen, and the opening.
+# geometry FOLDER VALVE: prints the path of the valve's .geo file. If no .geo file exists, the function writes one into the
+# folder, from points of the library. VALVE is the kind, a hyphen, and the opening.
 geometry() {
   local kind=${2%%-*}
   if [[ -e $here/$kind.geo ]]; then
@@ -188,8 +188,8 @@ solid() {
   add "$name $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }') 0.13 $2" "$name $name $1"
 }
 # obstacle VALVE EPS SIZE RIM [RESISTANCE [OFFSET [FAR [BAND]]]]: adds a case of riis and its mesh. Up to the distance BAND from
-# the leaflet, edges have the length SIZE. BAND is EPS + SIZE by default. With OFFSET it is 1.75 EPS + SIZE, so that one mesh
-# serves offsets from 0 to 0.85. FAR is as above.
+# the leaflet, edges have the length SIZE. BAND is EPS + SIZE by default. With OFFSET, BAND is 1.75 EPS + SIZE by default, so that
+# one mesh serves offsets from 0 to 0.85. FAR is as above.
 obstacle() {
   local more=${7:+-$7}${8:+-$8} name band=${8:-}
   name=${6:+wide}
@@ -198,7 +198,7 @@ obstacle() {
   add "$name $1 0 $3 $band ${7:-}" \
     "riis-$1-$2-$3-$4-${5:-1e3}${6:+-$6}$more $name $1 $(awk -v a="$2" 'BEGIN { print a / 100 }') $4 ${5:-1e3} ${6:-0}"
 }
-# finished ID: tells whether all.json has the row. If so, its cases need not run.
+# finished ID: tells whether all.json has the row. If all.json has the row, the row's cases need not run.
 finished() { grep -qF "\"id\": \"$1\"" "$here/all.json"; }
 # beside VALVE EPS OFFSET: adds the case of the valve with this offset if all.json lacks its row. EPS is in millimetres.
 beside() {

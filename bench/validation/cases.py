@@ -50,7 +50,7 @@ class Run:
         pressure = foam.table(folder, "inlet")[:, 1]
         self.steps = len(pressure)
         self.converged = "SIMPLE solution converged" in log
-        # The total drop, which decides the area, differs from the static drop by a constant.
+        # The area follows from the total drop, which differs from the static drop by a constant.
         total = pressure[-100:] + INLET ** 2 / 2
         self.change = (total.max() - total.min()) / total[-1]
         if not self.converged and not self.change <= STEADY:

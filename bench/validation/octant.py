@@ -70,7 +70,8 @@ def effective_radius(library, kind, eps, per_eps, rim, tolerance=1e-6):
             return sum(d @ lu.solve(d.T @ p) for d, lu in zip(D, A))
 
         # The velocity u = started + A^-1 D^T p must be free of divergence. This condition gives the equation S p = mass. The
-        # Schur complement S is close to the cell volumes if viscosity dominates. S is close to `rough` if K dominates.
+        # Schur complement S is close to the cell volumes if viscosity dominates. If K dominates, S is close to the matrix
+        # `rough`.
         p = _conjugate_gradients(schur, mass, lambda x: rough.solve(x) + x / size, tolerance)
         u = [x + lu.solve(d.T @ p) for x, lu, d in zip(started, A, D)]
         if kind == "disc":
@@ -90,8 +91,7 @@ def effective_radius(library, kind, eps, per_eps, rim, tolerance=1e-6):
 
 
 class _Component:
-    """The equation of one velocity component. The equation has the matrix A, the component's part D of the divergence, and
-    boundary values."""
+    """The equation of one velocity component: its matrix A, the component's part D of the divergence, and boundary values."""
 
     def __init__(self, library, surface, side, c, eps, rim):
         self.c, self.side = c, side

@@ -73,8 +73,8 @@ def missed(rows):
 
 
 class Variant:
-    """The sizes that a run computes. For each n, a half thickness is 1/n of the radius or of the slit's half width. A grid is
-    given by the number of cells in the half thickness."""
+    """The sizes that a run computes. The half thickness is 1/n of the hole's radius or of the slit's half width, for each n
+    listed. A grid is given by the number of cells in the half thickness."""
 
     def __init__(self, stokes_n, stokes_cells, jet_n, jet_cells, contraction_cells, shares, in_space):
         self.contraction_cells = contraction_cells
@@ -179,8 +179,8 @@ def stokes_rows(variant, results):
 
 
 def closed_plane(library, cells, rim="round"):
-    """Returns the drop of a plate across a plane channel, divided by (R/eps) u. The plate has four places between two faces.
-    `cells` is the number of cells in eps."""
+    """Returns the drop of a plate across a plane channel, divided by (R/eps) u. The drop is computed for four places of the plate
+    between two faces of the grid. `cells` is the number of cells in eps."""
     h, u, ratios = 1e-3, 0.1, []
     eps = cells * h
     for place in (0.1, 0.35, 0.6, 0.85):

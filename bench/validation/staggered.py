@@ -70,8 +70,8 @@ class Flow:
     def viscous(self, mu, edge_u=None, edge_v=None):
         """Returns the matrix and the right-hand side of -div(mu grad u), times volumes. mu is a number or has shape (nx, ny).
 
-        edge_u holds u on the lower and on the upper side, each of shape (nx + 1). None stands for a side without friction.
-        edge_v holds v on the left and on the right side, each of shape (ny + 1)."""
+        edge_u has two arrays of shape (nx + 1): u on the lower and on the upper side. None stands for a side without friction.
+        edge_v has two arrays of shape (ny + 1): v on the left and on the right side."""
         mu = np.broadcast_to(np.asarray(mu, float), (self.nx, self.ny))
         padded = np.pad(mu, 1, mode="edge")
         corner = (padded[1:, 1:] + padded[:-1, 1:] + padded[1:, :-1] + padded[:-1, :-1]) / 4
@@ -141,7 +141,7 @@ class Flow:
         area = self.wc * self.dy / 2
         X, Y = np.meshgrid(self.x, self.yc, indexing="ij")
         add(((u[:-1], area), (u[1:], area)), stencil_of(u, 0), stencil_of(X, 0), self.xc[:, None])
-        # Second come the faces between two volumes of u that are neighbours in y. The flow through a face is half of v in the
+        # The second faces lie between two volumes of u that are neighbours in y. The flow through such a face is half of v in the
         # cell on the left plus half of v in the cell on the right. At both ends of the grid a face has only one of these halves.
         left, right = np.concatenate([self.dx[:1] * 0, self.dx / 2]), np.concatenate([self.dx / 2, self.dx[:1] * 0])
         to_left = np.concatenate([v[:1], v])[:, 1:-1]
@@ -188,8 +188,8 @@ class Flow:
         return residual, jacobian
 
     def solve_linear(self, mu, K, q, edge_u=None, edge_v=None):
-        """Solves for Stokes flow, which has rho = 0. Later calls reuse the matrix factors of the first call, and with the factors
-        its mu and K."""
+        """Solves for Stokes flow, in which rho is 0. Later calls reuse the factors of the first call's matrix, and therefore also
+        the first call's mu and K."""
         if not hasattr(self, "_stokes"):
             A, _ = self.viscous(mu, edge_u, edge_v)
             A = A + sp.diags(K * np.concatenate([self.u_volume.ravel(), self.v_volume.ravel()]))

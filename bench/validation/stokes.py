@@ -58,8 +58,7 @@ def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=F
         if kind == "disc":
             force = 2 * np.pi * np.sum(K[: flow.n_u].reshape(u.shape) * u * flow.u_volume)
             return force / 16
-        # The loop finds the radius of a hole. With this radius, the closed form has the computed drop between the two ends of
-        # ring j.
+        # Finds the radius at which the closed form of a hole has the computed drop between the two ends of ring j.
         j = flow.ny // 2
         drop = p[0, j] - p[-1, j]
         ends = np.array([flow.xc[0], flow.xc[-1]])

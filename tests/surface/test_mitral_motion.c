@@ -120,8 +120,7 @@ static double largest_speed(const riis_surface *surface) {
 /* the largest difference from the mean velocity of the oracle */
 typedef struct compared {
   double vertices, points; /* the largest difference from the mean velocity of the oracle */
-  double sides;            /* the largest difference at vertices with v = 0 or 1, on the annulus and on the free
-                              edges */
+  double sides;            /* the largest difference at vertices on the annulus and on the free edges */
   /* The share of vertices that differ only by rounding. Only some vertices on sides of split quads differ by more. */
   double exact;
   /* The largest difference from the derivative at the present time, at vertices; -1: not compared. */

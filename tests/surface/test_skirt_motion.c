@@ -276,8 +276,7 @@ TEST(skirts_have_the_velocity_of_their_points) {
             "%s, %s, %s: off by %.2g %% of the largest speed at vertices, %.2g %% inside triangles of at most %.2g\n",
             kinds[kind], fixed ? "fixed" : "adapted", motions[motion], 100 * worst[motion], 100 * inside,
             100 * bound / fastest);
-        CHECK_AT_MOST(worst[motion], 0.015); /* the cubics of the outer side are accurate to a thousandth of the
-                                                length */
+        CHECK_AT_MOST(worst[motion], 0.015); /* the cubics of the outer side are accurate to a thousandth */
         CHECK_AT_MOST(inside * fastest, bound + 1e-9 * fastest);
         smooth_motion_destroy(smooth);
         free_owned_after(owned_before);

@@ -52,7 +52,7 @@ class Drawing:
         return f"{self.sheet.value_text(name)}; here {plain(self.example[name])} cm"
 
     def shown(self, name, p, q, at, **style):
-        """Draws a length whose default is 0. The drawn length is the example's value."""
+        """Draws a length whose default is 0, with the value of an example."""
         self.sheet.check(name, 0)
         self.panel.length(name, p, q, at, value=self.value_text(name), example=self.example[name], **style)
 

@@ -100,7 +100,7 @@ class Sheet:
 
     def text(self, x, y, text, axis=None, **style):
         """Adds a text, which is checked for overlaps with other texts. If an axis is given, x and y are its coordinates.
-        Otherwise they are fractions of the figure."""
+        Otherwise x and y are fractions of the figure."""
         made = (axis.text if axis else self.figure.text)(x, y, text, **{"fontsize": NORMAL, "color": DARK, **style})
         self.texts.append(made)
         return made
@@ -223,9 +223,9 @@ class Panel:
     def length(
         self, name, p, q, at, shift=(0, 0), ha="left", color=DARK, shown=None, value=None, factor=1.0, share=0.5, example=None
     ):
-        """Draws a length from p to q: a dimension line, extension lines, and the length's name. The dimension line is shifted by
-        `shift`. The drawn length is `factor` times the parameter, or an example. The leader ends at the fraction `share` of the
-        dimension line."""
+        """Draws a length from p to q: a dimension line, extension lines, and the length's name. The dimension line is `shift`
+        away from the line p q. The drawn length is `factor` times the parameter, or an example. The leader ends at the fraction
+        `share` of the dimension line."""
         self.sheet.check(name, distance(p, q) / abs(factor), example)
         moved = [(a[0] + shift[0], a[1] + shift[1]) for a in (p, q)]
         if shift != (0, 0):
